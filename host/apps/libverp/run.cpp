@@ -60,7 +60,7 @@ Seat::Seat(const verp_robot& what, std::uint32_t index) : index_(index) {
   plan_.remark = followed.remark;
   plan_.name = text_or_empty(what.name);
   plan_.twin.seed = what.seed;
-  plan_.twin.cameras = true;  // some poses at each look; what is seen is drawn when it is asked for
+  plan_.twin.cameras = true;  // records poses; pictures are drawn on request
   plan_.twin.start_m = {within(what.x_m, kFar_m, "x_m"), within(what.y_m, kFar_m, "y_m"), 0};
   plan_.twin.start_yaw_rad = within(what.yaw_rad, kFar_m, "yaw_rad");
   if (what.walk_s < 0) throw Failure(VERP_BAD_ARGUMENT, "walk_s is negative");
@@ -111,7 +111,7 @@ void Seat::decide(const Params& params, State& state, const Inputs& inputs, Outp
   }
   deciding_.reset();
   if (moment.decided()) return;
-  // The core did not see this tick, so that its digest says nothing of it.
+  // The core did not run in this tick, so its digest does not cover it.
   record::Digest32 digest(0);
   digest.add_struct(inputs);
   digest.add_struct(outputs);
@@ -124,7 +124,7 @@ void Seat::note_radio(record::ros::Radio radio) {
   try {
     trace_->append("/radio", record::ros::kRadio,
                    std::uint64_t{1000} * tick_ * plan_.params.period_us, record::ros::radio(radio));
-  } catch (const record::TraceError& error) {  // a disk that is full costs the trace, not the run
+  } catch (const record::TraceError& error) {  // a full disk costs the trace, not the run
     radio_failure_ = error.what();
   }
 }
@@ -177,7 +177,7 @@ const session::WalkResult& Seat::finish(session::Session& session, const std::st
   if (result_) return *result_;
   result_ = session.result(index_);
   if (result_->failure.empty()) result_->failure = diverged;
-  // Who did not look at what that tick gave finds it here.
+  // Reports a controller failure that the caller has not read yet.
   if (deciding_)
     result_->failure =
         fmt::format("the controller of robot {} failed at tick {}", index_, *deciding_);

@@ -13,10 +13,10 @@
 #include "host/trace/record/ros_radio.hpp"
 #include "host/trace/record/trace_writer.hpp"
 
-/// What stands behind a verp_session.
+/// State behind a verp_session.
 namespace verp::abi {
 
-/// One robot of it, with what its user wants of it: hooks look here, so it may change at any time.
+/// One robot of the session and its user's settings. The session's hooks refer to it.
 class Seat {
  public:
   Seat(const verp_robot& what, std::uint32_t index);
@@ -30,19 +30,19 @@ class Seat {
     user_ = user;
   }
   session::LiveOrders& orders() { return orders_; }
-  /// Nobody but this library's user gives it orders.
+  /// Only the library's user orders this robot.
   bool own_orders() const { return own_orders_; }
-  /// In force.
+  /// The tuning in force.
   const Tuning& tuning() const {
     return state_.admit.started != 0 ? state_.tuning : plan_.params.tuning;
   }
-  /// After its last tick.
+  /// After the last tick.
   const State& state() const { return state_; }
   std::uint64_t digest() const { return state_.digest.chain; }
-  /// Into its trace, with its last tick.
+  /// Appends to the trace, at the time of the last tick.
   void note_radio(record::ros::Radio radio);
 
-  /// The end: what came of it, and a trace that is whole. Later calls give the same.
+  /// Ends the run: computes its result and closes its trace. Later calls return the same result.
   const session::WalkResult& finish(session::Session& session, const std::string& diverged);
 
  private:
@@ -61,8 +61,8 @@ class Seat {
   verp_tick* view_ = nullptr;
   State state_;
   std::uint32_t tick_ = 0;
-  std::optional<std::uint32_t> deciding_;  ///< the tick in which its controller is, or failed
-  std::string radio_failure_;              ///< why the trace takes no further messages
+  std::optional<std::uint32_t> deciding_;  ///< the tick whose controller is running or has failed
+  std::string radio_failure_;              ///< why the trace accepts no further messages
   std::optional<session::WalkResult> result_;
 };
 
@@ -70,14 +70,14 @@ struct Run {
   explicit Run(const session::Options& options) : session(options), sight(options.world) {}
   Seat& seat(std::uint32_t index);
 
-  std::deque<std::unique_ptr<Seat>> seats;  ///< outlive the session, whose hooks look at them
+  std::deque<std::unique_ptr<Seat>> seats;  ///< outlive the session, whose hooks refer to them
   session::Session session;
   Sight sight;
-  std::optional<Air> air;  ///< none: nobody has a radio
+  std::optional<Air> air;  ///< nullopt: no robot has a radio
   bool begun = false, ended = false;
-  std::string diverged;  ///< why its world is over: the physics gave up. Empty: it is not
+  std::string diverged;  ///< why the physics diverged; empty: it did not
 
-  /// The end of all robots' runs.
+  /// Finishes the runs of all robots.
   void finish();
 };
 

@@ -9,35 +9,34 @@
 
 namespace verp::identify {
 
-/// What is looked for: numbers of one type's servos, and how much later they act than the bus says.
-/// Values in the order of numbers(), the delay behind them, in us.
+/// Estimated parameters of one servo type, in the order of numbers(); behind them, in us, how much
+/// later the servos act than the bus timing says.
 struct Estimate {
   std::vector<double> value, error;  ///< error: one standard deviation
-  std::vector<bool> free;            ///< false: kept as it was
-  double rms_rad = 0;                ///< what is left, over the ticks it was fitted to
+  std::vector<bool> free;            ///< false: kept at its start value
+  double rms_rad = 0;                ///< residual over the fitted ticks
 };
 
-/// Fits by simulation: the twin does what the robot was told, and its numbers are changed until its
-/// joints are where the robot's were (Gauss-Newton with damping, errors beyond a few sigma counting
-/// less).
+/// Fits by simulation: gives the twin the recorded goals and changes its numbers until its joints
+/// follow the robot's. Gauss-Newton with damping and a robust weight for errors beyond a few sigma.
 class Fit {
  public:
   Fit(const model::Entity& entity, const Recording& recording, const std::string& type,
       const survey::Watch& watch);
 
-  /// Over the first `ticks` of the recording, from where `estimate` stands.
+  /// Fits the first `ticks` of the recording, starting from `estimate`.
   void improve(Estimate& estimate, std::size_t ticks, int rounds);
-  /// Puts back what the motion does not tell, the least sure number first, until all others are.
+  /// Resets the numbers that the motion does not determine, the least certain first.
   void leave_what_is_not_told(Estimate& estimate, std::size_t ticks);
   Estimate start() const;
-  /// Where the joints are with these numbers, at the first `ticks`.
+  /// Joint positions of the twin with these numbers, over the first `ticks`.
   std::vector<std::vector<float>> predict(const Estimate& estimate, std::size_t ticks);
-  /// Of the type's joints, ticks from `from` on.
+  /// Over the type's joints and the ticks from `from` up to `to`.
   double rms_rad(const std::vector<std::vector<float>>& predicted, std::size_t from,
                  std::size_t to) const;
   const std::vector<std::size_t>& joints() const { return joints_; }
   bool stopped() const { return stopped_; }
-  /// So many ticks will be looked at, all rounds together: for who waits.
+  /// Total of ticks over all rounds; the base of the reported progress.
   void expect(std::size_t ticks) { expected_ = ticks; }
 
  private:
@@ -61,13 +60,14 @@ class Fit {
   std::vector<std::size_t> joints_;
   std::vector<double> scale_;
   /// [joint][tick], counts: how far two twins are apart there that differ by their encoders' noise
-  /// only, and the noise itself. Where a link rattles in its play, nobody can tell where it is.
+  /// [joint][tick], counts: encoder noise, and the distance of two twins that differ only in that
+  /// noise. It is large where a link rattles in its backlash and its position is undetermined.
   std::vector<std::vector<float>> sigma_;
   double nominal_v_;
   bool stopped_ = false;
   std::size_t expected_ = 0, gone_ = 0;
 };
 
-inline constexpr std::size_t kSettleTicks = 50;  ///< at the start: the twin finds its place
+inline constexpr std::size_t kSettleTicks = 50;  ///< skipped at the start, while the twin settles
 
 }  // namespace verp::identify

@@ -13,9 +13,9 @@ namespace verp::identify {
 namespace {
 
 constexpr double kLeast_s = 5;
-constexpr double kRough_s = 10;  ///< what the first rounds look at
+constexpr double kRough_s = 10;  ///< length that the first rounds fit
 constexpr int kRoughRounds = 6, kRounds = 7;
-constexpr double kStill_rad = 0.02;  ///< rms about the mean: no motion
+constexpr double kStill_rad = 0.02;  ///< rms about the mean; a joint below it does not move
 constexpr const char* kMotion =
     "record the motion that `verp identify --motion identify.action` makes";
 

@@ -16,19 +16,19 @@ namespace {
 
 using Angles = std::vector<double>;
 
-constexpr double kWay_s[] = {0.15, 0.25, 0.4, 0.7, 1.2};  ///< a frame's, in turn
-constexpr double kRest_s = 0.3;                           ///< after the slowest
-constexpr double kFar_rad = 0.7;                          ///< from the stand, at most
+constexpr double kWay_s[] = {0.15, 0.25, 0.4, 0.7, 1.2};  ///< frame durations, in turn
+constexpr double kRest_s = 0.3;                           ///< after the slowest frame
+constexpr double kFar_rad = 0.7;                          ///< largest distance from the stand
 constexpr double kFromStop_rad = 0.1;
-// Of what a joint can, on a cubic's way: what it bears beside, and a weaker servo, need the rest.
+// Shares of a joint's limits on a cubic path; other loads and weaker servos need the rest.
 constexpr double kSpeedShare = 0.6, kTorqueShare = 0.3;
-constexpr double kTopSpeed = 1.5, kTopAcceleration = 6;  ///< of a cubic's way of 1 in 1 s
-constexpr int kLooks = 8;                                ///< on the way, for links that meet
-constexpr double kApart_m = 0.02;  ///< what a robot is off its model by, and ways by straight ones
+constexpr double kTopSpeed = 1.5, kTopAcceleration = 6;  ///< peaks of a cubic path of 1 in 1 s
+constexpr int kLooks = 8;                                ///< collision checks along a path
+constexpr double kApart_m = 0.02;  ///< clearance for model errors and curved paths
 constexpr int kDraws = 20;
-constexpr double kMostBeyond_s = 60;  ///< until the way to the stand is free
+constexpr double kMostBeyond_s = 60;  ///< longest extension until the path to the stand is free
 
-/// Of all that a joint carries where the robot stands, about its axis.
+/// Inertia about each joint's axis of all that it carries, in the standing pose.
 std::vector<double> inertias_kg_m2(const model::Entity& entity, const Angles& stand) {
   const std::vector<model::Transform> pose =
       sim::link_poses(entity, model::Transform::Identity(), stand);
@@ -58,7 +58,7 @@ class Drawing {
     }
   }
 
-  /// Where all joints are next, so long from now.
+  /// Draws the pose that the joints reach `way_s` from now.
   const Angles& next(double way_s) {
     double share = 1;
     for (int draw = 0; draw < kDraws; ++draw, share *= 0.85) {
@@ -70,7 +70,7 @@ class Drawing {
     return at_;
   }
 
-  /// The way to the stand is free.
+  /// Reports whether the path to the stand is free.
   bool may_stand() const { return free(stand_); }
   const Angles& stand() { return at_ = stand_; }
 
@@ -128,14 +128,14 @@ class Drawing {
   }
 
   const model::Entity& entity_;
-  model::Entity wide_;  ///< its links thicker, but for those that would meet where it stands
+  model::Entity wide_;  ///< thicker links, except those that would then meet in the stand
   sim::Random random_;
   Angles stand_, at_;
   std::vector<double> inertia_;
 };
 
-/// Joints that pass where a way ends leave the straight one, on which no links meet; where that
-/// makes them meet, they rest.
+/// Joints that pass through the end of a frame leave the straight path, on which no links meet.
+/// Where that makes links meet, the joints stop at the frame's end instead.
 void straighten(const model::Entity& entity, action::Document& document) {
   constexpr double kStop_s = 0.02;
   const Params params = model::make_params(entity);
@@ -165,7 +165,7 @@ action::Document motion_of(const model::Entity& entity, const MotionOptions& opt
   document.note = "All joints to and fro, the trunk in a stand: verp identify";
   Drawing drawing(entity, options);
   double time_s = 0;
-  bool last = false;  // it ends where it stands, to which an action goes back by itself
+  bool last = false;  // ends in the stand, to which an action returns by itself
   for (std::size_t i = 0; !last && time_s < options.length_s + kMostBeyond_s; ++i) {
     const bool slow = i % std::size(kWay_s) == std::size(kWay_s) - 1;
     last = time_s >= options.length_s && slow && drawing.may_stand();

@@ -11,8 +11,8 @@ struct MotionOptions {
   std::uint64_t seed = 1;
 };
 
-/// An action that tells much of a robot's servos while its trunk hangs in a stand: all joints at
-/// once, far and near, slow and as fast as they may, and at rest between. No link meets another.
+/// An action that excites all servos while the trunk hangs in a stand. All joints move at once, far
+/// and near, slowly and at their speed limits, and rest in between. No links meet.
 action::Document motion_of(const model::Entity& entity, const MotionOptions& options = {});
 
 }  // namespace verp::identify

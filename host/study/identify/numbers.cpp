@@ -7,9 +7,9 @@ namespace {
 
 using model::Servo;
 
-constexpr double kRevMin = 9.549296585513721;  ///< of 1 rad/s
+constexpr double kRevMin = 9.549296585513721;  ///< 1 rad/s in rev/min
 
-/// A sum, its parts in the proportion in which they were.
+/// Sets the sum of two parts and keeps their ratio.
 void share(double& one, double& other, double sum) {
   const double before = one + other;
   one = before > 0 ? one * sum / before : sum;

@@ -13,19 +13,19 @@ namespace verp::identify {
 namespace {
 
 constexpr double kGravity_m_s2 = 9.80665;
-/// A stand gives way a little; a robot that walks turns ten times as fast.
+/// A stand gives way a little; a walking robot turns ten times as fast.
 constexpr double kMostTurn_rad_s = 0.15;
-/// Of its weight: more than feet's force sensors are off by.
+/// As a share of the weight; larger than the error of the feet's force sensors.
 constexpr double kMostBorne = 0.15;
 
-/// Servos have all their strength, and their joints' goals are the controller's.
+/// The servos have full torque and follow the controller's goals.
 bool drives(const Outputs& outputs) {
   using safety::Mode;
   const auto mode = static_cast<Mode>(outputs.mode);
   return mode == Mode::kStanding || mode == Mode::kWalking || mode == Mode::kActing;
 }
 
-/// What the sensors beside the servos say of how it was held.
+/// Evidence from the other sensors on how the robot was held.
 class Surroundings {
  public:
   explicit Surroundings(const Params& params) : params_(params) {}
@@ -91,7 +91,7 @@ class Surroundings {
     }
     ++turned_;
   }
-  /// About the mean, which is the gyro's bias.
+  /// Spread about the mean; the mean is the gyro's bias.
   double turning() const {
     if (turned_ == 0) return 0;
     const double mean = (rate_ / turned_).squaredNorm();

@@ -8,19 +8,19 @@
 
 namespace verp::identify {
 
-/// What a trace says of a robot's servos: what each was told, tick by tick, and where it then was.
-/// Of that only the ticks from the first to the last in which all servos had their full strength.
+/// Goals and measured positions of all servos, tick by tick, from the first to the last tick in
+/// which all servos had full torque.
 struct Recording {
-  /// Of one tick. Counts of each joint.
+  /// Counts of each joint in one tick.
   struct Tick {
-    std::uint32_t slot = 0;   ///< control periods since the first one here
+    std::uint32_t slot = 0;   ///< control periods since the first tick here
     std::uint32_t fresh = 0;  ///< bit j: joint j was read
     std::vector<std::int32_t> goal, position;
   };
   Params params;
   std::vector<Tick> ticks;
-  double supply_v = 0;  ///< mean of what the servos told; 0: none did
-  /// Against gravity, as the trunk hung in its stand; upright where there is no IMU.
+  double supply_v = 0;  ///< mean of the servos' reports; 0: no servo reported it
+  /// Direction against gravity of the hanging trunk; the body's z without an IMU.
   Eigen::Vector3d up_body = Eigen::Vector3d::UnitZ();
 
   double period_s() const { return 1e-6 * params.period_us; }
@@ -29,8 +29,8 @@ struct Recording {
   }
 };
 
-/// Runs the controller over the trace once more: goals are what it decides. Throws
-/// record::TraceError for a trace that holds no such time.
+/// Replays the controller over the trace to obtain its goals. Throws record::TraceError for a trace
+/// without such a period.
 Recording recording_of(const record::Trace& trace);
 
 }  // namespace verp::identify

@@ -7,16 +7,16 @@
 
 namespace verp::identify {
 
-/// Where a twin's joints were at the ticks of a recording, told the same goals.
+/// Joint positions of a twin at the ticks of a recording, with the same goals.
 struct Simulated {
-  std::vector<std::vector<float>> count;  ///< [joint][tick], not rounded, without noise
+  std::vector<std::vector<float>> count;  ///< [joint][tick], neither rounded nor noisy
   double supply_v = 0;                    ///< mean
 };
 
 struct RigOptions {
-  int delay_steps = 0;  ///< more between a goal's arrival and its servo; at least kLeastDelay
+  int delay_steps = 0;  ///< extra, from a goal's arrival to its servo; >= kLeastDelay
   double supply_v = 12;
-  std::size_t ticks = 0;  ///< of the recording, from its first on
+  std::size_t ticks = 0;  ///< from the recording's first
   std::uint64_t seed = 1;
 };
 
@@ -27,7 +27,7 @@ inline constexpr int kLeastDelay = -1;
 Simulated simulate(const model::Entity& entity, const Recording& recording,
                    const RigOptions& options);
 
-/// From a tick's beginning, us: when the servos are read, and when they have their goals.
+/// Times after a tick's start at which the servos are read and have their goals, us.
 struct TickTimes {
   std::uint32_t read_us = 0, goal_us = 0;
 };

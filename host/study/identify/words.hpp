@@ -5,7 +5,7 @@
 
 namespace verp::identify {
 
-/// For a terminal: each number as it was and is, what is left.
+/// For a terminal: each number before and after, and the residuals.
 std::string text_of(const Result& result);
 
 }  // namespace verp::identify

@@ -6,9 +6,9 @@
 
 namespace verp::identify {
 
-/// Writes the numbers into the robot's file: its own <verp:servo_type> gets them; of a shipped type
-/// one is added that is like it, and its servos are of that one. All else stays, byte for byte.
-/// Returns the type's name there. Throws model::LoadError.
+/// Writes the numbers into the robot's file. A <verp:servo_type> of the file's own is changed in
+/// place; for a shipped type, a type derived from it is added and its servos refer to that. All
+/// other bytes stay. Returns the type's name in the file. Throws model::LoadError.
 std::string write(const Result& result, const std::filesystem::path& robot_file,
                   const std::filesystem::path& file, const std::string& source);
 

@@ -17,12 +17,12 @@ namespace {
 using report::kInk, report::kSoft;
 using End = StabilityCell::End;
 
-constexpr double kHalfCell = 0.47;  // a little air between cells
+constexpr double kHalfCell = 0.47;  // leaves a gap between cells
 
-/// Cells of one colour: as many shades as there are values, which are few.
+/// Draws all cells in one colour, in one shade for each distinct value; there are few values.
 std::string push_cells(const PushMap& map, const PushOptions& options,
                        const std::vector<double>& rows, std::string& plot) {
-  constexpr double kLightest = 0.06, kDarkest = 0.62;  // numbers on them stay legible
+  constexpr double kLightest = 0.06, kDarkest = 0.62;  // numbers on the cells stay legible
   std::map<double, std::vector<const PushCell*>> shades;
   double most_n_s = options.step_n_s;
   for (const PushCell& cell : map.cells) {
@@ -59,7 +59,7 @@ std::string circle(const char* name, double radius) {
   return data.text();
 }
 
-/// What a share of the phases survives in each direction, ahead drawn upwards.
+/// A value of each direction as a closed curve; ahead is up.
 std::string ring(const char* name, const std::vector<Side>& sides, double Side::*value) {
   report::Data data(name);
   for (std::size_t i = 0; i <= sides.size() && !sides.empty(); ++i) {
@@ -74,7 +74,7 @@ struct Plane {
   const char* name;
   const char* axis;
   double Velocity::*across;
-  double Velocity::*other;  ///< that is 0 in it
+  double Velocity::*other;  ///< 0 in this plane
 };
 constexpr Plane kPlanes[] = {
     {"turn", "turn wz, rad/s, to the left is positive", &Velocity::wz_rad_s, &Velocity::vy_m_s},

@@ -5,11 +5,12 @@
 
 namespace verp::survey {
 
-/// Phase by direction; and from above, over all phases, by direction.
+/// push_plot(): phase by direction. push_rose(): seen from above, direction by direction, over all
+/// phases.
 report::Plot push_plot(const PushMap& map, const PushOptions& options);
 report::Plot push_rose(const PushMap& map, const PushOptions& options);
 
-/// Both planes: how each velocity that was asked ended, and what was really walked.
+/// Both planes: how each requested velocity ended, and the velocity that was reached.
 report::Plot stability_plot(const StabilityMap& map, const StabilityOptions& options);
 
 }  // namespace verp::survey

@@ -9,23 +9,23 @@
 
 namespace verp::survey {
 
-/// What a map leaves for people.
+/// A map's report for people.
 struct Page {
   std::string title, verdict;
   bool good = true;
   std::vector<report::Fact> facts;
-  std::vector<report::Plot> plots;  ///< the first one as map.png too
+  std::vector<report::Plot> plots;  ///< the first one is also written as map.png
   std::string csv;                  ///< map.csv
   std::vector<std::pair<std::string, std::string>> changed, provenance;
 };
 
 struct WrittenPage {
   std::filesystem::path page;
-  std::string note;  ///< why pictures are missing; empty: none is
+  std::string note;  ///< why pictures are missing; empty: all are there
 };
 
-/// Writes index.html, map.png and map.csv into `folder`, which is made if need be, and removes what
-/// a walk's report left there. Throws report::ReportError.
+/// Writes index.html, map.png and map.csv into `folder`, which is created if missing, and removes
+/// the files of an earlier walk report there. Throws report::ReportError.
 WrittenPage write_page(const std::filesystem::path& folder, const Page& page);
 
 }  // namespace verp::survey

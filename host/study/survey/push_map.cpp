@@ -15,15 +15,15 @@ namespace {
 
 constexpr double kTurn_rad = 2 * std::numbers::pi;
 
-constexpr double kStandUp_s = 15;  // it rises, and its gyro is calibrated
+constexpr double kStandUp_s = 15;  // time to rise and to calibrate the gyro
 
-/// The cycle that is pushed, of the run without a push. Who stands has one without length.
+/// The pushed cycle, found in the run without a push. A standing robot has one of length 0.
 struct Cycle {
   double begins_s = 0, cycle_s = 0;
   std::vector<double> heading_rad;  ///< of the body, at each phase
 };
 
-/// Sees a walk without a push, and finds the first steady cycle after some time.
+/// Finds the first steady cycle after settle_s in a walk without a push.
 class CycleFinder {
  public:
   CycleFinder(const PushOptions& options, double cycle_s) : options_(options) {
@@ -54,7 +54,7 @@ class CycleFinder {
   bool begun_ = false;
 };
 
-/// Asks it to stand, and nothing else.
+/// Orders the robot to stand, and nothing else.
 class Stander {
  public:
   app::OperatorOrder operator()(std::uint32_t tick) {
@@ -74,7 +74,7 @@ bool stands(const session::Tick& tick) {
   return tick.outputs->mode == static_cast<std::uint8_t>(safety::Mode::kStanding);
 }
 
-/// The moment at which it has stood for settle_s without a push. Nothing: somebody interrupted.
+/// The moment at which the robot has stood for settle_s without a push; nullopt: interrupted.
 std::optional<Cycle> stance_of(session::WalkPlan plan, const sim::WorldOptions& world,
                                const PushOptions& options, const Watch& watch) {
   Cycle found;
@@ -98,7 +98,7 @@ std::optional<Cycle> stance_of(session::WalkPlan plan, const sim::WorldOptions& 
   return found;
 }
 
-/// Nothing: somebody interrupted.
+/// nullopt: interrupted.
 std::optional<Cycle> cycle_of(const session::WalkPlan& plan, const sim::WorldOptions& world,
                               const PushOptions& options, const Watch& watch) {
   CycleFinder finder(options, static_cast<double>(plan.params.tuning.gait.cycle_s));
@@ -130,7 +130,7 @@ class Map {
   PushMap run(const Cycle& cycle) {
     for (int phase = 0; phase < options_.phases; ++phase) {
       for (int direction = 0; direction < options_.directions; ++direction) {
-        // From -180 to 180 degrees, as people tell left from right.
+        // From -180 to 180 degrees: negative is right, positive left.
         const double turn_rad =
             std::remainder(kTurn_rad * direction / options_.directions, kTurn_rad);
         map_.cells.push_back({phase,

@@ -11,54 +11,54 @@
 
 namespace verp::survey {
 
-/// There is nothing to survey; what() says why.
+/// There is nothing to survey; what() gives the reason.
 class SurveyError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// How hard a robot may be pushed, at each phase of its gait and from each side.
+/// Options of the push survey: how hard a push the robot survives, by gait phase and direction.
 struct PushOptions {
-  bool standing = false;  ///< it is pushed where it stands, and `phases` is 1
-  int phases = 16;        ///< of the gait cycle, evenly apart
-  int directions = 8;     ///< evenly apart, the first one ahead
+  bool standing = false;  ///< pushes a standing robot; `phases` is then 1
+  int phases = 16;        ///< in a gait cycle, evenly spaced
+  int directions = 8;     ///< evenly spaced, the first one ahead
   double push_s = 0.05;
-  double settle_s = 3;    ///< of gait, or on its feet, at least, before it is pushed
-  double after_s = 3;     ///< and at least so much of it afterwards
-  double step_n_s = 0.1;  ///< impulses are told apart by so much,
-  int steps = 31;         ///< and are at most so many of them
+  double settle_s = 3;    ///< minimum time of gait, or of standing, before the push
+  double after_s = 3;     ///< minimum time after it
+  double step_n_s = 0.1;  ///< resolution of the impulse
+  int steps = 31;         ///< number of impulses, each step_n_s more than the last
   double most_n_s() const { return step_n_s * steps; }
 };
 
-/// The gait's length that leaves room for settle_s, the cycle that is pushed, and after_s.
+/// Gait length that covers settle_s, the pushed cycle and after_s.
 double least_walk_s(const PushOptions& options, double cycle_s);
 
 struct PushCell {
-  int phase = 0;             ///< 0..phases-1; of 16, the paper's state
-  double direction_rad = 0;  ///< where it is pushed to: 0 ahead, to the left is positive
-  double at_s = 0;           ///< of gait, when the push begins
-  double heading_rad = 0;    ///< of the body then
-  /// The largest impulse that it walked on after; 0: none of them. PushOptions::most_n_s(): that,
-  /// or more. None: it was not tried.
+  int phase = 0;             ///< 0..phases-1; with 16 phases, the paper's state
+  double direction_rad = 0;  ///< the push points there: 0 ahead, positive to the left
+  double at_s = 0;           ///< start of the push, in time of gait
+  double heading_rad = 0;    ///< of the body, at the start of the push
+  /// The largest survived impulse. 0: none; PushOptions::most_n_s(): that or more; nullopt: not
+  /// tried.
   std::optional<double> survives_n_s;
 };
 
 struct PushMap {
-  std::string link;             ///< that is pushed, at its centre of mass
-  std::vector<PushCell> cells;  ///< phase by phase, each with all directions
+  std::string link;             ///< pushed link, at its centre of mass
+  std::vector<PushCell> cells;  ///< by phase, and within a phase by direction
   std::size_t walks = 0;
   bool interrupted = false;
 };
 
-/// Those of a robot that stands, to the same precision.
+/// Options for a standing robot, with the same resolution.
 PushOptions standing_pushes();
 
-/// Walks the plan, or stands, with a push of push_s in each cell, and halves the range of impulses
-/// until the largest that the robot survives is known to one step. It takes for granted that
-/// whoever survives a push survives smaller ones, which is so but for a few near the limit. Each
-/// walk has the plan's seed, and to survive is to be good (session::WalkResult), and to stand in
-/// the end where it stood. Throws SurveyError where the robot does not walk, or stand, without a
-/// push, or not steadily, and what session::walk() throws.
+/// Bisects, in each cell, the impulse that the robot survives, to one step of step_n_s; every push
+/// lasts push_s. Assumes that a robot that survives a push survives all smaller ones, which fails
+/// only for a few near the limit. Every walk has the plan's seed. A robot survives if its result is
+/// good (session::WalkResult); in the standing survey it must also end where it stood. Throws
+/// SurveyError if the robot does not walk or stand steadily without a push, and what
+/// session::walk() throws.
 PushMap push_map(const session::WalkPlan& plan, const sim::WorldOptions& world,
                  const PushOptions& options, const Watch& watch);
 

@@ -12,7 +12,7 @@ namespace {
 
 using End = StabilityCell::End;
 
-/// What the body really does, while orders are steady: of sway nothing is left over whole cycles.
+/// Mean velocity of the body under steady orders, over whole cycles so that sway cancels.
 class SpeedMeter {
  public:
   SpeedMeter(double begin_s, double end_s, double cycle_s)
@@ -37,7 +37,7 @@ class SpeedMeter {
     const double s = std::max(time_s_, 1e-9);
     return {sum_.vx_m_s / s, sum_.vy_m_s / s, sum_.wz_rad_s / s};
   }
-  /// It saw all the cycles that there were to see.
+  /// It saw all cycles up to its end.
   bool whole() const { return end_s_ > begin_s_ && time_s_ > end_s_ - begin_s_ - 0.05; }
 
  private:
@@ -46,14 +46,14 @@ class SpeedMeter {
   Velocity sum_;
 };
 
-constexpr double kStopping_s = 1.5;  // of the gait's end
+constexpr double kStopping_s = 1.5;  // for the gait's end
 
 void walk(session::WalkPlan plan, const sim::WorldOptions& world, const StabilityOptions& options,
           Workers& workers, StabilityCell& cell) {
   const session::Followed followed =
       session::within_servo_speed(plan.params, command_of(cell.asked));
   plan.velocity = followed.velocity;
-  plan.asked.reset();  // the map tells both
+  plan.asked.reset();  // the map reports both velocities
   SpeedMeter meter(options.begin_s, plan.walk_s - kStopping_s,
                    static_cast<double>(plan.params.tuning.gait.cycle_s));
   session::Hooks hooks;
@@ -63,7 +63,7 @@ void walk(session::WalkPlan plan, const sim::WorldOptions& world, const Stabilit
   if (workers.stopped()) return;
   cell.ordered = velocity_of(plan.velocity);
   cell.why = result.failure;
-  const bool short_of_it = meter.whole();  // nothing stopped it: it went less far than was asked
+  const bool short_of_it = meter.whole();  // it walked to the end, but less far than requested
   cell.end = result.metrics.fallen    ? End::kFell
              : result.failure.empty() ? End::kWalked
              : short_of_it            ? End::kShort

@@ -10,7 +10,7 @@
 
 namespace verp::survey {
 
-/// Of the body, in its own heading's axes.
+/// Velocity of the body, in the axes of its heading.
 struct Velocity {
   double vx_m_s = 0, vy_m_s = 0, wz_rad_s = 0;
 };
@@ -18,35 +18,35 @@ Command command_of(const Velocity& velocity);
 Velocity velocity_of(const Command& command);
 
 struct StabilityOptions {
-  int on_axis = 9;     ///< velocities on each axis, odd: zero is among them
-  Velocity most;       ///< the grid's ends
-  double begin_s = 3;  ///< of gait, after which what was really walked is measured
+  int on_axis = 9;     ///< velocities on each axis; odd, so that 0 is among them
+  Velocity most;       ///< ends of the grid
+  double begin_s = 3;  ///< of gait, before the measurement starts
 };
 
-/// The longest steps and turns that the robot's tuning admits, and half as much sideways, where
+/// The longest steps and turns that the robot's tuning admits. Sideways is half as much, because
 /// only every other step may be long.
 Velocity most_of(const Params& params);
 
-/// The gait's length that leaves room for begin_s, a cycle that is measured, and the gait's end.
+/// Gait length that covers begin_s, one measured cycle and the gait's end.
 double least_walk_s(const StabilityOptions& options, double cycle_s);
 
 struct StabilityCell {
   enum class End { kNone, kWalked, kShort, kFell, kFailed } end = End::kNone;
-  Velocity asked, ordered;  ///< the order: what the servos can follow of what was asked
+  Velocity asked, ordered;  ///< ordered: what the servos can follow of `asked`
   std::optional<Velocity>
-      walked;       ///< mean over whole cycles; none: it fell before, or did not walk
-  std::string why;  ///< of a walk that is not good
+      walked;       ///< mean over whole cycles; nullopt: it fell before, or did not walk
+  std::string why;  ///< failure of a walk that is not good
 };
 
-/// "walked" and so on; kNone: the survey was interrupted before.
+/// "walked" and so on; kNone: the survey was interrupted first.
 const char* name_of(StabilityCell::End end);
 
 struct StabilityMap {
-  std::vector<StabilityCell> cells;  ///< vx with wz where vy is 0; then vx with vy where wz is 0
+  std::vector<StabilityCell> cells;  ///< vx by wz with vy = 0; then vx by vy with wz = 0
   bool interrupted = false;
 };
 
-/// Has the plan's robot walk at each velocity of two planes, the plan's own velocity aside. Throws
+/// Walks the plan's robot at each velocity of two planes; ignores the plan's own velocity. Throws
 /// what session::walk() throws.
 StabilityMap stability_map(const session::WalkPlan& plan, const sim::WorldOptions& world,
                            const StabilityOptions& options, const Watch& watch);

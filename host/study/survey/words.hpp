@@ -5,16 +5,16 @@
 #include "host/study/survey/push_map.hpp"
 #include "host/study/survey/stability_map.hpp"
 
-/// Maps for a terminal and as CSV, and what they come to.
+/// Maps as text and as CSV, and their summaries.
 namespace verp::survey {
 
-/// Of one direction, over those phases that were tried.
+/// Survived impulses of one direction, over the phases that were tried.
 struct Side {
   double direction_rad = 0;
   double least_n_s = 0, middle_n_s = 0, most_n_s = 0;
-  int least_phase = 0;  ///< the first of the weakest
+  int least_phase = 0;  ///< the first of the weakest phases
 };
-/// In the map's order; without those of which no phase was tried.
+/// In the map's order; directions without a tried phase are left out.
 std::vector<Side> sides_of(const PushMap& map);
 
 /// "ahead", "90° left", "back".
@@ -26,7 +26,7 @@ std::string csv_of(const PushMap& map);
 std::string text_of(const StabilityMap& map, const StabilityOptions& options);
 std::string csv_of(const StabilityMap& map);
 
-/// How many of them ended so.
+/// Number of cells with that end.
 int count_of(const StabilityMap& map, StabilityCell::End end);
 
 }  // namespace verp::survey

@@ -36,7 +36,7 @@ void Workers::take(std::size_t pieces, const std::function<void(std::size_t piec
 void Workers::wait(std::size_t count) {
   std::unique_lock lock(mutex_);
   for (;;) {
-    const bool all = ended_ == count;  // the last word is of the whole, however fast it was
+    const bool all = ended_ == count;  // read first: the last report covers everything
     if (watch_.interrupted && watch_.interrupted()) stopped_ = true;
     const double steps = static_cast<double>(std::max<std::size_t>(steps_, 1));
     if (watch_.went_on) watch_.went_on(static_cast<double>(done_) / steps);

@@ -8,27 +8,26 @@
 
 namespace verp::survey {
 
-/// Who waits for a survey. Empty members are allowed; both are called, some 20 times a second, by
-/// the thread that asked for the survey.
+/// Callbacks for the caller of a survey; members may be empty. The caller's thread calls both about
+/// 20 times a second.
 struct Watch {
-  std::function<bool()> interrupted = {};  ///< true: what is done by then is all there will be
-  std::function<void(double share)> went_on = {};  ///< how much of it is done, 0..1
-  unsigned threads = 0;                            ///< 0: one for each core
+  std::function<bool()> interrupted = {};          ///< true: stop, and return what is done
+  std::function<void(double share)> went_on = {};  ///< share done, 0..1
+  unsigned threads = 0;                            ///< 0: one per core
 };
 
-/// Pieces of work on several threads. A walk is a session of its own, and has the same bits
-/// whatever runs beside it; so what comes of the pieces does not depend on how many threads there
-/// are.
+/// Runs pieces of work on several threads. The result does not depend on their number: each walk is
+/// its own session, with the same bits whatever runs beside it.
 class Workers {
  public:
-  /// `steps`: how often step_done() will be called in all.
+  /// `steps`: total number of calls to step_done().
   Workers(const Watch& watch, std::size_t steps) : watch_(watch), steps_(steps) {}
 
-  /// work(0) to work(pieces - 1), each once and in any order, and back when all are done. If one
-  /// throws, no other one is begun, and what it threw goes on to the caller.
+  /// Calls work(0) to work(pieces - 1), each once, in any order, and returns when all are done. If
+  /// one throws, starts no other and rethrows to the caller.
   void run(std::size_t pieces, const std::function<void(std::size_t piece)>& work);
 
-  /// For the pieces: somebody interrupts, or another piece failed.
+  /// For the pieces: the caller interrupted, or another piece failed.
   bool stopped() const { return stopped_; }
   void step_done() { ++done_; }
 
@@ -42,7 +41,7 @@ class Workers {
   std::atomic<bool> stopped_ = false;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::size_t ended_ = 0;  ///< threads
+  std::size_t ended_ = 0;  ///< threads that returned
   std::exception_ptr failure_;
 };
 

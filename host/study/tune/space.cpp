@@ -23,8 +23,8 @@ void let_steps_be(Tuning& tuning, double speed_m_s) {
 
 }  // namespace
 
-// What is a length goes with the hip's height, what is a time with its root, both as in a pendulum;
-// the numbers are what generic21 (0.147 m) was tuned in.
+// Lengths scale with the hip's height and times with its root, as in a pendulum. The steps are
+// those with which generic21 (0.147 m) was tuned.
 Space::Space(const Params& params) : start_(params.tuning) {
   constexpr double kHip_m = 0.147;
   const double size = static_cast<double>(start_.gait.hip_height_m) / kHip_m;

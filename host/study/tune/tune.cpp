@@ -17,13 +17,13 @@
 namespace verp::tune {
 namespace {
 
-constexpr double kLimit_s = 10;     // of the walk that tells what stops a robot
-constexpr double kFirstStep = 0.5;  // of an axis' step
-constexpr double kOffSpeed = 0.1;   // who is further off walks, but not as asked
-// One robot as its file has it, and another one: what walks there alone is no gait.
+constexpr double kLimit_s = 10;     // length of the walk that finds a robot's limit
+constexpr double kFirstStep = 0.5;  // in steps of each axis
+constexpr double kOffSpeed = 0.1;   // largest speed error of a walk that counts
+// The robot of the file and a random one; a gait must work on both.
 constexpr int kTrials = 2;
 
-/// Tunings and the walks that tell what they are worth.
+/// Evaluates Tunings by walks.
 class Judge {
  public:
   Judge(const session::WalkPlan& plan, const sim::WorldOptions& world, const Options& options,
@@ -32,7 +32,7 @@ class Judge {
     plan_.velocity = ahead(options.speed_m_s);
   }
 
-  /// Mean cost of each over the walks of the search.
+  /// Mean cost of each Tuning over the walks of the search.
   std::vector<double> costs(const std::vector<Tuning>& tunings, std::uint64_t seed) {
     std::vector<double> costs(tunings.size() * kTrials, kCannotStand);
     walk(costs.size(), [&](std::size_t piece, const std::function<bool()>& stop) {
@@ -113,13 +113,13 @@ std::vector<Number> changes(const Tuning& was, const Tuning& now) {
   return numbers;
 }
 
-/// More of them walk; or as many, and better.
+/// More robots walk, or as many and with less bias.
 bool better(const Check& one, const Check& other) {
   if (one.walked != other.walked) return one.walked > other.walked;
   return one.bias_mm.value_or(1e9) < other.bias_mm.value_or(1e9);
 }
 
-/// A file that is read and changed by people has numbers of three digits.
+/// Rounds to three digits, because people read and change the file.
 Tuning rounded(const Tuning& from, const Tuning& was) {
   Tuning to = from;
   for (const Number& each : changes(was, from))

@@ -6,8 +6,8 @@
 
 namespace verp::tune {
 
-/// A copy of the robot's file with these numbers as its <verp:tuning>. All else stays, byte for
-/// byte. Throws model::LoadError.
+/// Copies the robot's file with these numbers as its <verp:tuning>. All other bytes stay. Throws
+/// model::LoadError.
 void write(const std::vector<Number>& numbers, const std::filesystem::path& robot_file,
            const std::filesystem::path& file);
 
