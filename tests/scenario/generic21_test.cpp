@@ -27,7 +27,7 @@ INSTANTIATE_TEST_SUITE_P(Generic21, Seed, ::testing::Range(1, 5));
 TEST(Generic21, FiveSeedsGiveFiveDigests) {
   std::set<std::string> digests;
   for (int seed = 1; seed <= 5; ++seed) {
-    digests.insert(walk("generic21 --for 3 --seed " + std::to_string(seed))
+    digests.insert(walk("generic21 --for 3 --physics-step 2 --seed " + std::to_string(seed))
                        .result.value("digest", std::string()));
   }
   EXPECT_EQ(digests.size(), 5u);
@@ -40,7 +40,8 @@ TEST(Generic21, ATremblingRobotStartsToWalk) {
 }
 
 TEST(Generic21, SameSeedIsTheSameWalkToTheLastBit) {
-  Walk once = walk("generic21 --for 10 --seed 3"), again = walk("generic21 --for 10 --seed 3");
+  const char* const words = "generic21 --for 10 --physics-step 2 --seed 3";
+  Walk once = walk(words), again = walk(words);
   once.result.erase("real_time_factor");
   again.result.erase("real_time_factor");
   EXPECT_EQ(once.result, again.result);
@@ -82,7 +83,7 @@ TEST(Generic21, EachPartOfBalanceLowersTheZmpBias) {
 
 // 12 s, one of them standing. The bands are a quarter of the ordered way to both sides.
 TEST(Generic21, WalksSideways) {
-  const Walk left = walk("generic21 --for 12 --velocity=0,0.05,0");
+  const Walk left = walk("generic21 --for 12 --physics-step 2 --velocity=0,0.05,0");
   expect_walked(left);
   expect_between(0.045, number(left, "speed_steady_m_s"), 0.056, "steady speed, m/s");
   expect_between(0.42, number(left, "lateral_drift_m"), 0.68, "way to the left, m");
@@ -91,7 +92,7 @@ TEST(Generic21, WalksSideways) {
 }
 
 TEST(Generic21, WalksBackwards) {
-  const Walk back = walk("generic21 --for 12 --velocity=-0.1,0,0");
+  const Walk back = walk("generic21 --for 12 --physics-step 2 --velocity=-0.1,0,0");
   expect_walked(back);
   expect_between(0.088, number(back, "speed_steady_m_s"), 0.110, "steady speed, m/s");
   expect_between(-1.2, number(back, "ahead_m"), -0.75, "way ahead, m");
@@ -100,14 +101,14 @@ TEST(Generic21, WalksBackwards) {
 }
 
 TEST(Generic21, WalksInCirclesAndTurnsOnTheSpot) {
-  const Walk circle = walk("generic21 --for 12 --velocity=0.1,0,0.3");
+  const Walk circle = walk("generic21 --for 12 --physics-step 2 --velocity=0.1,0,0.3");
   expect_walked(circle);
   EXPECT_EQ(number(circle, "self_contact_ticks"), 0);
   expect_between(0.09, number(circle, "speed_steady_m_s"), 0.12, "steady speed, m/s");
   expect_between(140, number(circle, "yaw_drift_deg"), 230, "turn, degrees");
   // 2 v / w across the circle, of which it walks half.
   expect_between(0.4, number(circle, "lateral_drift_m"), 0.9, "way to the left, m");
-  const Walk turn = walk("generic21 --for 12 --velocity=0,0,-0.4");
+  const Walk turn = walk("generic21 --for 12 --physics-step 2 --velocity=0,0,-0.4");
   expect_walked(turn);
   EXPECT_EQ(number(turn, "self_contact_ticks"), 0);
   expect_between(-310, number(turn, "yaw_drift_deg"), -200, "turn, degrees");
@@ -182,13 +183,13 @@ TEST(Generic21, StepsThatItsServosCannotFollowAreShortened) {
 }
 
 TEST(Generic21, WalksSlowlyAndWithShortSteps) {
-  const Walk slow = walk("generic21 --for 12 --cycle 0.6");
+  const Walk slow = walk("generic21 --for 12 --physics-step 2 --cycle 0.6");
   expect_walked(slow);
   expect_between(0.12, number(slow, "speed_steady_m_s"), 0.145, "0.133 m/s asked");
-  const Walk shorter = walk("generic21 --for 12 --step 0.01");
+  const Walk shorter = walk("generic21 --for 12 --physics-step 2 --step 0.01");
   expect_walked(shorter);
   expect_between(0.035, number(shorter, "speed_steady_m_s"), 0.055, "0.044 m/s asked");
-  const Walk on_the_spot = walk("generic21 --for 12 --step 0");
+  const Walk on_the_spot = walk("generic21 --for 12 --physics-step 2 --step 0");
   expect_walked(on_the_spot);
   expect_between(0, number(on_the_spot, "distance_m"), 0.1, "way, m");
 }
@@ -210,7 +211,7 @@ TEST(Generic21, WalksWithThighsATenthLonger) {
   const std::string generate =
       std::string(VERP_GENERATE) + " " + (folder / "longer.table").string() + " > " + sdf;
   EXPECT_EQ(std::system(generate.c_str()), 0);
-  const Walk longer = walk(sdf + " --for 20");
+  const Walk longer = walk(sdf + " --for 20 --physics-step 2");
   expect_walked(longer);
   expect_between(0.165, number(longer, "speed_steady_m_s"), 0.195, "steady speed, m/s");
   fs::remove_all(folder);

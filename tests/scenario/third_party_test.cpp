@@ -9,7 +9,7 @@ namespace {
 
 // Other people's robots walk and get somewhere.
 void expect_walks(const char* model) {
-  const Walk result = walk(std::string(model) + " --for 20");
+  const Walk result = walk(std::string(model) + " --for 20 --physics-step 2");
   expect_walked(result);
   expect_between(1.5, number(result, "ahead_m"), 4.0, "way ahead, m");
 }
@@ -31,8 +31,9 @@ TEST(ThirdParty, Op3WalksWithItsZmpUnderItsSoles) {
 
 // Its feet have no sensors, yet its encoders' zeros are learnt. Seed 1 once limped with 32 mm.
 TEST(ThirdParty, Op3LearnsItsZeros) {
-  const double learnt_mm = number(walk("op3 --for 20"), "zmp_bias_mean_mm");
-  EXPECT_LT(learnt_mm, 0.7 * number(walk("op3 --for 20 --no-zeros"), "zmp_bias_mean_mm"));
+  const double learnt_mm = number(walk("op3 --for 20 --physics-step 2"), "zmp_bias_mean_mm");
+  EXPECT_LT(learnt_mm,
+            0.7 * number(walk("op3 --for 20 --physics-step 2 --no-zeros"), "zmp_bias_mean_mm"));
 }
 
 TEST(ThirdParty, DarwinOpWalks) {
