@@ -8,15 +8,15 @@
 
 namespace verp::bus {
 
-/// The Imu of a robot that has none: it says in every read that the body is upright and still. With
-/// it a robot walks without balance, and nobody notices that it falls. Its gyro trembles by a count
-/// about zero, for the core takes an IMU that repeats itself for a dead one.
+/// Imu for a robot without an IMU: it always reports an upright, still body. The robot then walks
+/// without balance and does not detect a fall. The z gyro alternates by one count, because the core
+/// treats an IMU that repeats itself as dead.
 class AssumedImu {
  public:
-  /// Speaks in the counts and the mounting of `imu`.
+  /// Uses the scale and the mounting of `imu`.
   explicit AssumedImu(const ImuParams& imu) {
     if (!(imu.accel_m_s2_per_count > 0)) return;
-    for (int axis = 0; axis < 3; ++axis) {  // the body's z axis, seen from the IMU
+    for (int axis = 0; axis < 3; ++axis) {  // body z axis in the IMU frame
       const float g = imu.body_imu[6 + axis] * math::kGravityMS2 / imu.accel_m_s2_per_count;
       sample_.accel_count[axis] = static_cast<std::int16_t>(std::lround(g));
     }

@@ -13,40 +13,39 @@
 
 namespace verp::bus {
 
-/// The two byte streams to a controller outside this process; serve() owns neither.
+/// Byte streams to a controller in another process. The caller owns them.
 struct ByteStreams {
-  /// Waits for at least one byte; returns how many were stored, 0 when the controller's end is
-  /// closed.
+  /// Waits for at least one byte. Returns the number of bytes stored; 0: the controller has closed.
   std::function<std::size_t(void* data, std::size_t capacity)> read_some;
-  /// All of it in one write; false when the controller's end is closed.
+  /// Writes all bytes at once; false: the controller has closed.
   std::function<bool(const void* data, std::size_t size)> write;
 };
 
-/// What a controller asks for and delivers, tick by tick. Empty members are allowed.
+/// Callbacks of one run. Members may be empty.
 struct ServerHooks {
   std::function<app::OperatorOrder(std::uint32_t tick)>
-      order;  ///< asked once for each tick the bus begins
-  /// The three of one tick in this order; record ends it, state comes only now and then.
+      order;  ///< called once per tick, when the bus begins it
+  /// Called in this order within a tick; `record` ends the tick. `state` is not sent in every tick.
   std::function<void(const State&)> state;
   std::function<void(const Outputs&)> outputs;
   std::function<void(const TickRecord&)> record;
-  std::function<bool()> stop;  ///< asked at each poll; true ends the run
+  std::function<bool()> stop;  ///< called at each poll; true ends the run
 };
 
 struct RunOptions {
-  std::uint32_t ticks = 0;  ///< 0: until `stop`
+  std::uint32_t ticks = 0;  ///< 0: run until `stop`
   std::uint32_t state_every = 125;
-  std::span<const std::uint32_t> actions = {};  ///< the library that the controller gets
+  std::span<const std::uint32_t> actions = {};  ///< action library for the controller
 };
 
-/// How the controller ended. exit_code as the verp program's: 3 if the link broke or spoke
-/// nonsense.
+/// How the controller ended. exit_code is that of the verp program; 3: the link broke or the
+/// controller sent invalid data.
 struct ServerResult {
   std::uint32_t exit_code = 3;
   std::string reason;
 };
 
-/// Serves the bus to one controller that speaks firmware/app/link_messages.hpp, until it quits.
+/// Serves the bus to one controller over firmware/app/link_messages.hpp until the controller quits.
 class BusServer {
  public:
   BusServer(const Params& params, VirtualBus& bus, ByteStreams streams, ServerHooks hooks,

@@ -12,13 +12,13 @@
 
 namespace verp::bus {
 
-/// A device that did not do what was asked: exit status 3. what() is one line with a remedy.
+/// A device did not do what the caller asked: exit status 3. what() is one line with a remedy.
 class DeviceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// It answered, and that it does not do it.
+/// The device answered with an error.
 class RefusedError : public DeviceError {
  public:
   RefusedError(const std::string& line, dxl::Error error) : DeviceError(line), error_(error) {}
@@ -28,36 +28,37 @@ class RefusedError : public DeviceError {
   dxl::Error error_;
 };
 
-/// What a device says of itself when it is pinged.
+/// A device's answer to a Ping.
 struct Identity {
   std::uint8_t id = 0;
   std::uint16_t model = 0;
   std::uint8_t firmware = 0;
 };
 
-/// Dynamixel devices at the other end of a link, one request at a time. What gets no answer is
-/// asked again; a reply that comes late does not say which request it answers, so that it is told
-/// by its device and length, and waited for before something like it is asked. Throws DeviceError,
-/// and LinkError from the constructor.
+/// Client for the Dynamixel devices on a link; one request at a time. It repeats unanswered
+/// requests. A late reply does not name its request. The client knows it by device and length, and
+/// waits for it before it sends a similar request. Methods throw DeviceError; the constructor
+/// throws LinkError.
 class Client {
  public:
-  static constexpr int kAttempts = 3;  ///< of a request that got no answer
+  static constexpr int kAttempts = 3;  ///< per unanswered request
 
-  /// `timeout_us` is what a reply may take beyond its own bytes.
+  /// `timeout_us`: time allowed for a reply beyond its own bytes.
   Client(const link::Endpoint& endpoint, std::uint32_t timeout_us);
-  /// Over a link that stays the caller's, and outlives this; `endpoint` is what it was opened on.
+  /// The caller owns the link, which must outlive the client; `endpoint` is the place it was opened
+  /// on.
   Client(link::Link& link, const link::Endpoint& endpoint, std::uint32_t timeout_us);
 
-  /// Every device that answers a Ping to all, by id; waits as long as id 252 may take.
+  /// Every device that answers a broadcast Ping, sorted by id; waits as long as id 252 may take.
   std::vector<Identity> scan();
   std::optional<Identity> ping(std::uint8_t id, int attempts = kAttempts);
   std::vector<std::uint8_t> read(std::uint8_t id, std::uint16_t address, std::uint16_t length);
   void write(std::uint8_t id, std::uint16_t address, const std::vector<std::uint8_t>& data);
 
-  /// One read without a second attempt; false if it failed.
+  /// Makes one read without a retry; false: it failed.
   bool read_once(std::uint8_t id, std::uint16_t address, std::uint16_t length);
 
-  /// The most times that one of the requests so far had to be made.
+  /// Largest number of attempts for any request so far.
   int tries() const { return tries_; }
   const std::string& place() const { return text_; }
   const app::BusCounters& counters() const { return master_.counters(); }
@@ -70,9 +71,9 @@ class Client {
     std::uint8_t error = 0;
     std::vector<std::uint8_t> data;
   };
-  /// Time a request may take: `bytes` on the wire in both directions, and the timeout.
+  /// Time limit of a request: `bytes` on the wire in both directions, plus the timeout.
   std::uint32_t patience_us(std::size_t bytes) const;
-  /// Of `frame` bytes in the master's frame; `size`: the bytes of data a good answer has.
+  /// `frame`: bytes in the master's frame. `size`: data bytes of a good answer.
   std::optional<Answer> ask(std::uint8_t id, std::size_t frame, std::size_t size, int attempts);
   void drop_late();
   [[noreturn]] void silent(std::uint8_t id) const;
@@ -81,7 +82,7 @@ class Client {
 
   void wait_for_somebody();
 
-  /// Replies that are missing, and may still come.
+  /// Missing replies that may still arrive.
   struct Owed {
     int replies = 0;
     std::uint8_t id = 0;
@@ -89,8 +90,8 @@ class Client {
     std::uint32_t patience_us = 0;
   };
 
-  std::string text_;    ///< of the endpoint
-  std::uint32_t baud_;  ///< 0: the link has none
+  std::string text_;    ///< the endpoint
+  std::uint32_t baud_;  ///< 0: the link has no rate
   std::uint32_t timeout_us_;
   link::SystemClock clock_;
   std::optional<link::Link> own_;

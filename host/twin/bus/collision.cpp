@@ -6,7 +6,7 @@ namespace verp::bus {
 namespace {
 
 constexpr std::size_t kDataBits = 8;
-constexpr std::size_t kFrameBits = 1 + kDataBits + 1;  // start, data from the lowest bit on, stop
+constexpr std::size_t kFrameBits = 1 + kDataBits + 1;  // start, data (lowest bit first), stop
 
 std::vector<bool> line_of(const std::vector<Voice>& voices) {
   std::size_t bits = 0;
@@ -40,7 +40,7 @@ std::vector<std::uint8_t> heard(const std::vector<Voice>& voices) {
       if (sample >= high.size() || high[sample]) byte |= 1u << bit;
     }
     bytes.push_back(static_cast<std::uint8_t>(byte));
-    at += kFrameBits - 1;  // a stop bit that is low is a framing error; the byte comes all the same
+    at += kFrameBits - 1;  // a low stop bit is a framing error; the UART delivers the byte anyway
   }
   return bytes;
 }

@@ -81,7 +81,7 @@ dxl::Error Device::reg_write(std::uint16_t address, std::span<const std::uint8_t
 dxl::Error Device::action() {
   if (registered_.empty()) return dxl::Error::kInstruction;
   table_.set(at::kRegisteredInstruction, 0);
-  return store(std::exchange(registered_, {}));  // what was allowed then may not be now
+  return store(std::exchange(registered_, {}));  // may be refused now
 }
 
 void Device::lose_power() {

@@ -9,8 +9,8 @@
 
 namespace verp::bus {
 
-/// What every device on the bus has: an id, a control table, Return Delay Time and a status return
-/// level. Time and the wire belong to VirtualBus.
+/// Base of every device on the bus: id, control table, Return Delay Time and status return level.
+/// VirtualBus owns time and the wire.
 class Device {
  public:
   virtual ~Device() = default;
@@ -24,41 +24,41 @@ class Device {
   }
   std::uint8_t firmware_version() const { return byte(dxl::address::kFirmwareVersion); }
   std::uint32_t return_delay_us() const { return 2u * byte(dxl::address::kReturnDelay); }
-  /// Secondary ID: of a group that is written together and does not answer.
+  /// True if the device listens to this Secondary ID. Its group is written together and does not
+  /// reply.
   virtual bool in_group(std::uint8_t) const { return false; }
   virtual std::uint8_t status_level() const { return 2; }
   virtual bool answers_fast_sync_read() const { return true; }
   virtual bool alert() const { return false; }
   virtual bool torque_on() const { return false; }
 
-  /// Brings the registers in the range up to date; the plant stands at the moment of the reply.
+  /// Updates the registers in the range; the plant is at the time of the reply.
   virtual void refresh(std::uint16_t address, std::uint16_t length) = 0;
-  /// Empty past the table's end. Valid until the next read.
+  /// Empty if the range passes the table's end. Valid until the next read.
   std::span<const std::uint8_t> read(std::uint16_t address, std::uint16_t length);
 
-  /// Stores a write or says why not; the plant stands at the moment of the write's arrival. Nothing
-  /// is stored unless all of it can be.
+  /// Stores all of a write or nothing, and returns the reason. The plant is at the arrival time.
   virtual dxl::Error write(std::uint16_t address, std::span<const std::uint8_t> data);
-  /// Keeps a write until action(), or says why it can't be.
+  /// Keeps a write until action(), or returns the reason for refusing it.
   dxl::Error reg_write(std::uint16_t address, std::span<const std::uint8_t> data);
   dxl::Error action();
 
-  /// An instruction packet, for whomever, was on the wire until `time_us`.
+  /// An instruction packet, for any device, ended on the wire at `time_us`.
   void heard(std::uint64_t time_us) { heard_us_ = time_us; }
-  /// When the device does something by itself if nothing more is heard.
+  /// When the device next acts by itself if it receives nothing more.
   virtual std::uint64_t deadline_us() const { return kNever_us; }
-  /// The plant stands at deadline_us().
+  /// Runs that action; the plant is at deadline_us().
   virtual void expire() {}
 
-  /// RAM registers as they begin, a hardware error gone.
+  /// Resets the RAM registers and clears the hardware error.
   void lose_power();
-  /// Power off and on.
+  /// Power cycle.
   void reboot();
-  /// e-Manual, Control Table Backup: keeps what stands there, or puts EEPROM back and begins anew.
+  /// e-Manual, Control Table Backup: stores the table, or restores the EEPROM and restarts.
   virtual dxl::Error backup(std::span<const std::uint8_t>) { return dxl::Error::kInstruction; }
-  /// Not with torque on. Unless kept, the id becomes 1 and the baud rate 57600.
+  /// Refused while torque is on. Unless kept, the id becomes 1 and the baud rate 57600.
   dxl::Error factory_reset(dxl::Reset reset);
-  /// Takes the turns off Present Position, which here never has any; not while moving.
+  /// Removes full turns from Present Position; the twin's position has none. Refused while moving.
   dxl::Error clear(std::span<const std::uint8_t> parameters);
 
  protected:
@@ -66,11 +66,11 @@ class Device {
   virtual dxl::Error check(std::uint16_t address, std::span<const std::uint8_t> data) const {
     return table_.check(address, data, false);
   }
-  /// Follows each stored write.
+  /// Called after each stored write.
   virtual void written(std::uint16_t address, std::uint16_t length) = 0;
-  /// Follows a reboot and a reset.
+  /// Called after a reboot and after a reset.
   virtual void restarted() {}
-  /// Power is there, and the registers are as they begin.
+  /// Called when power is on and the registers have their initial values.
   virtual void started() {}
   virtual bool moving() { return false; }
   std::uint8_t byte(std::uint16_t address) const {
@@ -81,11 +81,11 @@ class Device {
   std::uint64_t heard_us_ = 0;
 
  private:
-  struct Piece {  ///< of a write, on consecutive registers
+  struct Piece {  ///< part of a write, on consecutive registers
     std::uint16_t address;
     std::vector<std::uint8_t> data;
   };
-  /// The byte of the control table that `address` stands for: itself, unless it is Indirect Data.
+  /// Address behind `address`: the target of Indirect Data, otherwise `address` itself.
   std::uint16_t meant(std::uint16_t address) const;
   std::vector<Piece> pieces(std::uint16_t address, std::span<const std::uint8_t> data) const;
   dxl::Error check(const std::vector<Piece>& pieces) const;

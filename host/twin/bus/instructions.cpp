@@ -5,7 +5,7 @@
 #include "host/twin/bus/collision.hpp"
 #include "host/twin/bus/virtual_bus.hpp"
 
-// What each instruction of the protocol does on the bus.
+// The effect of each protocol instruction on the bus.
 namespace verp::bus {
 namespace {
 
@@ -16,7 +16,7 @@ std::uint8_t error_field(const Device& device, dxl::Error error) {
   return dxl::error_field(error, device.alert());
 }
 
-/// What is longer than a device can send it refuses to read.
+/// Builds a status packet. A device refuses a read that is longer than it can send.
 std::vector<std::uint8_t> status(std::uint8_t id, std::uint8_t error,
                                  std::span<const std::uint8_t> data) {
   std::vector<std::uint8_t> packet(dxl::kMaxPacket);
@@ -26,7 +26,7 @@ std::vector<std::uint8_t> status(std::uint8_t id, std::uint8_t error,
   return status(id, static_cast<std::uint8_t>((error & dxl::kAlert) | int{kTooLong}), {});
 }
 
-/// The EEPROM cannot be written by a Secondary ID.
+/// A Secondary ID cannot write the EEPROM.
 bool in_ram(std::uint16_t address) {
   return address >= dxl::address::kTorqueEnable;
 }
@@ -105,7 +105,7 @@ void VirtualBus::speak(const std::vector<Device*>& speakers, bool at_once, Say&&
   wait_us(first_us);
   std::vector<Voice> voices;
   for (std::size_t i = 0; i < speakers.size(); ++i) {
-    // No two clocks are the same: each next one is a bit later.
+    // No two clocks agree: each device starts one bit later.
     const std::uint64_t late_us = delay_us(speakers[i]) - first_us;
     const auto late_bits = static_cast<std::uint32_t>(late_us * baud_ / 1'000'000 + i);
     voices.push_back({say(*speakers[i]), late_bits});
@@ -113,7 +113,7 @@ void VirtualBus::speak(const std::vector<Device*>& speakers, bool at_once, Say&&
   put_on_wire(heard(voices));
 }
 
-// A reply bears the id that the device was asked by, though it may have another one by then.
+// A reply carries the id that the master used, even if the write has changed the id.
 template <class Apply>
 void VirtualBus::command(std::uint8_t id, bool for_group, Apply apply) {
   std::vector<Device*> speakers;
@@ -141,9 +141,9 @@ void VirtualBus::identify(std::uint8_t id) {
   });
 }
 
-// The e-Manual says of a Ping to all that devices answer in their order; how far apart, the
-// vendor's SDK, which waits 3 ms for each id and 16 ms, and Dynamixel2Arduino's issue 106: with 10
-// ms to answer, ids 1 and 2 are found and id 5 is not.
+// e-Manual: devices answer a broadcast Ping in the order of their ids. The spacing follows the
+// vendor's SDK, which waits 3 ms per id plus 16 ms. Dynamixel2Arduino issue 106 agrees: with a 10
+// ms wait, ids 1 and 2 are found and id 5 is not.
 void VirtualBus::ping(std::uint8_t id) {
   if (id != dxl::kBroadcast) return identify(id);
   const std::uint64_t end_ns = wire_free_ns_;
@@ -172,7 +172,7 @@ void VirtualBus::read(const dxl::Packet& packet) {
   });
 }
 
-// To all at once, firmware 42 and above ignores the order to forget even the ids.
+// Firmware 42 and above ignores a broadcast reset that would also reset the ids.
 void VirtualBus::factory_reset(const dxl::Packet& packet) {
   const auto reset = static_cast<dxl::Reset>(packet.size == 1 ? packet.parameters[0] : 0);
   const bool known = reset == dxl::Reset::kAll || reset == dxl::Reset::kAllButId ||

@@ -7,61 +7,59 @@
 #include "common/model/params.hpp"
 #include "host/twin/bus/client.hpp"
 
-/// Whether a robot's traffic fits its control period on a link that holds bytes back, as USB serial
-/// adapters do.
+/// Checks whether a robot's traffic fits its control period on a link that delays bytes, as USB
+/// serial adapters do.
 namespace verp::bus {
 
-/// The smallest of `sorted` that is not below `share` of them; 0 of none.
+/// Smallest element of `sorted` with at least `share` of them at or below it; 0 if empty.
 double quantile(const std::vector<double>& sorted, double share);
 
-/// How long the reads that were answered took beyond their bytes' time on the wire, there and back.
+/// Delay of answered reads beyond their wire time in both directions.
 struct LinkDelay {
   int asked = 0, answered = 0;
   double median_us = 0, p90_us = 0, worst_us = 0;
 };
 
-/// Reads one servo of `params` again and again; ends early, perhaps with nothing asked, when
-/// `give_up` says so. Otherwise throws DeviceError if no servo answers a ping, or fewer than half
-/// of the reads are answered.
+/// Reads one servo of `params` repeatedly. `give_up` may end it early, even before the first read.
+/// Throws DeviceError if no servo answers a ping or fewer than half of the reads are answered.
 LinkDelay measure_delay(Client& client, const Params& params, const std::function<bool()>& give_up);
 
-/// The same of any `read`, which says whether it was answered and takes `wire_us` on the wire.
-/// Fewer than half of them may have been answered.
+/// The same with any `read`, which returns whether it was answered and takes `wire_us` on the wire.
+/// Fewer than half of the reads may be answered.
 LinkDelay measure_delay(const std::function<bool()>& read, double wire_us,
                         const std::function<bool()>& give_up);
 
-/// One tick on such a link: its bytes, and its reads, each of which waits for the one before.
+/// Time budget of one tick on such a link. Each read waits for the one before.
 struct LinkFit {
   std::uint32_t period_us = 0;
-  std::uint32_t wire_us = 0;  ///< all bytes of the tick, and what reads of silent servos wait for
+  std::uint32_t wire_us = 0;  ///< all bytes of the tick, plus the timeouts of silent servos
   LinkDelay delay;
-  int reads = 2;  ///< positions, sensors; on CAN: SYNCs
+  int reads = 2;  ///< positions and sensors; on CAN: SYNCs
 
-  /// Share of the period that bytes and delays may take: the rest is the controller's own.
+  /// Share of the period for bytes and delays; the controller needs the rest.
   static constexpr double kUsable = 0.95;
 
   double needed_us() const { return wire_us + reads * delay.median_us; }
-  /// Not if no read was answered: nothing is known then.
+  /// False if no read was answered.
   bool fits() const { return delay.answered > 0 && needed_us() <= kUsable * period_us; }
-  /// Also for the slowest tenth of the reads.
+  /// Also with the delay of the slowest tenth of the reads.
   bool fits_well() const {
     return delay.answered > 0 && wire_us + reads * delay.p90_us <= kUsable * period_us;
   }
-  /// What a tick's reads may each be held up: a reply that is later is not waited for.
+  /// Delay allowed for each read of a tick; the controller does not wait longer.
   std::uint32_t held_us() const;
-  /// The shortest period of whole milliseconds in which it fits well; 0: none that a robot may
-  /// have.
+  /// Shortest period in whole milliseconds that fits well; 0: no allowed period does.
   int shortest_period_ms() const;
 };
 
 LinkFit fit(const Params& params, const LinkDelay& delay);
 
-/// What a master on this PC can do about a link that doesn't fit, as words after a semicolon.
+/// What the user can do on this PC about a link that does not fit, as words after a semicolon.
 std::string remedy(const LinkFit& fit, const Params& params, const link::Endpoint& endpoint,
                    const std::string& system_folder = "/sys");
 
-/// For the twin, which answers: an adapter known to hold its bytes back for too long, as a line
-/// with a remedy; empty: none is known.
+/// For the twin, which answers controllers: one line with a remedy if the adapter is known to delay
+/// bytes too long, otherwise empty.
 std::string adapter_too_slow(const Params& params, const link::Endpoint& endpoint,
                              const std::string& system_folder = "/sys");
 

@@ -11,7 +11,7 @@ namespace {
 
 using app::reg;
 
-constexpr std::uint32_t kPatience_us = 500'000;  // of a wait for one answer, by the wall's clock
+constexpr std::uint32_t kPatience_us = 500'000;  // for one answer, wall clock
 constexpr std::uint32_t kSlice_us = 50'000;
 constexpr std::uint32_t kLinger_us = 20'000;
 constexpr int kAttempts = 6;
@@ -41,10 +41,10 @@ ControllerReport OperatorPort::exchange(const app::OperatorOrder* order) {
   if (order != nullptr) add_order(*order);
   const ControllerReport report = ask_report();
   if (order == nullptr || !refused_) return report;
-  // A controller that has started obeys nobody who did not ask it to relax first. Behind this one
-  // is a twin, and nobody stands beside it.
+  // A started controller obeys only an operator that first asked it to relax. This controller
+  // drives a twin, so relaxing endangers nobody.
   app::OperatorOrder again = *order;
-  again.flags &= static_cast<std::uint16_t>(~kParameterWrite);  // that was another write, and taken
+  again.flags &= static_cast<std::uint16_t>(~kParameterWrite);  // already written and accepted
   add_write(reg("request"), {static_cast<std::uint8_t>(Request::kRelax)});
   add_order(again);
   return ask_report();
@@ -79,7 +79,7 @@ std::vector<std::uint8_t> OperatorPort::ask() {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     link_.write(outbox_.data(), outbox_.size(), kPatience_us);
     if (collect(data)) {
-      // A request that was sent twice must not be done in a later tick: its answer comes now.
+      // A repeated request must not act in a later tick, so take its late answer now.
       std::uint8_t late[256];
       while (attempt > 0 && link_.read(late, sizeof late, kLinger_us) > 0) {
       }

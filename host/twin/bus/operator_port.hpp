@@ -11,16 +11,15 @@
 
 namespace verp::bus {
 
-/// The operator's port of a controller, which is Dynamixel device 200 there
-/// (common/protocol/controller_table.hpp).
+/// Operator port of a controller: Dynamixel device 200 (common/protocol/controller_table.hpp).
 class OperatorPort final : public OrderSink {
  public:
-  /// `give_up` is asked while nobody answers. Throws LinkError and EndpointError.
+  /// Calls `give_up` while the controller is silent. Throws LinkError and EndpointError.
   OperatorPort(const std::string& endpoint, std::function<bool()> give_up);
 
   ControllerReport exchange(const app::OperatorOrder* order) override;
   int action_count() override;
-  /// CRC-32 of the Params that the controller has.
+  /// CRC-32 of the controller's Params.
   std::uint32_t params_crc();
 
  private:
@@ -28,18 +27,18 @@ class OperatorPort final : public OrderSink {
   void add_write(std::uint16_t address, const std::vector<std::uint8_t>& data);
   void add_read(std::uint16_t address, std::uint16_t length);
   void add_order(const app::OperatorOrder& order);
-  /// Sends what was added and a request for the report.
+  /// Sends the queued requests and a request for the report.
   ControllerReport ask_report();
-  /// Sends what was added until each request is answered; returns the data of the last answer.
+  /// Sends the queued requests until all are answered; returns the data of the last answer.
   std::vector<std::uint8_t> ask();
   bool collect(std::vector<std::uint8_t>& data);
 
-  std::string text_;  ///< of the endpoint
+  std::string text_;  ///< the endpoint
   std::function<bool()> give_up_;
   link::Link link_;
   std::vector<std::uint8_t> outbox_;
   std::size_t asked_ = 0;  ///< requests in outbox_
-  bool refused_ = false;   ///< the first of them, as "not now", when all were answered
+  bool refused_ = false;   ///< all were answered, and the first with "not now"
 };
 
 }  // namespace verp::bus

@@ -24,7 +24,7 @@ void append_write(std::vector<std::uint8_t>& bytes, std::uint16_t address,
   bytes.insert(bytes.end(), packet, packet + size);
 }
 
-// request to action_request stand side by side: one write, one order.
+// request to action_request are adjacent: one write carries one order.
 std::size_t append_order(std::vector<std::uint8_t>& bytes, const app::OperatorOrder& order) {
   const Command& command = order.command;
   std::vector<std::uint8_t> data = {static_cast<std::uint8_t>(command.request), command.sequence};
@@ -33,7 +33,7 @@ std::size_t append_order(std::vector<std::uint8_t>& bytes, const app::OperatorOr
   put16(data, command.wz_mrad_s);
   put16(data, command.head_pan_mrad);
   put16(data, command.head_tilt_mrad);
-  data.resize(reg("head_mode") - reg("request"));  // no point to look at
+  data.resize(reg("head_mode") - reg("request"));  // no head target point
   data.push_back(static_cast<std::uint8_t>(dxl::controller::HeadMode::kAngles));
   data.push_back((order.flags & kEmergencyStop) != 0 ? 1 : 0);
   put16(data, order.action);

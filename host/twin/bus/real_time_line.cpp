@@ -3,11 +3,11 @@
 
 #include "host/twin/bus/virtual_bus.hpp"
 
-// The wire in real time, when the master speaks whenever it likes: one line for all, half duplex.
+// The half-duplex wire in real time: the master may transmit at any time.
 namespace verp::bus {
 namespace {
 
-/// A servo waits no longer for the rest of a packet. An estimate: no page of the vendor's says it.
+/// Longest pause within a packet. An estimate: the vendor documents no value.
 constexpr std::uint64_t kPause_ns = 100'000'000;
 constexpr std::uint32_t kHeaderWord = 0xFFFFFD00;  // byte stuffing keeps it out of packets
 
@@ -39,8 +39,8 @@ std::size_t VirtualBus::unsent() const {
              : static_cast<std::size_t>((master_free_ns_ - now_ns_) / bytes_ns(1));
 }
 
-// Who is to answer is deaf until it has; nobody understands two who speak at once, a low level
-// winning (collision.hpp).
+// A device that owes an answer is deaf until it has sent it. If two transmit, the low level wins
+// and both are lost (collision.hpp).
 bool VirtualBus::jams(std::uint8_t byte, std::uint64_t start_ns, std::uint64_t end_ns) {
   bool any = false;
   for (Chunk& each : replies_) {
@@ -77,7 +77,7 @@ void VirtualBus::talk(const std::uint8_t* data, std::size_t size) {
     }
     for (bool found = line_.push(data[i]); found; found = line_.next()) {
       wire_free_ns_ = master_free_ns_;
-      // Whose turn in a Ping to all is still to come has something else to do now.
+      // A new packet cancels the devices' remaining answers to a broadcast Ping.
       std::erase_if(replies_,
                     [this](const Chunk& each) { return each.asked_ns > master_free_ns_; });
       handle(line_.packet(), master_free_ns_);

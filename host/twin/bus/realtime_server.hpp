@@ -7,40 +7,38 @@
 
 namespace verp::bus {
 
-/// Serves the bus by a clock of the world, for a master that keeps time by itself: a controller
-/// with its own timer, or any Dynamixel tool. Time begins with the first byte. Bytes cost their
-/// time on the simulated wire besides what the link takes.
+/// Serves the bus on a real clock to a master with its own timing: a controller with a timer, or
+/// any Dynamixel tool. Time starts with the first byte. Bytes take simulated wire time in addition
+/// to the link's time.
 class RealtimeServer {
  public:
   struct Counters {
-    std::uint64_t bytes = 0;  ///< from the master
-    std::uint32_t lost = 0;   ///< requests that came while a servo was answering
-    std::uint32_t late = 0;   ///< turns at which the twin was over kLate_us behind the clock
+    std::uint64_t bytes = 0;          ///< from the master
+    std::uint32_t lost = 0;           ///< requests that arrived while a servo was answering
+    std::uint32_t late = 0;           ///< turns with the twin over kLate_us behind the clock
     std::uint64_t worst_late_us = 0;  ///< behind the clock at the end of a turn
-    std::uint64_t skipped_us = 0;     ///< of the clock, in which the twin's time stood
+    std::uint64_t skipped_us = 0;     ///< clock time for which the twin stood still
   };
   static constexpr std::uint64_t kLate_us = 1000;  ///< a physics step
-  /// A turn makes up for no more than this; what is beyond it never was, for the twin: see
-  /// can::RealtimeServer.
+  /// A turn catches up at most this much; the twin skips the rest (see can::RealtimeServer).
   static constexpr std::uint64_t kMostBehind_us = 50'000;
-  /// What a serial port's driver takes before it makes its program wait.
+  /// Bytes that a serial driver accepts before it blocks its program.
   static constexpr std::size_t kPort_bytes = 4096;
 
   explicit RealtimeServer(VirtualBus& bus) : bus_(bus) {}
 
-  /// Time goes on to `clock_us`, and what was heard reaches the bus then; appends what the bus
-  /// brings to `answer`.
+  /// Advances to `clock_us`, delivers `heard` to the bus then, and appends the bus's bytes to
+  /// `answer`.
   void turn(std::uint64_t clock_us, std::span<const std::uint8_t> heard,
             std::vector<std::uint8_t>& answer);
-  /// How many bytes more the port takes now: a master that writes faster than the wire carries has
-  /// to wait.
+  /// Bytes that the port accepts now; a master faster than the wire must wait.
   std::size_t room() const;
-  /// What the clock says at the end of a turn: how late is the twin?
+  /// Records how late the twin is at the end of a turn.
   void finished(std::uint64_t clock_us);
-  /// The plant, held until now, is let go: time is 0 then.
+  /// Releases the held plant; time restarts at 0.
   void let_go(std::uint64_t clock_us);
 
-  /// A master has spoken: time goes on.
+  /// True once a master has sent a byte and time runs.
   bool begun() const { return begun_; }
   Counters counters() const;
 

@@ -5,7 +5,7 @@
 
 #include "common/protocol/dynamixel2.hpp"
 
-/// A device's control table: bytes with rules. Rules are checked for a whole write before any byte
+/// A device's control table with its access rules. A write is checked as a whole before any byte
 /// changes.
 namespace verp::bus {
 
@@ -20,31 +20,31 @@ struct Register {
 
 class RegisterTable {
  public:
-  /// `registers` in order of address, without overlap; the table ends behind the last one.
+  /// `registers` must be sorted by address without overlap; the table ends after the last one.
   explicit RegisterTable(std::vector<Register> registers);
 
   std::int64_t get(std::uint16_t address) const;
   void set(std::uint16_t address, std::int64_t value);
   const Register* find(std::uint16_t address) const;
   void restore_initial(std::uint16_t first, std::uint16_t end);
-  /// Takes over the bytes from `first` to `end` of another table with the same registers.
+  /// Copies bytes `first` to `end` from a table with the same registers.
   void copy(const RegisterTable& other, std::uint16_t first, std::uint16_t end);
 
-  /// Bytes of `length` registers' bytes from `address`, empty past the table's end. Gaps read as
-  /// zero, as real servos do it.
+  /// `length` bytes from `address`; empty if they pass the table's end. Gaps read as zero, as in
+  /// real servos.
   std::span<const std::uint8_t> bytes(std::uint16_t address, std::uint16_t length) const;
 
-  /// kNone if every register that `data` covers is covered whole, writable, unlocked and in range.
+  /// kNone if `data` covers only whole, writable, unlocked registers with values in range.
   dxl::Error check(std::uint16_t address, std::span<const std::uint8_t> data,
                    bool eeprom_locked) const;
-  /// Value that a write of `data` at `address` gives `reg`, which it covers.
+  /// Value of `reg` in a write of `data` at `address`, which must cover `reg`.
   static std::int64_t value_in(const Register& reg, std::uint16_t address,
                                std::span<const std::uint8_t> data);
   void store(std::uint16_t address, std::span<const std::uint8_t> data);
 
  private:
   std::vector<Register> registers_;
-  std::vector<std::int16_t> index_;  ///< of the register that begins at an address; -1: none
+  std::vector<std::int16_t> index_;  ///< register that begins at an address; -1: none
   std::vector<std::uint8_t> image_;
 };
 

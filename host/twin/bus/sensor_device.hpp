@@ -6,8 +6,7 @@
 
 namespace verp::bus {
 
-/// A sensor that puts the twelve bytes of the sensor block (common/protocol/control_table.hpp) on
-/// the servo bus.
+/// A sensor on the servo bus with the twelve-byte sensor block (common/protocol/control_table.hpp).
 class SensorDevice : public Device {
  protected:
   SensorDevice(std::uint8_t id, std::uint16_t model, std::uint32_t baud, sim::Plant& plant);

@@ -44,15 +44,15 @@ void ServoDevice::refresh(std::uint16_t address, std::uint16_t length) {
   watch_limits(measured);
 }
 
-// e-Manual, Homing Offset (20): Present Position is the encoder's plus this; in position mode more
-// than a quarter turn is ignored.
+// e-Manual, Homing Offset (20): Present Position is the encoder's count plus this offset. Position
+// mode ignores an offset beyond a quarter turn.
 std::int32_t ServoDevice::homing() const {
   const auto offset = static_cast<std::int32_t>(table_.get(at::kHomingOffset));
   const bool valid = offset >= -kMostHoming && offset <= kMostHoming;
   return valid || byte(at::kOperatingMode) != dxl::kPositionMode ? offset : 0;
 }
 
-// A hardware error stays until reboot; those that Shutdown selects also take the torque away.
+// A hardware error remains until a reboot. The errors selected by Shutdown also remove torque.
 void ServoDevice::watch_limits(const sim::ServoMeasurement& measured) {
   std::int64_t error = table_.get(at::kHardwareError);
   const double tenth_volts = measured.voltage_v * 10;
@@ -88,7 +88,7 @@ dxl::Error ServoDevice::check(std::uint16_t address, std::span<const std::uint8_
   return within_limits(address, data) ? dxl::Error::kNone : dxl::Error::kDataLimit;
 }
 
-/// Modes that it has.
+/// True if the servo has the written mode.
 bool ServoDevice::known(std::uint16_t address, std::span<const std::uint8_t> data) const {
   const auto written = [&](std::uint16_t at) {
     return address <= at && at < address + data.size() ? data[at - address] : byte(at);
@@ -97,11 +97,11 @@ bool ServoDevice::known(std::uint16_t address, std::span<const std::uint8_t> dat
   const bool of_current = mode == kCurrentMode || mode == kCurrentPositionMode;
   const bool is_mode = mode == kVelocityMode || mode == dxl::kPositionMode || mode == kTurnsMode ||
                        mode == kPwmMode || (of_current && !is_mx());
-  return is_mode && (written(at::kDriveMode) & 1 << 1) == 0;  // of dual joints only
+  return is_mode && (written(at::kDriveMode) & 1 << 1) == 0;  // dual joints only
 }
 
-// e-Manual, Goal PWM (100), Goal Current (102), Goal Velocity (104), Acceleration Limit (40) and
-// Goal Position (116): not beyond what the limits in EEPROM say.
+// Goal PWM (100), Goal Current (102), Goal Velocity (104), Acceleration Limit (40) and Goal
+// Position (116) must stay within the EEPROM limits (e-Manual).
 bool ServoDevice::within_limits(std::uint16_t address, std::span<const std::uint8_t> data) const {
   const auto inside = [&](std::uint16_t goal, std::int64_t least, std::int64_t most) {
     const Register* reg = table_.find(goal);
@@ -156,7 +156,8 @@ void ServoDevice::reset_goals() {
   goal_written_ = false;
 }
 
-// e-Manual, Bus Watchdog (98): counts instruction packets for anybody, and only with torque on.
+// e-Manual, Bus Watchdog (98): any instruction packet restarts it, for any device; it runs only
+// with torque on.
 std::uint64_t ServoDevice::deadline_us() const {
   const std::uint8_t units = byte(at::kBusWatchdog);
   if (!torque_on() || units == 0 || tripped()) return kNever_us;

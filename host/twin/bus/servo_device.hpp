@@ -6,7 +6,7 @@
 
 namespace verp::bus {
 
-/// Who a servo is before anybody wrote to it.
+/// A servo's factory identity.
 struct ServoIdentity {
   std::uint8_t id = 1;
   std::uint16_t model = dxl::kModelXm430W210;
@@ -15,12 +15,12 @@ struct ServoIdentity {
   sim::ServoRating rating{};
 };
 
-/// One virtual servo: the control table of an X-series or MX(2.0) servo over one joint of a plant.
+/// Virtual servo: the control table of an X-series or MX(2.0) servo for one joint of a plant.
 class ServoDevice final : public Device {
  public:
   ServoDevice(const ServoIdentity& identity, sim::Plant& plant, int joint);
 
-  /// e-Manual, Secondary(Shadow) ID (12): off from 253 on; the ID (7) comes first.
+  /// e-Manual, Secondary(Shadow) ID (12): off from 253 up; the ID (7) has priority.
   bool in_group(std::uint8_t id) const override {
     return byte(dxl::address::kSecondaryId) == id && id <= dxl::kMaxId && id != this->id();
   }
@@ -40,15 +40,15 @@ class ServoDevice final : public Device {
   void written(std::uint16_t address, std::uint16_t length) override;
   void restarted() override;
   void started() override;
-  /// Goals as they are after power on, or in a new mode.
+  /// Resets the goals as after power-on or a mode change.
   void reset_goals();
   void refresh_motion(const sim::ServoMeasurement& measured);
   std::uint8_t moving_status(const sim::ServoMeasurement& measured) const;
-  /// Position control, over one turn or many, current-based or not.
+  /// True for position control: single-turn, multi-turn or current-based.
   bool steers_position() const;
   bool reverse() const;
   int sign() const { return reverse() ? -1 : 1; }
-  /// An encoder's count as Present Position has it, and back.
+  /// Converts an encoder count to Present Position (shown) and back (meant_count).
   double shown(double count) const;
   std::int32_t meant_count(std::int64_t shown) const;
   void hold_here();
@@ -63,9 +63,9 @@ class ServoDevice final : public Device {
   sim::Plant& plant_;
   int joint_;
   bool fast_sync_read_;
-  std::uint8_t mode_ = dxl::kPositionMode;  ///< Operating Mode as last acted upon
+  std::uint8_t mode_ = dxl::kPositionMode;  ///< Operating Mode last applied
   bool goal_written_ = false;
-  RegisterTable stored_;  ///< by Control Table Backup, if Backup Ready
+  RegisterTable stored_;  ///< by Control Table Backup; valid if Backup Ready is set
 };
 
 }  // namespace verp::bus

@@ -4,7 +4,7 @@
 #include "host/twin/bus/servo_device.hpp"
 #include "host/twin/bus/servo_registers.hpp"
 
-// What a servo's registers make of its motor, and its motion of the registers.
+// Converts registers to the motor's set-point, and the motor's motion to registers.
 namespace verp::bus {
 
 using namespace servo;
@@ -43,7 +43,7 @@ bool ServoDevice::steers_position() const {
   return mode == dxl::kPositionMode || mode == kTurnsMode || mode == kCurrentPositionMode;
 }
 
-// e-Manual, Drive Mode (10): the other way round, about the middle of the turn.
+// e-Manual, Drive Mode (10): mirrored about the middle of the turn.
 bool ServoDevice::reverse() const {
   return (byte(at::kDriveMode) & kReverse) != 0;
 }
@@ -73,7 +73,7 @@ void ServoDevice::apply() {
   setpoint.velocity_p_gain = unsigned16(at::kVelocityPGain);
   setpoint.velocity_i_gain = unsigned16(at::kVelocityIGain);
   const std::int64_t goal_pwm = table_.get(at::kGoalPwm);
-  // In PWM mode it is the goal, in others it limits.
+  // Goal PWM is the goal in PWM mode and a limit in the other modes.
   setpoint.pwm_limit = static_cast<std::uint16_t>(
       std::min(table_.get(at::kPwmLimit),
                mode_ == kPwmMode ? table_.get(at::kPwmLimit) : std::abs(goal_pwm)));

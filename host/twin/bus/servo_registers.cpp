@@ -14,7 +14,7 @@ namespace at = dxl::address;
 using dxl::controller::Access;
 using dxl::controller::Type;
 
-constexpr std::int32_t kTurn = 1044479;  // Homing Offset's range
+constexpr std::int32_t kTurn = 1044479;  // range of Homing Offset
 constexpr std::uint32_t kGain = 16383;
 
 struct Row {
@@ -34,9 +34,9 @@ constexpr Row used(std::uint16_t address, const char* name, Type type, std::int6
   return {{address, name, type, Access::kWrite, 1, low, high, unit, ""}, initial};
 }
 
-// What both series have, under the e-Manual's names; kept() is the EEPROM. Initial values and
-// ranges: e-Manual, as control_table.hpp, of the XM430-W210. Current registers are the X-series'
-// own, Acceleration Limit the MX's.
+// Registers of both series under their e-Manual names; kept() marks EEPROM. Initial values and
+// ranges: e-Manual of the XM430-W210, as in control_table.hpp. Only the X-series has current
+// registers; only the MX series has Acceleration Limit.
 constexpr auto kRows = std::to_array<Row>({
     seen(at::kModelNumber, "model_number", Type::kU16),
     seen(at::kModelInformation, "model_information", Type::kU32),

@@ -14,29 +14,29 @@
 
 namespace verp::bus {
 
-/// What a controller at the end of a link sent and got, poll by poll, as OperatorLink and Recorder
-/// of a loop here that is to do the same once more. What it takes to be the bus, too, is added by
-/// the kind of bus:
+/// Recording of a remote controller, poll by poll: the frames it sent and the bytes it received. It
+/// is the OperatorLink and Recorder of a local loop that repeats the run. The kind of bus adds the
+/// bus functions and:
 ///  - Sent: a frame that the controller sent. Received: all that one answer brought.
-///  - kWholeTicks: catch_up() is called each time when a tick begins, so that none has to be tried.
+///  - kWholeTicks: catch_up() is called at the start of each tick, so it need not guess tick ends.
 template <class Sent_, class Received_>
 class ShadowTape {
  public:
   using Sent = Sent_;
   using Received = Received_;
   struct Poll {
-    std::vector<Sent> frames;  ///< sent since the poll before
+    std::vector<Sent> frames;  ///< sent since the previous poll
     bool comparable = true;
     std::optional<app::OperatorOrder> order;
     Received received;
     std::uint64_t now_us = 0;
   };
-  /// Where the loop here is.
+  /// Position of the local loop.
   struct Mark {
-    std::size_t played = 0;    ///< of polls
-    std::vector<Sent> frames;  ///< of the loop here, since the poll before
-    Received received;         ///< by the poll played last
-    std::size_t taken = 0;     ///< of that
+    std::size_t played = 0;    ///< polls
+    std::vector<Sent> frames;  ///< sent by the local loop since the previous poll
+    Received received;         ///< by the last poll played
+    std::size_t taken = 0;     ///< part of `received` already read
     app::OperatorOrder standing;
     std::uint64_t time_us = 0;
   };
@@ -59,10 +59,10 @@ class ShadowTape {
   Mark here;
   std::uint32_t tick = 0;
   bool ticking = false;
-  bool torn = false;  ///< the loop asked for a poll that has not been yet
+  bool torn = false;  ///< the loop asked for a poll that is not recorded yet
 
  protected:
-  /// Goes on to the next poll; false if the tape ends.
+  /// Plays the next poll; false at the end of the tape.
   template <class Same>
   bool play(Same same) {
     torn = torn || here.played == polls.size();
@@ -82,30 +82,30 @@ class ShadowTape {
   }
 };
 
-/// What every shadow is asked, whatever the bus.
+/// Bus-independent interface of a shadow.
 class Shadow {
  public:
   using Record = std::function<void(const TickRecord&, const State&, const Outputs&)>;
 
   virtual ~Shadow() = default;
-  /// Frames were lost on the link: what was sent up to the next poll can't be compared.
+  /// Frames were lost on the link, so the frames up to the next poll cannot be compared.
   virtual void damaged() = 0;
-  /// Holds from the next poll on; its flags for one tick.
+  /// Holds from the next poll on; its flags hold for one tick.
   virtual void ordered(const app::OperatorOrder& order) = 0;
-  /// Goes through all ticks of which every poll is known.
+  /// Runs all ticks whose polls are all recorded.
   virtual void catch_up() = 0;
-  /// Where the other controller first sent other frames than this one, in words; empty while it has
-  /// not.
+  /// Describes the first difference between the frames of the two controllers; empty if there is
+  /// none.
   virtual const std::string& difference() const = 0;
 };
 
-/// The controller at the end of a link, once more, here: the same control loop, given the bytes,
-/// times and orders that the other one got, a tick behind it. It brings back what no link carries
-/// (Inputs, State, Outputs of each tick) and tells whether the other one sent the same frames.
+/// Runs the remote controller's control loop a second time, locally and one tick behind. It uses
+/// the same bytes, times and orders. It recovers what no link carries (Inputs, State and Outputs of
+/// each tick) and checks that both loops sent the same frames.
 template <class Tape>
 class ShadowLoopOver final : public Shadow {
  public:
-  /// `actions`: that the other controller has.
+  /// `actions`: the remote controller's library.
   ShadowLoopOver(const Params& params, Record record, const action::Library& actions = {})
       : loop_(std::make_unique<Loop>(params, tape_, tape_, tape_, nullptr, app::Core{actions})) {
     tape_.recorder = std::move(record);
@@ -113,7 +113,7 @@ class ShadowLoopOver final : public Shadow {
   ShadowLoopOver(const ShadowLoopOver&) = delete;
   ShadowLoopOver& operator=(const ShadowLoopOver&) = delete;
 
-  // What the other controller does, in its order.
+  // Events of the remote controller, in its order.
   void sent(typename Tape::Sent frame) { next_.frames.push_back(std::move(frame)); }
   void damaged() override { next_.comparable = false; }
   void polled(typename Tape::Received received, std::uint64_t now_us) {
@@ -123,9 +123,9 @@ class ShadowLoopOver final : public Shadow {
   }
   void ordered(const app::OperatorOrder& order) override { next_.order = order; }
 
-  /// Goes through all ticks (at first: the bring-up) of which every poll is known. With
-  /// kWholeTicks: through the bring-up when the first tick begins, then through one tick each time,
-  /// and further ones whose beginning was lost on the link.
+  /// Runs all ticks (first: the bring-up) whose polls are all recorded. With kWholeTicks it runs
+  /// the bring-up when the first tick begins, then one tick per call. It runs further ticks if
+  /// their beginning was lost on the link.
   void catch_up() override {
     if constexpr (Tape::kWholeTicks) {
       const bool began = tape_.ticking;
@@ -136,7 +136,7 @@ class ShadowLoopOver final : public Shadow {
       if (tape_.torn) miss_polls(began);
       forget_played();
       if (tape_.torn) return;
-      // What was lost may have been the beginning of one more.
+      // The lost frames may include the start of another tick.
       while (!whole && !tape_.polls.empty() && try_to_run()) forget_played();
     } else {
       while (!tape_.polls.empty() && try_to_run()) forget_played();
@@ -159,17 +159,17 @@ class ShadowLoopOver final : public Shadow {
                                 : std::string("in the bring-up")) +
                        " the controller did not ask for all that this PC asks for";
   }
-  /// One tick or bring-up.
+  /// Runs one tick or one bring-up.
   void run() {
     tape_.torn = false;
     if (tape_.ticking) return loop_->tick();
-    // A controller tries to come up until it can.
+    // A controller repeats its bring-up until it succeeds.
     const bool ready = loop_->bring_up().status == app::BringUpStatus::kReady;
     tape_.ticking = ready && !tape_.torn;
   }
-  /// The same; false, and nothing happened, if the tape ends within it. Where a tick ends can't be
-  /// seen from its polls: after trouble, the next one begins with a poll that clears the line. So a
-  /// tick is tried, and tried again once more is known.
+  /// Like run(); false and no change if the tape ends first. Polls do not show where a tick ends:
+  /// after an error the next tick begins with a poll that clears the line. So the loop tries a
+  /// tick, and tries it again when more polls are known.
   bool try_to_run() {
     const Loop before(*loop_);
     const typename Tape::Mark mark = tape_.here;
@@ -185,7 +185,7 @@ class ShadowLoopOver final : public Shadow {
   std::unique_ptr<Loop> loop_;
 };
 
-/// Of a serial bus: bytes.
+/// Tape of a serial bus: bytes.
 class SerialTape : public ShadowTape<std::vector<std::uint8_t>, std::vector<std::uint8_t>> {
  public:
   static constexpr bool kWholeTicks = false;

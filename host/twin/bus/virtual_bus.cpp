@@ -123,7 +123,7 @@ std::size_t VirtualBus::arrive(std::uint64_t deadline_ns, std::uint8_t* buffer,
   return count;
 }
 
-// It may be ahead: an answer is made up when it is asked for, and begins a bit later.
+// The plant may be ahead: the bus computes an answer at the request, and the answer begins later.
 void VirtualBus::advance_plant(std::uint64_t time_us) {
   if (held_) return;
   time_us = std::max(time_us, plant_.now_us());
@@ -150,7 +150,7 @@ void VirtualBus::put_on_wire(std::vector<std::uint8_t> bytes) {
   const std::uint64_t start_ns = wire_free_ns_;
   wire_free_ns_ += bytes_ns(bytes.size());
   const auto later = std::find_if(replies_.begin(), replies_.end(), [start_ns](const Chunk& each) {
-    return each.start_ns > start_ns;  // of a Ping to all
+    return each.start_ns > start_ns;  // replies to a broadcast Ping
   });
   replies_.insert(later, {asked_ns_, start_ns, 0, std::move(bytes)});
 }
