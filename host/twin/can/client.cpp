@@ -18,16 +18,16 @@ using canopen::SdoClient;
 constexpr Address kDeviceType{0x1000, 0};
 constexpr Address kName{0x1008, 0};
 constexpr std::uint16_t kIdentityIndex = 0x1018;
-constexpr std::size_t kMostBytes = 1 << 16;      // of an object that is read
-constexpr unsigned kRequestsAtOnce = 16;         // of a scan; a queue takes so many
-constexpr std::uint32_t kStopAfter_us = 20'000;  // how long Ctrl-C may have to wait in a scan
+constexpr std::size_t kMostBytes = 1 << 16;      // limit of an object that is read
+constexpr unsigned kRequestsAtOnce = 16;         // of a scan; the size of a queue
+constexpr std::uint32_t kStopAfter_us = 20'000;  // longest wait for Ctrl-C during a scan
 
 std::uint32_t to_number(const std::vector<std::uint8_t>& data) {
   return static_cast<std::uint32_t>(
       canopen::get_le(data.data(), static_cast<unsigned>(std::min<std::size_t>(data.size(), 4))));
 }
 
-/// An interface of this PC: a port of the caller's, or (`Port` is a link::CanPort) its own.
+/// An interface of this PC: the caller's port, or its own (`Port` is link::CanPort).
 template <class Port>
 class PortBus final : public ClientBus {
  public:
@@ -45,13 +45,13 @@ class PortBus final : public ClientBus {
   Port port_;
 };
 
-/// Whether asking again may help: nobody answered, or what came was of an earlier request that was
-/// given up, so that the two ends were not at the same place.
+/// True if a retry may help: no answer, or an answer to an earlier abandoned request, so that the
+/// two ends were out of step.
 bool may_be_late(Abort why) {
   return why == Abort::kTimeout || why == Abort::kCommand || why == Abort::kToggle;
 }
 
-/// In an answer to the request for 1000h; 0 if that is a refusal or holds it in pieces.
+/// Device type in an answer to the request for 1000h; 0 if the answer is a refusal or segmented.
 std::uint32_t device_type_in(const CanFrame& frame, std::uint8_t node) {
   std::uint8_t type[4] = {};
   SdoClient client(node);
@@ -162,7 +162,7 @@ void Client::describe(NodeIdentity& identity) {
     identity.asked = stop_() ? Asked::kInterrupted : Asked::kFellSilent;
     return false;
   };
-  // 0 also if what was heard of it answered somebody else's request.
+  // 0 also if the scan heard an answer to another client's request.
   if (identity.device_type == 0 && ask(kDeviceType)) identity.device_type = to_number(data);
   if (ask(kName)) identity.name.assign(data.begin(), data.end());
   if (ask({kIdentityIndex, 1})) identity.vendor = to_number(data);

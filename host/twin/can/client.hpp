@@ -15,13 +15,13 @@
 
 namespace verp::can {
 
-/// A node that said nothing, or the interface nothing of it.
+/// The node did not answer, or the interface delivered nothing.
 class SilentError : public bus::DeviceError {
  public:
   using bus::DeviceError::DeviceError;
 };
 
-/// It answered, and that it does not do it.
+/// The node answered with an SDO abort.
 class AbortedError : public bus::DeviceError {
  public:
   AbortedError(const std::string& line, canopen::Abort why) : DeviceError(line), why_(why) {}
@@ -31,25 +31,26 @@ class AbortedError : public bus::DeviceError {
   canopen::Abort why_;
 };
 
-/// What a node says of itself.
+/// Identity objects of a node.
 struct NodeIdentity {
-  /// How far it was asked. Unless to the end, what is missing below is not known.
+  /// How far the identification came. Unless kToTheEnd, missing fields are unknown.
   enum class Asked : std::uint8_t {
     kToTheEnd,
-    kFellSilent,   ///< it had answered, and then nothing more
-    kInterrupted,  ///< by who asked
+    kFellSilent,   ///< it stopped answering
+    kInterrupted,  ///< by the caller
   };
 
   std::uint8_t node = 0;
   std::uint32_t device_type = 0;        ///< 1000h
-  std::optional<std::uint32_t> vendor;  ///< 1018h:1, as all that follow: nothing if it refused
+  std::optional<std::uint32_t> vendor;  ///< 1018h:1; as with the next two, nothing if the node
+                                        ///< refused
   std::optional<std::uint32_t> product;
   std::optional<std::uint32_t> revision;
-  std::string name;  ///< 1008h; empty if it refused
+  std::string name;  ///< 1008h; empty if the node refused
   Asked asked = Asked::kToTheEnd;
 };
 
-/// What a Client asks through: an interface of this PC, or a bus of a test. A hal::CanBus.
+/// Bus of a Client: an interface of this PC, or a test's bus. A hal::CanBus.
 class ClientBus {
  public:
   virtual ~ClientBus() = default;
@@ -61,53 +62,54 @@ class ClientBus {
 };
 static_assert(hal::CanBus<ClientBus>);
 
-/// "6064:0", as people write an object's address: both hexadecimal.
+/// "6064:0", the usual form of an object's address; both parts are hexadecimal.
 std::string to_text(canopen::Address at);
 
-/// CANopen nodes on an interface, asked by SDO, one transfer at a time; the PC has no node id and
-/// sends nothing else. What gets no answer within `timeout_us` is asked again. Throws
-/// bus::DeviceError with the abort's reason, SilentError if nobody answers; LinkError from the
-/// constructor.
+/// SDO client for the CANopen nodes on an interface, one transfer at a time. The PC has no node id
+/// and sends nothing else. It repeats a request without an answer within `timeout_us`. Throws
+/// bus::DeviceError with the abort's reason, SilentError without an answer; the constructor throws
+/// LinkError.
 ///
-/// The controller's node is asked by a channel of its own (plan::kToolSdo) where it has that: so
-/// nobody who asks by the default one takes these answers for his.
+/// It asks the controller's node over a separate channel (plan::kToolSdo) if the node has one.
+/// Clients of the default channel then do not take its answers for theirs.
 class Client {
  public:
-  static constexpr int kAttempts = 3;  ///< of a transfer that got no answer
+  static constexpr int kAttempts = 3;  ///< per unanswered transfer
 
   Client(const link::Endpoint& endpoint, std::uint32_t timeout_us);
-  /// Over a port that stays the caller's, and outlives this; `endpoint` is what it was opened on.
+  /// The caller owns the port, which must outlive the client; `endpoint` is the place it was opened
+  /// on.
   Client(link::CanPort& port, const link::Endpoint& endpoint, std::uint32_t timeout_us);
-  /// Over a bus that stays the caller's likewise; `place` is what errors call it.
+  /// The caller owns the bus likewise; errors name it `place`.
   Client(ClientBus& bus, std::string place, std::uint32_t timeout_us);
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
 
-  /// From when on `stop` says so, scan() and identify() ask nothing more.
+  /// scan() and identify() send no more requests once `stop` returns true.
   void stop_when(std::function<bool()> stop) { stop_ = std::move(stop); }
 
-  /// Every node that answers a request for 1000h to each of the 127 ids within the timeout after
-  /// the last one, by id; also one that says nothing more from then on.
+  /// Requests 1000h from all 127 ids; returns, by id, the nodes that answer within the timeout
+  /// after the last request. Includes nodes that fall silent afterwards.
   std::vector<NodeIdentity> scan();
-  /// Nothing if nobody answers.
+  /// Nothing if no node answers.
   std::optional<NodeIdentity> identify(std::uint8_t node, int attempts = kAttempts);
   std::vector<std::uint8_t> read(std::uint8_t node, canopen::Address at);
   void write(std::uint8_t node, canopen::Address at, const std::vector<std::uint8_t>& data);
 
-  /// One expedited read without a second attempt; false if nobody answered.
+  /// Makes one expedited read without a retry; false: no answer.
   bool read_once(std::uint8_t node, canopen::Address at);
 
   const std::string& place() const { return place_; }
 
  private:
-  /// By which channel.
+  /// SDO channel for this node.
   canopen::SdoChannel channel_to(std::uint8_t node);
-  /// Why it failed; kNone: it did not.
+  /// Reason of the failure; kNone: success.
   canopen::Abort upload(std::uint8_t node, canopen::Address at, int attempts,
                         std::vector<std::uint8_t>& data);
-  /// Asks for the rest, until the node falls silent.
+  /// Reads the remaining objects until the node falls silent.
   void describe(NodeIdentity& identity);
-  /// Who answers the request for 1000h, and with what; indexed by node.
+  /// Answers to the request for 1000h, indexed by node.
   std::vector<std::optional<std::uint32_t>> device_types();
   [[noreturn]] void fail(std::uint8_t node, canopen::Address at, const char* what,
                          canopen::Abort why);

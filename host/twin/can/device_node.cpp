@@ -10,7 +10,7 @@ using canopen::Direction;
 using canopen::PdoMapping;
 namespace object = canopen::cia402::object;
 
-constexpr std::uint8_t kEvery = 1;  ///< transmission type: each SYNC is answered
+constexpr std::uint8_t kEvery = 1;  ///< transmission type: answers each SYNC
 
 PdoMapping<> just(canopen::Address at, std::uint8_t bits) {
   PdoMapping<> mapping;
@@ -18,7 +18,7 @@ PdoMapping<> just(canopen::Address at, std::uint8_t bits) {
   return mapping;
 }
 
-/// With identifier and mapping, but off.
+/// A PDO with identifier and mapping, but disabled.
 template <class Record>
 Record spare(Direction direction, std::uint16_t id, const PdoMapping<>& mapping) {
   Record record(direction, id, canopen::kEventProfile, mapping);
@@ -118,7 +118,7 @@ void DriveNode::stopped() {
 void DriveNode::master_lost() {
   if (!application().connection_lost()) return;
   error_ = {canopen::ErrorCode::kHeartbeatLost, canopen::kErrorCommunication, true};
-  device().hold_error(error_.code, error_.error_register);  // the device has told of it
+  device().hold_error(error_.code, error_.error_register);  // the device has already reported it
 }
 
 void DriveNode::notice_status() {

@@ -8,10 +8,10 @@
 
 namespace verp::can {
 
-/// A CANopen device as a node of the bus: an application, and the device around it with `Setup`'s
-/// PDOs, made anew at each reset.
-///  - Setup::kSize: how many of each the device has.
-///  - Setup::prepare(objects, node): its communication objects as they are out of the box.
+/// A CANopen device as a node of the bus: an application inside a device with the PDOs of `Setup`,
+/// rebuilt at each reset.
+///  - Setup::kSize: the numbers of the device's objects.
+///  - Setup::prepare(objects, node): sets the factory values of its communication objects.
 template <class Application, class Setup>
 class DeviceNode : public Node {
  public:
@@ -43,13 +43,13 @@ class DeviceNode : public Node {
   Device& device() { return *device_; }
 
  protected:
-  /// The application, not the communication, is as out of the box.
+  /// Restores the factory state of the application, not of the communication.
   virtual void begin_anew() {}
-  /// 1010h, or 1011h: the application's settings are stored, or no longer.
+  /// 1010h or 1011h: stores the application's settings, or discards the stored ones.
   virtual void keep_application(bool) {}
-  /// NMT has stopped the node.
+  /// Called when NMT stops the node.
   virtual void stopped() {}
-  /// Its master's heartbeat (1016h) does not come.
+  /// Called when the master's heartbeat (1016h) is missing.
   virtual void master_lost() {}
 
  private:
@@ -68,7 +68,7 @@ class DeviceNode : public Node {
     if (event == canopen::NmtEvent::kResetNode) begin_anew();
     boot();
   }
-  // Who starts a node learns what is there: nothing need change before an event-driven TPDO comes.
+  // On start the node sends its event-driven TPDOs at once, because their values may never change.
   void tell_all() {
     for (std::size_t i = 0; i < Setup::kSize.tpdos; ++i) {
       if (!canopen::is_synchronous(device_->objects().tpdos[i].type())) device_->trigger(i);
@@ -88,11 +88,11 @@ class DeviceNode : public Node {
   std::uint8_t node_;
   Application application_;
   std::optional<Device> device_;
-  std::optional<typename Device::Objects> communication_;  ///< as stored by 1010h
+  std::optional<typename Device::Objects> communication_;  ///< stored by 1010h
 };
 
-/// RPDO 1 takes a controlword, TPDO 1 tells a changed statusword, as CiA 402 has it; what a robot's
-/// controller wants besides, it maps itself.
+/// As in CiA 402, RPDO 1 holds the controlword and TPDO 1 reports a changed statusword. The robot's
+/// controller maps what else it needs.
 struct DrivePdos {
   static constexpr canopen::DeviceSize kSize{.rpdos = 3, .tpdos = 2, .stores = true};
   static void prepare(canopen::CommunicationObjects<DriveApplication, kSize>& objects,
@@ -109,7 +109,7 @@ struct FootPdos {
                       std::uint8_t node);
 };
 
-/// 1000h, 1008h and 1018h of the virtual devices; serial numbers are node ids.
+/// 1000h, 1008h and 1018h of the virtual devices; the serial number is the node id.
 canopen::Identity drive_identity(std::uint16_t model, std::uint8_t node);
 canopen::Identity imu_identity(std::uint8_t node);
 canopen::Identity foot_identity(std::uint8_t node);
@@ -117,7 +117,7 @@ canopen::Identity foot_identity(std::uint8_t node);
 using ImuNode = DeviceNode<ImuApplication, ImuPdos>;
 using FootNode = DeviceNode<FootApplication, FootPdos>;
 
-/// A drive as a node: it also watches its master's heartbeat, and tells its errors.
+/// A drive as a node. It also watches its master's heartbeat and reports its errors.
 class DriveNode final : public DeviceNode<DriveApplication, DrivePdos> {
  public:
   DriveNode(const canopen::Identity& identity, std::uint8_t node, sim::Plant& plant, int joint,
@@ -132,12 +132,13 @@ class DriveNode final : public DeviceNode<DriveApplication, DrivePdos> {
   void keep_application(bool stores) override;
   void stopped() override;
   void master_lost() override;
-  /// TPDO 1 is due if it tells events and there is one; 603Fh says what 1001h does.
+  /// Triggers TPDO 1 if it is event-driven and the statusword changed; copies the error of 1001h to
+  /// 603Fh.
   void notice_status();
   void tell_status(std::uint16_t status);
   std::uint16_t told_status_ = 0;
   std::optional<DriveApplication::Settings> stored_;
-  DriveNews error_;  ///< of the drive itself, until it is gone
+  DriveNews error_;  ///< error of the drive itself, while it lasts
 };
 
 }  // namespace verp::can

@@ -12,29 +12,30 @@ namespace verp::can {
 inline constexpr std::uint16_t kGains = 0x2002;
 inline constexpr std::uint16_t kMostGain = 16383;
 
-/// What commissioning has left in a drive; CiA 402 has no objects for it.
+/// Commissioned settings of a drive for which CiA 402 has no objects.
 struct DriveSetup {
-  double counts_per_rad = 0;  ///< of its encoder, without sign
-  std::uint16_t p_gain = 0;   ///< 2002h:1 to 3, in units of sim::ServoSetpoint
+  double counts_per_rad = 0;  ///< of the encoder, unsigned
+  std::uint16_t p_gain = 0;   ///< 2002h:1 to 3, units of sim::ServoSetpoint
   std::uint16_t i_gain = 0;
   std::uint16_t d_gain = 0;
 };
 
-/// What a drive does by itself and its device must tell.
+/// An event in the drive that its device must report.
 struct DriveNews {
   canopen::ErrorCode code = canopen::ErrorCode::kNoError;
   std::uint8_t error_register = 0;
   bool any = false;
 };
 
-/// The application of a CiA 402 drive over one joint of a plant: its objects from 2000h up (a
-/// canopen::Application), and the state machine behind them.
+/// Application of a CiA 402 drive for one joint of a plant: its objects from 2000h up (a
+/// canopen::Application) and its state machine.
 ///
-/// Mode 8 only. Targets take effect when they are written, within 607Dh, and are joined by straight
-/// lines of 60C2h; before the first one since it got torque it holds where it is. Max torque
-/// (6072h) limits the duty, as Goal PWM does in a serial servo. Quick stop stops on the spot:
-/// torque goes when it stands (605Ah 1 to 3), or stays (5 to 7). Overheating and, if watched, a
-/// following error are faults; a supply out of range is a warning, as in a serial servo's Shutdown.
+/// Mode 8 only. A target, limited by 607Dh, takes effect when written. Straight lines of duration
+/// 60C2h join the targets. Without a target since torque-on, the drive holds its position. Max
+/// torque (6072h) limits the duty, as Goal PWM does in a serial servo. Quick stop stops at once; at
+/// standstill the torque goes off (605Ah 1 to 3) or stays on (5 to 7). Overheating and a watched
+/// following error are faults. A supply voltage out of range is a warning, as with a serial servo's
+/// Shutdown.
 class DriveApplication {
  public:
   DriveApplication(sim::Plant& plant, int joint, const DriveSetup& setup);
@@ -47,26 +48,26 @@ class DriveApplication {
   std::uint64_t get(canopen::Address at, std::uint8_t bits);
   void put(canopen::Address at, std::uint8_t bits, std::uint64_t value);
 
-  /// What 1010h stores.
+  /// The settings that 1010h stores.
   struct Settings {
     canopen::cia402::DriveObjects objects;
     std::uint16_t gains[3] = {};
   };
   Settings settings() const;
-  /// After restart(): as they were stored.
+  /// Restores stored settings; call it after restart().
   void restore(const Settings& settings);
 
-  /// Power on, or NMT's reset: all objects as commissioned, no torque.
+  /// Power-on or NMT reset: all objects as commissioned, no torque.
   void restart();
   void power_off();
-  /// The heartbeat of the master is gone, or NMT has stopped the node: option 6007h. True if that
-  /// is a fault; a drive that has no torque to lose has none.
+  /// The master's heartbeat is missing or NMT stopped the node: applies option 6007h. True if this
+  /// is a fault; a drive without torque has none.
   bool connection_lost();
-  /// 603Fh: what its device says is wrong.
+  /// Sets 603Fh to the device's error.
   void show_error(canopen::ErrorCode code) {
     objects_.error_code = static_cast<std::uint16_t>(code);
   }
-  /// Once a millisecond. What it returns is to be sent as EMCY.
+  /// Call once a millisecond. The device sends the returned event as EMCY.
   DriveNews work(std::uint64_t now_us);
 
   const canopen::cia402::Drive& drive() const { return drive_; }
@@ -74,11 +75,11 @@ class DriveApplication {
  private:
   void refresh();
   void control(std::uint16_t word);
-  /// After anything that may have changed its state.
+  /// Applies a possible state change.
   void settle();
   DriveNews watch(std::uint64_t now_us);
   DriveNews fault(canopen::ErrorCode code, std::uint8_t error_register, std::uint8_t error_bit);
-  /// Of the rated torque, -1 to 1.
+  /// Share of the rated torque, -1 to 1.
   double share(const sim::ServoMeasurement& measured) const;
   void hold();
   void apply();
@@ -94,12 +95,12 @@ class DriveApplication {
   canopen::cia402::FollowingMonitor following_;
   std::uint16_t gains_[3] = {};
   std::uint8_t hardware_errors_ = 0;  ///< bits of dxl::HardwareError, until a fault reset
-  std::int32_t held_count_ = 0;       ///< where it stays while it has no target to follow
-  bool target_written_ = false;       ///< since it last stopped or lost its torque
-  bool limited_ = false;              ///< 607Dh cut the target
+  std::int32_t held_count_ = 0;       ///< held position while there is no target
+  bool target_written_ = false;       ///< since the last stop or loss of torque
+  bool limited_ = false;              ///< 607Dh limited the target
   bool following_error_ = false;
   bool warned_ = false;
-  canopen::cia402::State state_ = canopen::cia402::State::kNotReady;  ///< as last acted upon
+  canopen::cia402::State state_ = canopen::cia402::State::kNotReady;  ///< last state acted upon
 };
 
 }  // namespace verp::can

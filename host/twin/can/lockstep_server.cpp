@@ -10,7 +10,8 @@
 namespace verp::can {
 namespace {
 
-/// Of the controller's own node, or to it: below the twin's clock (firmware/app/operator_node.hpp).
+/// True for frames from or to the controller's own node; the twin's clock uses lower ids
+/// (firmware/app/operator_node.hpp).
 bool is_of_controller_node(const CanFrame& frame) {
   namespace plan = canopen::plan;
   if (!canopen::is_canopen(frame)) return false;
@@ -22,7 +23,7 @@ bool is_of_controller_node(const CanFrame& frame) {
          at.service == Service::kSdoRequest || at.service == Service::kSdoResponse;
 }
 
-/// What a controller may send; others may speak on the interface as well.
+/// True for frames that a controller may send; other nodes share the interface.
 bool may_be_of_controller(const CanFrame& frame) {
   if (!canopen::is_canopen(frame)) return false;
   const canopen::Connection on = canopen::connection_of(frame.id);
@@ -32,7 +33,7 @@ bool may_be_of_controller(const CanFrame& frame) {
     case canopen::Service::kRpdo:
     case canopen::Service::kSdoRequest:
       return true;
-    default:  // what it says as a node
+    default:  // the controller's own answers as a node
       return on.node == canopen::plan::kControllerNode;
   }
 }
@@ -43,7 +44,8 @@ LockstepServer::LockstepServer(const Params& params, VirtualCan& bus, LockstepHo
     : LockstepSession(params), bus_(bus), hooks_(std::move(hooks)) {}
 
 void LockstepServer::take(const CanFrame& frame, std::vector<CanFrame>& answer) {
-  constexpr std::size_t kMostHeld = 4 * hal::kCanQueue;  // of one who never asks for the time
+  constexpr std::size_t kMostHeld = 4 * hal::kCanQueue;  // limit for a controller that never asks
+                                                         // for time
   lockstep::CanAdvance request;
   if (lockstep::take_message(frame, lockstep::kCanAdvanceId, request)) {
     return advance(request, answer);
@@ -86,8 +88,8 @@ bool LockstepServer::make_whole(const lockstep::CanAdvance& advance) {
   return is_whole(advance);
 }
 
-// A SYNC ends what is sent between two polls. On its way here it may have overtaken goals: it has
-// the highest priority.
+// A SYNC ends the frames between two polls. It has the highest priority, so it may have overtaken
+// goals on its way here.
 bool LockstepServer::send_frames(bool whole) {
   std::stable_partition(frames_.begin(), frames_.end(), [](const CanFrame& each) {
     return each.extended || each.id != canopen::kSyncId;
@@ -95,7 +97,7 @@ bool LockstepServer::send_frames(bool whole) {
   bool begins = false;
   for (const CanFrame& each : std::exchange(frames_, {})) {
     if (VirtualCan::begins_tick(each)) {
-      if (begins) continue;  // it was doubled on its way: no controller begins two
+      if (begins) continue;  // duplicated on its way: a controller begins only one tick
       if (hooks_.tick_ends && !hooks_.tick_ends()) return false;
       begins = true;
     }
@@ -107,7 +109,7 @@ bool LockstepServer::send_frames(bool whole) {
 }
 
 void LockstepServer::enclose(const CanFrame& frame) {
-  constexpr std::size_t kMostEnclosed = 4;  // who asks waits for the answer, or gives up and aborts
+  constexpr std::size_t kMostEnclosed = 4;  // a client waits for its answer, or aborts
   if (enclosed_.size() == kMostEnclosed) enclosed_.pop_front();
   enclosed_.push_back(frame);
 }
@@ -141,7 +143,7 @@ void LockstepServer::advance(const lockstep::CanAdvance& advance, std::vector<Ca
     return;
   }
   if (asks_again(advance.sequence)) {
-    // What came with a repeat are the frames of nobody: the controller sends it alone.
+    // The controller sends a repeat alone, so other frames with it are not its own.
     frames_.clear();
     answer.insert(answer.end(), last_.begin(), last_.end());
     return;

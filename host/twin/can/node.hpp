@@ -5,8 +5,8 @@
 
 namespace verp::can {
 
-/// A node of a virtual CAN bus: it hears each frame when that ends on the wire, does what it does
-/// by itself once a millisecond, and has frames to send. The plant always stands at `now_us`.
+/// A node of a virtual CAN bus. It receives each frame at the frame's end on the wire, works once a
+/// millisecond, and sends frames. The plant is always at `now_us`.
 class Node {
  public:
   virtual ~Node() = default;
@@ -16,11 +16,11 @@ class Node {
   virtual std::uint8_t id() const = 0;
   virtual void hear(const CanFrame& frame, std::uint64_t now_us) = 0;
   virtual void work(std::uint64_t now_us) = 0;
-  /// The next frame that it wants to send, if there is one.
+  /// Returns the next frame to send, if any.
   virtual bool say(CanFrame& frame, std::uint64_t now_us) = 0;
-  /// Its power comes: everything in it is as it was bought and set up, and it boots.
+  /// Power on: restores the commissioned state and boots.
   virtual void power_on() = 0;
-  /// Its power goes.
+  /// Power off.
   virtual void power_off() = 0;
 
  protected:

@@ -9,7 +9,7 @@ namespace {
 
 namespace plan = canopen::plan;
 
-/// Whether it looks like what this node sends.
+/// True if the frame looks like one that this node sends.
 bool is_sign(const CanFrame& frame, const canopen::Connection& from, int slot) {
   std::uint8_t node = 0;
   canopen::NmtState state{};

@@ -6,18 +6,18 @@
 
 namespace verp::can {
 
-/// Finds out whether somebody else plays a node of the twin's robot on the interface: the robot
-/// itself, or another twin. Its answers beside ours would be the controller's Inputs.
+/// Detects whether another device acts as a node of the twin's robot on the interface: the robot
+/// itself or another twin. Its answers would mix with ours in the controller's Inputs.
 ///
-/// It is given what others sent. The fifth heartbeat, TPDO or SDO answer of one node, as they are
-/// on a robot's bus, is proof: of random frames three look like that now and then, five hardly ever
-/// (tests/host/can/other_nodes_test.cpp).
+/// It takes the frames of others. Five heartbeats, TPDOs or SDO answers of one node, in the form
+/// used on a robot's bus, are proof. Three random frames look like this now and then, five hardly
+/// ever (tests/host/can/other_nodes_test.cpp).
 class OtherNodes {
  public:
   explicit OtherNodes(const Params& params) : nodes_(params) {}
 
   void take(const CanFrame& frame);
-  /// The first that was found; 0: none.
+  /// First detected node; 0: none.
   std::uint8_t found() const { return found_; }
 
  private:

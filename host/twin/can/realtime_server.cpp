@@ -13,7 +13,7 @@ void RealtimeServer::hear(std::span<const Heard> frames, std::uint64_t clock_us,
     in_step_since_us_ = frames.front().came_us;
     bus_.set_real_time(true);
   }
-  // By the clock, not by the frames: of a PC that is slower than they come, each is older.
+  // Follow the clock, not the frames: on a slow PC each frame is older than the one before.
   skip(clock_us);
   const std::uint64_t least_us = clock_us - std::min(clock_us, kMostBehind_us / 2);
   for (const Heard& each : frames) {

@@ -41,7 +41,7 @@ Abort SensorApplication::mappable(Address at, std::uint8_t bits, bool receive) c
   if (found != Abort::kNone) return found;
   return !receive && at.subindex != 0 && bits == 16 ? Abort::kNone : Abort::kNotMappable;
 }
-// Subindex 0 says how many.
+// Subindex 0 holds the count.
 std::uint64_t SensorApplication::get(Address at, std::uint8_t) const {
   return at.subindex == 0 ? count(at.index) : number(at.index, at.subindex - 1);
 }

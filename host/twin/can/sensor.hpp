@@ -6,8 +6,7 @@
 
 namespace verp::can {
 
-/// The application of a sensor's node: arrays of 16-bit numbers that can be read and mapped, and no
-/// more.
+/// Application of a sensor node: arrays of 16-bit numbers that can be read and mapped.
 class SensorApplication {
  public:
   canopen::Abort find(canopen::Address at, canopen::Entry& entry) const;
@@ -24,7 +23,7 @@ class SensorApplication {
   sim::Plant& plant_;
 
  private:
-  /// How many numbers an object has; 0: there is none.
+  /// Number of elements in an object; 0: no such object.
   virtual std::uint8_t count(std::uint16_t index) const = 0;
   virtual std::uint16_t number(std::uint16_t index, int i) const = 0;
 };

@@ -8,9 +8,9 @@
 
 namespace verp::can {
 
-/// Of a CAN bus: frames, of which an answer brings a burst. Between two polls only the order of
-/// frames with one identifier is the controller's: among others priorities decide. A tick ends
-/// where the next SYNC 1 is sent (LockstepHooks::tick_ends).
+/// Tape of a CAN bus: frames; an answer brings a burst. Between two polls the controller fixes only
+/// the order of frames with the same identifier; priorities decide the rest. A tick ends when the
+/// next SYNC 1 is sent (LockstepHooks::tick_ends).
 class CanTape : public bus::ShadowTape<CanFrame, std::vector<CanFrame>> {
  public:
   static constexpr bool kWholeTicks = true;

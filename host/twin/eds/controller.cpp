@@ -56,7 +56,8 @@ Object image_object(app::ImageKind kind, const char* name, bool writable) {
           .values = {{.name = name, .type = DataType::kDomain, .writable = writable}}};
 }
 
-/// A controller's communication objects where the bus has room to tell of ticks, of any node.
+/// Factory communication objects of a controller with any node id, on a bus with room to publish
+/// ticks.
 struct Fresh {
   explicit Fresh(std::uint8_t node) : objects(application, app::controller_identity(), node) {
     app::publish_ticks(objects, node, true);

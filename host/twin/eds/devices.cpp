@@ -7,8 +7,7 @@
 #include "host/twin/eds/eds.hpp"
 #include "host/twin/eds/initials.hpp"
 
-// The twin's devices. What stands in their objects out of the box is asked of two of them, which
-// differ in nothing but their node id.
+// The twin's devices. Their factory values are read from two instances that differ only in node id.
 namespace verp::eds {
 namespace {
 
@@ -46,7 +45,7 @@ Value value_of(const cia402::ObjectRow& row) {
           .mappable = row.mapping != cia402::ObjectMapping::kNone};
 }
 
-/// CiA 402's, in rising order: rows of one index are one object.
+/// Adds the CiA 402 objects in rising order; rows with the same index form one object.
 void add_profile(std::vector<Object>& objects) {
   for (std::size_t i = 0; i < cia402::kDriveRowCount; ++i) {
     const cia402::ObjectRow& row = cia402::kDriveRows[i];
@@ -85,7 +84,7 @@ Description describe(const char* file, const char* text, const canopen::Identity
 }  // namespace
 
 Description drive() {
-  constexpr std::uint16_t kModel = 402;  // of the ready robots' servo type "cia402_w210"
+  constexpr std::uint16_t kModel = 402;  // servo type "cia402_w210" of the ready robots
   const std::string most = std::to_string(can::kMostGain);
   const std::uint16_t telemetry = canopen::plan::kTelemetry.index;
   std::vector<Object> own = {

@@ -7,8 +7,7 @@
 #include "common/protocol/canopen/drive_objects.hpp"
 #include "host/twin/eds/eds.hpp"
 
-/// What stands in a device's objects out of the box, asked of two that differ in nothing but their
-/// node id: 1 and 2.
+/// Reads a device's factory values from two instances that differ only in node id: 1 and 2.
 namespace verp::eds {
 
 inline bool is_signed(DataType type) {
@@ -16,7 +15,7 @@ inline bool is_signed(DataType type) {
          type == DataType::kInteger32;
 }
 
-/// What stands there, in EDS's words; empty: nothing, or a text.
+/// Initial value in EDS notation; empty: no value, or a text.
 template <class Objects>
 std::string initial_at(canopen::Address at, DataType type, Objects& of_node_1, Objects& of_node_2) {
   canopen::Entry entry;
@@ -33,7 +32,7 @@ std::string initial_at(canopen::Address at, DataType type, Objects& of_node_1, O
   return fmt::format("$NODEID+0x{:X}", first - 1);
 }
 
-/// What changes by itself has no initial value, nor has a serial number.
+/// Values that change by themselves, and serial numbers, have no initial value.
 inline bool has_initial(std::uint16_t index, const Value& value) {
   if (value.name == "Serial number" || value.type == DataType::kVisibleString) return false;
   if (value.commissioned) return false;

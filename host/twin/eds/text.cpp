@@ -10,13 +10,13 @@ namespace {
 
 using Out = std::back_insert_iterator<std::string>;
 
-// CiA 306 wants a date and a time of day of the file's making; it is made anew whenever the objects
-// change, so these stand for the first of them.
+// CiA 306 requires the date and time of creation. The file is regenerated whenever the objects
+// change, so these are the first version's.
 constexpr const char* kDate = "11-21-2026";
 constexpr const char* kTime = "12:00AM";
 constexpr struct {
   int kbit_s;
-  bool supported;  ///< 800 is none of bxCAN's; at lower ones no tick fits its period
+  bool supported;  ///< bxCAN cannot make 800; at the slower rates no tick fits its period
 } kRates[] = {{10, false}, {20, false}, {50, false},  {125, true},
               {250, true}, {500, true}, {800, false}, {1000, true}};
 
@@ -69,7 +69,7 @@ void put_value(const std::string& section, const Value& value, Out out) {
   if (!value.low.empty()) fmt::format_to(out, "LowLimit={}\n", value.low);
   if (!value.high.empty()) fmt::format_to(out, "HighLimit={}\n", value.high);
   fmt::format_to(out, "AccessType={}\n", value.writable ? "rw" : "ro");
-  // A tool may take an empty one for 0.
+  // A tool may read an empty value as 0.
   if (!value.initial.empty()) fmt::format_to(out, "DefaultValue={}\n", value.initial);
   fmt::format_to(out, "PDOMapping={}\n\n", value.mappable ? 1 : 0);
 }

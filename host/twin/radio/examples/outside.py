@@ -58,7 +58,7 @@ class Twin:
         while self.link.connect_ex(path):
             time.sleep(0.05)
         self.rest, self.sequence, self.now_s, self.over = b"", 0, 0.0, False
-        # Hello: version 1 of the link, and no core of VERP's.
+        # Hello: version 1 of the link; this controller has no VERP core.
         self.link.sendall(write(CLOCK, 64, struct.pack("<B23x", 1)))
         if self.clock()[1][1] != 0:
             sys.exit("the twin refuses this controller")
@@ -118,7 +118,7 @@ for tick in range(int(100 * float(sys.argv[3])) if len(sys.argv) > 3 else 10**6)
     twin.tick()
     if twin.over:
         break
-    if leads and tick % 10 == 0:  # again and again: some are lost
+    if leads and tick % 10 == 0:  # repeated: some are lost
         says = b"left" if tick // 50 % 2 == 0 else b"right"
         talks += twin.say(says) == 0
     elif not leads and (message := twin.heard()):
@@ -126,6 +126,6 @@ for tick in range(int(100 * float(sys.argv[3])) if len(sys.argv) > 3 else 10**6)
         print(f"{twin.now_s:.3f} s: {message[0]} says {says.decode()}")
     goals[HEAD] = middle + LOOKS[says]
     twin.write_all(GOAL, 4, goals)
-twin.write_all(TORQUE, 1, dict.fromkeys(SERVOS, 0))  # who lets go and hangs up has ended its run
+twin.write_all(TORQUE, 1, dict.fromkeys(SERVOS, 0))  # torque off, then disconnect: the run ends
 print(f"{sys.argv[2]}: {talks} messages")
 sys.exit(talks == 0)
