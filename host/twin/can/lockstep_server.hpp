@@ -49,7 +49,7 @@ class LockstepServer : public bus::LockstepSession {
   void bring_burst(std::uint32_t timeout_us, std::size_t room);
   /// Appends the next queued frame for the controller's node; returns the room it takes.
   std::size_t bring_enclosed(std::vector<CanFrame>& answer);
-  /// Whether what came is what the controller sent.
+  /// True if the received frames are those that the controller sent.
   bool is_whole(const lockstep::CanAdvance& advance) const;
   /// The same after dropping other nodes' frames.
   bool make_whole(const lockstep::CanAdvance& advance);

@@ -12,9 +12,8 @@
 namespace verp::sim {
 namespace {
 
-/// Least principal inertia given to the engine: a 10 g cube of 8 mm. Import may leave links lighter
-/// than that (wire frames, markers); between two joints they would make the solver's matrix
-/// singular.
+/// Least principal inertia given to the engine: a 10 g cube of 8 mm. Imported links may be lighter
+/// (wire frames, markers). Between two joints they would make the solver's matrix singular.
 constexpr double kMinInertia = 1e-7;
 
 std::size_t index_of(int i) {
@@ -44,7 +43,7 @@ double lowest_point(const model::Collision& shape, const Transform& link_world) 
   return pose.translation().z() - reach;
 }
 
-/// Links that `node` passes through, one bit each: its neighbours, and what the entity exempts.
+/// Links that never collide with `node`, one bit each: its neighbours and the entity's exemptions.
 std::uint64_t passes(const model::Entity& entity, int node) {
   std::uint64_t links = 0;
   const auto pair = [&](int a, int b) {
@@ -65,8 +64,8 @@ void set_pose(dBodyID body, const Transform& pose, const Vec3& com_m) {
   dBodySetRotation(body, rotation);
 }
 
-/// Level frame of both soles, in body coordinates: z their mean normal, x their mean heading,
-/// between them.
+/// Level frame midway between the soles, in body coordinates: z is their mean normal, x their mean
+/// heading.
 Transform between_soles(const model::Entity& entity, const std::vector<Transform>& link_body) {
   Vec3 normal = Vec3::Zero();
   Vec3 heading = Vec3::Zero();
@@ -267,7 +266,7 @@ void Body::read_joints() {
 
 void Body::drive(int joint, const Drive& drive) {
   // ODE solves  rate = speed - CFM * torque:  the torque-speed line, implicit in the new rate. A
-  // torque that no speed changes is a very flat line.
+  // constant torque is a very flat line.
   constexpr double kLeastSlope = 1e-6;
   const dJointID hinge = hinges_[index_of(joint)];
   const bool idle = drive.standstill_n_m == 0 && drive.slope_n_m_s <= 0;
@@ -283,8 +282,8 @@ void Body::meter(int joint) {
   dJointSetFeedback(hinge, &feedback_.emplace_back());
 }
 
-/// The link that a hinge moves is the first of its two; a body's own point in ODE is its centre of
-/// mass.
+/// Force and torque on the joint's child link, which is the hinge's first body. ODE refers them to
+/// that body's centre of mass.
 JointLoad Body::load(int joint) const {
   const dJointFeedback* given = dJointGetFeedback(hinges_[index_of(joint)]);
   if (given == nullptr) return {};
@@ -295,7 +294,7 @@ JointLoad Body::load(int joint) const {
 }
 
 std::vector<double> Body::inertias_kg_m2() const {
-  // Of each link and all beyond it, about the body's origin: from the tips inwards.
+  // Sums of each link and all links beyond it, about the body's origin, from the tips inwards.
   struct Sum {
     double mass_kg = 0;
     Vec3 moment_kg_m = Vec3::Zero();

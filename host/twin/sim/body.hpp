@@ -13,20 +13,20 @@ namespace verp::sim {
 std::vector<Transform> link_poses(const model::Entity& entity, const Transform& body_world,
                                   const std::vector<double>& joint_rad);
 
-/// The body pose at which the robot stands on the ground: soles level (the mean of both), their
-/// midpoint over start_m, their mean heading along yaw, and the lowest point of any shape gap_m
-/// above the ground. A robot without legs: body level, over start_m.
+/// Body pose in which the robot stands on the ground. Soles level (their mean), their midpoint over
+/// start_m, their mean heading along yaw, the lowest point of any shape gap_m above the ground.
+/// Without legs: body level, over start_m.
 Transform standing_pose(const model::Entity& entity, const std::vector<double>& joint_rad,
                         const Vec3& start_m, double yaw_rad, double gap_m);
 
-/// Moves a pose straight up or down until the lowest point of any shape is gap_m above the ground.
+/// Moves a pose vertically until the lowest point of any shape is gap_m above the ground.
 Transform resting(const model::Entity& entity, const std::vector<double>& joint_rad,
                   Transform body_world, double gap_m);
 
-/// The leg's limb (0 left, 1 right), or null.
+/// Limb of a leg (0 left, 1 right), or null.
 const model::Limb* find_leg(const model::Entity& entity, int foot);
 
-/// What a joint gave the link that it moves in the last step, about that point.
+/// Load of a joint on its child link in the last step, about `point_world_m`.
 struct JointLoad {
   Vec3 point_world_m = Vec3::Zero();
   Vec3 force_world_n = Vec3::Zero(), torque_world_n_m = Vec3::Zero();
@@ -44,27 +44,26 @@ class Body {
 
   /// Sets the pose, at rest.
   void place(const Transform& body_world, const std::vector<double>& joint_rad);
-  /// Reads joint angles and rates; call after every step.
+  /// Reads joint angles and rates; call it after every step.
   void read_joints();
   void drive(int joint, const Drive& drive);
-  /// From the next step on load() tells what this joint bears.
+  /// Lets load() report this joint from the next step on.
   void meter(int joint);
   JointLoad load(int joint) const;
-  /// What each joint turns as it stands now: its link and all beyond, about its axis.
+  /// Inertia of each joint in the present pose: its link and all beyond, about its axis.
   std::vector<double> inertias_kg_m2() const;
-  /// Another mass of the same shape: the inertia goes with it.
+  /// Changes the mass and scales the inertia; the shape stays.
   void set_mass(int node, double mass_kg);
-  /// About the link's x, y or z. Throws std::invalid_argument unless it stays
-  /// positive definite.
+  /// About the link's x, y or z. Throws std::invalid_argument unless it stays positive definite.
   void set_inertia(int node, int axis, double inertia_kg_m2);
-  /// Moves all of it as one, at the speeds that it has.
+  /// Moves the whole robot; its velocities stay.
   void move(const Transform& by_world);
-  /// Adds to the velocity of all of it, turning about the body's origin.
+  /// Adds a rigid velocity to the whole robot; the rotation is about the body's origin.
   void add_velocity(const Vec3& linear_world_m_s, const Vec3& angular_world_rad_s);
   dBodyID ode_body(int node) const { return links_[static_cast<std::size_t>(node)].body; }
-  /// Of the link's shapes.
+  /// Tags of the link's shapes.
   std::vector<GeomTag*> tags(int node) const;
-  /// Fixes the body to the world where it is, as a robot stand does.
+  /// Fixes the body to the world in its present pose, like a robot stand.
   void hold();
   void release();
   bool held() const { return hold_ != nullptr; }
@@ -90,7 +89,7 @@ class Body {
  private:
   struct Link {
     dBodyID body = nullptr;
-    Vec3 com_m = Vec3::Zero();  ///< ODE's body frame sits here, parallel to the link frame
+    Vec3 com_m = Vec3::Zero();  ///< origin of ODE's body frame, which is parallel to the link frame
     double mass_kg = 0;
     Mat3 inertia_kg_m2 = Mat3::Zero();  ///< about the centre of mass, link axes
   };
@@ -104,7 +103,7 @@ class Body {
   std::vector<Link> links_;
   std::vector<dJointID> hinges_;
   std::vector<dGeomID> geoms_;
-  std::deque<dJointFeedback> feedback_;  ///< of the joints that are metered; ODE points there
+  std::deque<dJointFeedback> feedback_;  ///< of the metered joints; ODE points to these
   dJointID hold_ = nullptr;
   double mass_kg_ = 0;
   std::vector<double> angle_rad_;

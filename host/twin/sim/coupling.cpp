@@ -5,8 +5,8 @@
 namespace verp::sim {
 namespace {
 
-/// As stiff as an end stop; softer in steps of more than 1 ms, in which it would outweigh a rotor
-/// and diverge.
+/// As stiff as an end stop; softer in steps above 1 ms, where it would outweigh a rotor and
+/// diverge.
 struct Coupling {
   explicit Coupling(double step_s) {
     constexpr double kStep_s = 0.001, kStiffness_n_m = 500.0, kDamping_n_m_s = 1.0;
@@ -15,7 +15,7 @@ struct Coupling {
     slope_n_m_s = softer * kDamping_n_m_s + step_s * stiffness_n_m;
   }
   double stiffness_n_m;
-  double slope_n_m_s;  ///< what it gives a joint's speed to work against, at the speed itself
+  double slope_n_m_s;  ///< slope over the joint's own new speed
 };
 
 }  // namespace

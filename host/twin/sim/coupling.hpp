@@ -5,20 +5,21 @@
 #include "host/robot/model/entity.hpp"
 #include "host/twin/sim/body.hpp"
 
-/// The gears, belts or rods by which one motor turns two joints: the driver's, and the follower's.
+/// Gears, belts or rods through which one motor turns two joints: the driver's and the follower's.
 namespace verp::sim {
 
-/// Puts followers where their drivers take them.
+/// Sets followers to the angles that their drivers give them.
 void lead(const model::Entity& entity, std::vector<double>& joint_rad);
 
-/// The joint as its servo has it. A follower has no rotor and gears, only its bearing; and of a
-/// rotor that has followers the coupling already carries a part (couplings()).
+/// The joint as its servo sees it. A follower has a bearing but no rotor or gears. For a driver,
+/// the coupling already carries part of the rotor's inertia (couplings()).
 model::Joint joint_at_servo(const model::Entity& entity, std::size_t j, double step_s);
 
-/// A spring and damper between a follower and where its driver takes it, which gives the driver as
-/// much back. Each end is a line in its own new speed and takes the other's as it was: ODE has no
-/// row for four links. Where both ends speed up together each seems heavier by step * slope, seen
-/// from its own side, of which the driver's rotor is relieved; so that must be less than a rotor.
+/// Spring and damper between a follower and the angle its driver gives it, with equal reaction on
+/// the driver. Each end is a line in its own new speed and uses the other's old speed, because ODE
+/// has no constraint row for four links. If both ends accelerate together, each seems heavier by
+/// step * slope, seen from its own side. joint_at_servo() subtracts this from the driver's rotor,
+/// so it must be less than a rotor.
 std::vector<Drive> couplings(const model::Entity& entity, const Body& body, double step_s);
 
 }  // namespace verp::sim

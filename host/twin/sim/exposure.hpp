@@ -7,18 +7,18 @@
 
 namespace verp::sim {
 
-/// When cameras looked, and where everything was at that moment: pictures are made of it later, by
-/// whoever draws. Nothing of a run depends on it.
+/// When cameras took a picture, and all poses at that moment, from which a renderer draws it later.
+/// A run does not depend on exposures.
 struct Exposure {
   std::uint64_t time_us = 0;         ///< simulated
-  std::vector<std::size_t> cameras;  ///< of Entity::cameras
-  std::size_t robot = 0;             ///< whose: of the world's robots
-  /// Of each robot, in the order in which they came into the world, each of its nodes.
+  std::vector<std::size_t> cameras;  ///< indices in Entity::cameras
+  std::size_t robot = 0;             ///< index of the cameras' robot in the world
+  /// Nodes of each robot, in the order in which robots joined the world.
   std::vector<std::vector<model::Transform>> link_world;
-  std::vector<model::Transform> body_world;  ///< of what can move in the world
+  std::vector<model::Transform> body_world;  ///< objects that can move
 };
 
-/// Opens at whole periods of simulated time, in the physics step that ends there or first after.
+/// Opens at whole periods of simulated time, in the physics step that ends then or first after.
 class Shutter {
  public:
   explicit Shutter(double rate_hz) : rate_hz_(rate_hz) {}

@@ -8,24 +8,24 @@
 #include "host/twin/sim/random.hpp"
 #include "host/twin/sim/world.hpp"
 
-/// A laser range finder: one ray, or many in a plane, by ODE's rays.
+/// Laser range finder: one ray, or many in a plane, traced by ODE.
 namespace verp::sim {
 
 struct Scan {
-  std::uint64_t time_us = 0;   ///< simulated, when it was taken
-  std::size_t laser = 0;       ///< of Entity::lasers
-  std::vector<float> range_m;  ///< from the first angle to the last; inf: nothing within range
+  std::uint64_t time_us = 0;   ///< simulated time of the scan
+  std::size_t laser = 0;       ///< index in Entity::lasers
+  std::vector<float> range_m;  ///< from the first angle to the last; inf: nothing in range
 };
 
 class LaserModel {
  public:
-  /// `owner` and the sensor's link are what its rays pass through: its own housing.
+  /// Rays pass through the sensor's own link of `owner`, which is its housing.
   LaserModel(const model::LaserSensor& sensor, std::size_t index, int owner, bool noise,
              Random random);
 
-  /// Takes a scan if one is due by now; `link` is its link's pose in the world. Scans are due at
-  /// whole periods of simulated time, in the physics step that ends there or first after. True:
-  /// there is a new scan(), which was taken its latency ago.
+  /// Takes a scan if one is due; `link` is its link's pose in the world. Scans are due at whole
+  /// periods of simulated time, in the physics step that ends then or first after. True: scan() is
+  /// new; it was taken one latency ago.
   bool sample(const World& world, const Transform& link);
   const Scan& scan() const { return scan_; }
 

@@ -8,52 +8,50 @@
 #include "common/io/io.hpp"
 #include "host/twin/sim/robot.hpp"
 
-/// Scores a walk: how far, how straight, how well balanced. Reads the controller's Outputs and the
-/// twin's truth; neither knows of it.
+/// Scores a walk by distance, straightness and balance, from the controller's Outputs and the
+/// twin's truth.
 namespace verp::sim {
 
-/// Of one joint's motor, |torque| / stall torque over control ticks.
+/// |torque| / stall torque of a joint's motor over control ticks.
 struct TorqueUse {
   double mean = 0, peak = 0;
 };
 
-/// The numbers of `verp walk --json` that physics decides. What nothing was measured of has no
-/// value.
+/// The physics results of `verp walk --json`. Without a measurement a number has no value.
 struct WalkMetrics {
-  double duration_s = 0;  ///< from the first tick on
+  double duration_s = 0;  ///< from the first tick
   double walk_s = 0;      ///< in the three phases of the gait
-  /// Length of the way the midpoint of the soles went while walking, measured from cycle to cycle:
-  /// sway and the single step don't count, curves and sideways steps do.
+  /// Path length of the soles' midpoint while walking, measured from cycle to cycle. Curves and
+  /// sideways steps count; sway and a single step do not.
   double distance_m = 0;
   std::optional<double> speed_mean_m_s;  ///< distance_m / walk_s
-  /// Transition phase only, without its first and last two cycles, if anything is left then.
+  /// Transition phase without its first and last two cycles, if anything remains.
   std::optional<double> speed_steady_m_s;
-  /// What of it is the carrying sole sliding along the way; what else differs from the speed that
-  /// was asked are steps that end elsewhere than planned.
+  /// Part of it due to the carrying sole sliding along the path. The remaining difference from the
+  /// commanded speed comes from steps that end off plan.
   std::optional<double> slip_steady_m_s;
   double ahead_m = 0;          ///< along the heading at the walk's start; backward is negative
-  double lateral_drift_m = 0;  ///< to the left of the line along the heading at the walk's start
+  double lateral_drift_m = 0;  ///< to the left of that heading line
   double yaw_drift_deg = 0;    ///< of the body since the walk's start, turns counted
   bool fallen = false;
-  /// Ground-plane distance from the ZMP measured by the feet (mean of a control tick) to the
-  /// centroid of the supporting sole; in double support, of the sole about to carry.
+  /// Ground-plane distance from the measured ZMP (mean of a control tick) to the centroid of the
+  /// supporting sole; in double support, of the next carrying sole.
   std::optional<double> zmp_bias_mean_mm;
   std::array<std::optional<double>, 16> zmp_bias_by_state_mm{};
-  /// Part of (joint, physics step) pairs with duty at its limit, while walking; and of the worst
-  /// joint's steps.
+  /// Share of (joint, physics step) pairs with duty at its limit while walking; and the worst
+  /// joint's share.
   std::optional<double> servo_saturation;
   std::optional<double> servo_saturation_worst;
   int servo_saturation_worst_joint = 0;
-  /// Of each joint, while walking; empty: it did not walk.
+  /// Per joint while walking; empty: it did not walk.
   std::vector<TorqueUse> torque_use;
-  /// While walking: what the servos drew from the supply, and their work on the joints. Nobody
-  /// counts what controller and sensors draw.
+  /// While walking: energy of the servos from the supply, and their work on the joints. Controller
+  /// and sensors are not counted.
   double supply_energy_j = 0, joint_work_j = 0;
-  /// The same over weight and distance_m: energy that it takes to bring one newton one metre
-  /// further. None of a way too short to tell.
+  /// The same per weight and distance_m: energy to move one newton by one metre. No value if the
+  /// path is too short.
   std::optional<double> cost_of_transport, cost_of_transport_mechanical;
-  /// Control ticks while walking in which the robot touched itself, and the links that did so last;
-  /// empty: none.
+  /// Control ticks with self-contact while walking, and the last two links involved; empty: none.
   std::uint64_t self_contact_ticks = 0;
   std::array<std::string, 2> self_contact_links;
 };
@@ -62,8 +60,8 @@ struct WalkMetrics {
 struct SeriesRow {
   double t_s = 0;
   std::uint8_t phase = 0, state = 0, stance = 0;  ///< Outputs
-  std::vector<double> goal_rad;                   ///< what the controller asked for
-  std::vector<double> joint_rad;                  ///< what became of it so far
+  std::vector<double> goal_rad;                   ///< the controller's goals
+  std::vector<double> joint_rad;                  ///< angles reached so far
   std::vector<double> torque_use;
   Vec3 body_world_m = Vec3::Zero();
   Vec3 body_rpy_rad = Vec3::Zero();
@@ -78,28 +76,28 @@ struct SeriesRow {
   std::vector<Vec2> support_world_m;
 };
 
-/// What the meter reads from the twin once per control tick.
+/// The meter's input from the twin, once per control tick.
 struct Observation {
   Truth truth;
   FootLoads loads;                               ///< since the last observation
   std::uint64_t steps = 0;                       ///< physics steps since the start
-  std::vector<std::uint64_t> saturated_steps;    ///< of each joint, since the start
+  std::vector<std::uint64_t> saturated_steps;    ///< per joint, since the start
   std::uint64_t self_contact_steps = 0;          ///< since the start
-  std::array<int, 2> self_contact_nodes{};       ///< of the last of them
+  std::array<int, 2> self_contact_nodes{};       ///< of the last such step
   double supply_energy_j = 0, joint_work_j = 0;  ///< since the start
   double weight_n = 0;
 };
 
-/// Takes the robot's foot loads: one observer per robot.
+/// Takes the robot's foot loads, so a robot can have only one observer.
 Observation observe(TwinRobot& robot);
 
 class WalkMeter {
  public:
-  /// Without keep_series only the numbers are kept.
+  /// Without keep_series, keeps only the numbers.
   explicit WalkMeter(const model::Entity& entity, bool keep_series = true);
 
-  /// Once per control tick, after the controller's step: the world it acts on, and what it put out
-  /// now.
+  /// Call once per control tick, after the controller's step, with the world that it acted on and
+  /// its new outputs.
   void tick(const Observation& seen, const Outputs& outputs,
             const std::optional<Vec2>& zmp_planned_world_m = {});
 
@@ -107,13 +105,13 @@ class WalkMeter {
   const std::vector<SeriesRow>& series() const { return series_; }
 
  private:
-  struct Mark {  ///< a cycle's beginning
+  struct Mark {  ///< start of a cycle
     double t_s;
     double path_m;
     double slip_m;
     int phase;
   };
-  struct Pending {  ///< double support, until it is known which foot carries next
+  struct Pending {  ///< double support, until the next carrying foot is known
     int state;
     std::array<double, 2> distance_mm;
   };
@@ -139,7 +137,7 @@ class WalkMeter {
   bool started_ = false;
   double first_s_ = 0;
   Observation last_;
-  Outputs previous_;  ///< in force during the tick that has just passed
+  Outputs previous_;  ///< in force during the past tick
   bool walking_ = false;
   bool ever_walked_ = false;
   double walk_s_ = 0;
@@ -151,7 +149,7 @@ class WalkMeter {
   Vec2 last_mark_m_ = Vec2::Zero();
   Vec2 here_m_ = Vec2::Zero();
   double path_m_ = 0, slip_m_ = 0;  ///< up to last_mark_m_
-  Vec2 slid_m_ = Vec2::Zero();      ///< the carrying sole, since then
+  Vec2 slid_m_ = Vec2::Zero();      ///< slip of the carrying sole since then
   std::vector<Mark> marks_;
   std::vector<Pending> pending_;
   std::array<double, 16> bias_sum_mm_{};

@@ -6,10 +6,10 @@
 
 namespace verp::sim {
 
-/// Where the plan has the ZMP now, on the twin's ground: what the measured one is held against.
-/// `gait` is the controller's, after its tick. The plan lives in the gait's own walk frame, so it
-/// is placed by the foot that carries or is about to: as far ahead of and beside the true sole as
-/// it is of the planned foothold. Between the two soles while the plan names no such foot; nothing
+/// The planned ZMP now, in the twin's world, to compare with the measured one. `gait` is the
+/// controller's state after its tick. The plan uses the gait's walk frame, so it is aligned by the
+/// foot that carries or is about to. The result has the same offset from the true sole as the plan
+/// has from the planned foothold. In double support the midpoint of both soles is used. Nothing
 /// while the gait stands.
 std::optional<Vec2> planned_zmp_world_m(const Tuning& tuning, const gait::GaitState& gait,
                                         const Truth& truth);

@@ -2,13 +2,11 @@
 #include <array>
 #include <cstdint>
 
-/// The border between virtual devices, which speak bytes (host/twin/bus), and the physics that
-/// gives them something to say (host/twin/sim). Registers only: no struct passes to the controller
-/// by this way.
+/// Interface between the virtual devices, which speak bytes (host/twin/bus), and the physics
+/// (host/twin/sim). It carries register values only; no struct reaches the controller this way.
 namespace verp::sim {
 
-/// What a servo's control table tells its motor control; counts and units of an X-series/MX(2.0)
-/// control table.
+/// Inputs of a servo's motor control, in counts and units of an X-series/MX(2.0) control table.
 enum class ServoMode : std::uint8_t { kPosition, kVelocity, kCurrent, kPwm };
 /// As in Moving Status (123).
 enum class ProfileKind : std::uint8_t { kStep, kRectangular, kTriangular, kTrapezoidal };
@@ -16,20 +14,20 @@ enum class ProfileKind : std::uint8_t { kStep, kRectangular, kTriangular, kTrape
 struct ServoSetpoint {
   bool torque_on = false;
   std::int32_t goal_count = 0;
-  std::uint16_t p_gain = 800;  ///< register value; the loop uses p/128, duty 885 is full
+  std::uint16_t p_gain = 800;  ///< register value; the loop uses p/128; duty 885 is full
   std::uint16_t i_gain = 0;    ///< i/65536
   std::uint16_t d_gain = 0;    ///< d/16
   std::uint16_t pwm_limit = 885;
-  std::uint32_t profile_ms = 0;  ///< time-based profile: how long the way takes; 0: velocity-based
-  double accelerate_ms = 0;      ///< of it, at either end; 0: a straight line
-  double profile_count_s = 0;    ///< velocity-based profile: its top speed; 0: a step
-  double accelerate_count_s2 = 0;  ///< and its acceleration, of velocity mode too; 0: at once
+  std::uint32_t profile_ms = 0;  ///< time-based profile: duration of the motion; 0: velocity-based
+  double accelerate_ms = 0;      ///< part of it at each end; 0: a straight line
+  double profile_count_s = 0;    ///< velocity-based profile: top speed; 0: a step
+  double accelerate_count_s2 = 0;  ///< its acceleration, also in velocity mode; 0: at once
   ServoMode mode = ServoMode::kPosition;
   double goal_count_s = 0;               ///< velocity mode
   double goal_a = 0;                     ///< current mode
   double goal_pwm = 0;                   ///< PWM mode
-  double current_limit_a = -1;           ///< position mode: no more than that; negative: any
-  std::uint16_t velocity_p_gain = 100;   ///< the loop uses p/128, of 0.229 rev/min
+  double current_limit_a = -1;           ///< position mode: current limit; negative: none
+  std::uint16_t velocity_p_gain = 100;   ///< the loop uses p/128, per 0.229 rev/min
   std::uint16_t velocity_i_gain = 1920;  ///< i/65536
 };
 
@@ -40,15 +38,15 @@ struct ServoMeasurement {
   double current_a = 0;
   double temperature_c = 25;
   double voltage_v = 12;
-  double trajectory_count = 0;    ///< where the profile stands
-  double trajectory_count_s = 0;  ///< and how fast it goes
+  double trajectory_count = 0;    ///< position of the profile
+  double trajectory_count_s = 0;  ///< speed of the profile
   ProfileKind profile = ProfileKind::kStep;
   bool profile_ongoing = false;
 };
 
-/// What a servo gives at full duty while it stands, by its maker's figures; 0: not known. And the
-/// supply it is made for: it tells an input voltage error outside 9.5 to 16 V if that is 12 V
-/// (e-Manual, XM430-W210, as it comes out of the box), in proportion if it is another.
+/// Stall torque and current at full duty, from the maker; 0: unknown. Nominal supply: a 12 V servo
+/// reports an input voltage error outside 9.5 to 16 V (e-Manual, XM430-W210, factory setting). The
+/// limits of other servos scale in proportion.
 struct ServoRating {
   double torque_n_m = 0;
   double current_a = 0;
@@ -64,9 +62,9 @@ struct ImuMeasurement {
   std::array<std::int16_t, 3> accel_count{};
 };
 
-/// One robot in a world. Joint indices are those of Entity and Params. Time is simulated, in
-/// microseconds since the world began. A bus asks for a time by advance_to(); whether it alone
-/// moves the world then, or others have to ask as well, it does not know.
+/// One robot in a world. Joint indices are those of Entity and Params. Time is simulated
+/// microseconds since the world began. A bus requests a time with advance_to(). It does not know
+/// whether it alone moves the world or others must request the time too.
 class Plant {
  public:
   virtual ~Plant() = default;
@@ -77,7 +75,7 @@ class Plant {
   virtual ServoMeasurement measure(int joint) = 0;
   virtual ServoRating rating(int) const { return {}; }
   virtual ImuMeasurement imu() = 0;
-  /// Normal force counts of one foot's sensors: front-left, front-right, back-left, back-right.
+  /// Normal force counts of one foot: front-left, front-right, back-left, back-right.
   virtual std::array<std::uint16_t, 4> foot_counts(int foot) = 0;
 };
 

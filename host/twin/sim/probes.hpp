@@ -10,32 +10,32 @@
 #include "host/twin/sim/random.hpp"
 #include "host/twin/sim/world.hpp"
 
-/// Sensors that a robot's file declares and no bus carries: force and torque, contact, ground
-/// truth. Each is sampled at whole periods of simulated time, in the physics step that ends there
-/// or first after; nothing of a run depends on it.
+/// Sensors that a robot's file declares but no bus carries: force-torque, contact, ground truth.
+/// Each is sampled at whole periods of simulated time, in the physics step that ends then or first
+/// after. A run does not depend on them.
 namespace verp::sim {
 
-/// In the sensor's axes, about its point.
+/// In the sensor's axes, about its origin.
 struct WrenchReading {
-  std::uint64_t time_us = 0;  ///< simulated, when it was measured
-  std::size_t sensor = 0;     ///< of Entity::force_torques
+  std::uint64_t time_us = 0;  ///< simulated time of the measurement
+  std::size_t sensor = 0;     ///< index in Entity::force_torques
   Vec3 force_n = Vec3::Zero(), torque_n_m = Vec3::Zero();
 };
 
 struct Touch {
-  std::string other;  ///< a link of its own, an object, "world" (what never moves), "robot"
+  std::string other;  ///< a link of its own, an object, "world" (static things), "robot"
   Vec3 position_world_m = Vec3::Zero();
   Vec3 force_world_n = Vec3::Zero();  ///< on the link
 };
 struct ContactReading {
   std::uint64_t time_us = 0;
-  std::size_t sensor = 0;  ///< of Entity::contacts
+  std::size_t sensor = 0;  ///< index in Entity::contacts
   std::vector<Touch> touches;
 };
 
 struct TruthReading {
   std::uint64_t time_us = 0;
-  std::size_t sensor = 0;  ///< of Entity::truths
+  std::size_t sensor = 0;  ///< index in Entity::truths
   Transform world_sensor = Transform::Identity();
   Vec3 velocity_m_s = Vec3::Zero(), rate_rad_s = Vec3::Zero();  ///< in the sensor's axes
 };
@@ -48,12 +48,13 @@ struct ProbeReadings {
 
 class Probes {
  public:
-  /// Has the body meter the joints that it wants; `owner` is the robot in the world.
+  /// Meters the joints it needs in `body`; `owner` is the robot's number in the world.
   Probes(const model::Entity& entity, Body& body, int owner, bool noise, std::uint64_t seed);
 
-  /// After each step.
+  /// Call after each step.
   void sample(const World& world, const Body& body);
-  /// Those that could be had since they were last asked for; where nobody asks the oldest go.
+  /// Readings that became available since the last call; if nobody takes them, the oldest are
+  /// dropped.
   ProbeReadings take();
 
  private:

@@ -5,18 +5,18 @@
 
 namespace verp::sim {
 
-/// A servo's trajectory to its goal, in counts: e-Manual, "What is the Profile", and Profile
-/// Velocity (112). Jerk is not limited here.
+/// A servo's trajectory to its goal, in counts (e-Manual, "What is the Profile" and Profile
+/// Velocity (112)). Jerk is not limited here.
 class Profile {
  public:
   explicit Profile(double count) : goal_count_(count), count_(count) {}
 
-  /// It is there, and goes on at that speed.
+  /// Sets position and speed and ends the profile.
   void stand(double count, double speed_count_s = 0);
-  /// A goal that differs from the one before; step_s is the loop's period, in which a step is made.
+  /// Starts a new goal. step_s is the loop's period, the duration of a step profile.
   void begin(const ServoSetpoint& setpoint, double step_s);
   void advance(double step_s);
-  /// In velocity mode: towards that speed, `accelerate_count_s2` at most; 0: at once.
+  /// Velocity mode: accelerates to that speed with at most `accelerate_count_s2`; 0: at once.
   void follow_speed(double goal_count_s, double accelerate_count_s2, double step_s);
 
   double goal_count() const { return goal_count_; }
@@ -34,7 +34,7 @@ class Profile {
 
   double goal_count_;
   double count_;
-  double line_count_s_ = 0;  ///< of a straight one
+  double line_count_s_ = 0;  ///< of a straight profile
   double speed_count_s_ = 0;
   double top_count_s_ = 0;
   double accelerate_count_s2_ = 0;

@@ -32,7 +32,7 @@ Thing thing_of(TwinRobot& robot, const std::string& prefix, int node) {
   return thing;
 }
 
-/// An object that moves: it stands by itself.
+/// An object that moves on its own.
 Thing thing_of(Scenery& scenery, std::size_t index) {
   const Scenery::Item& item = scenery.items()[index];
   const dBodyID body = item.body;
@@ -65,7 +65,7 @@ Thing thing_of(Scenery& scenery, std::size_t index) {
   return thing;
 }
 
-/// ODE takes away this part of a speed in each step.
+/// Share of a speed that ODE removes in each step.
 double lost_per_step(double damping_1_s, double step_s) {
   return -std::expm1(-damping_1_s * step_s);
 }

@@ -9,8 +9,8 @@
 #include "host/twin/sim/scenery.hpp"
 #include "host/twin/sim/world.hpp"
 
-/// Every number of a world's physics by name, to be read and set while it runs, and the hand that
-/// pushes. Reading changes nothing. What is set acts from the next step on.
+/// Named access to every number of a world's physics while it runs, and external pushes. Reading
+/// changes nothing. A new value acts from the next step on.
 namespace verp::sim {
 
 /// One rigid thing: a robot's link, or an object of the world.
@@ -21,47 +21,47 @@ struct Thing {
   std::function<Transform()> pose;
   std::function<void(double mass_kg)> set_mass;
   std::function<void(int axis, double inertia_kg_m2)> set_inertia;
-  /// Of things that stand by themselves; a link is where its robot has it.
+  /// Only free-standing things; a link follows its robot.
   std::function<void(const Transform& by_world)> move;
   std::function<void(const Vec3& linear_world_m_s, const Vec3& angular_world_rad_s)> add_velocity;
 
-  Vec3 force_world_n = Vec3::Zero(), torque_world_n_m = Vec3::Zero();  ///< until they are changed
+  Vec3 force_world_n = Vec3::Zero(), torque_world_n_m = Vec3::Zero();  ///< until changed
   Vec3 impulse_world_n_s = Vec3::Zero();                               ///< for the next step
   double linear_damping_1_s = 0, angular_damping_1_s = 0;
 
   Vec3 applied_n = Vec3::Zero(), applied_n_m = Vec3::Zero();  ///< in the last step
-  Vec3 given_n_s = Vec3::Zero();                              ///< all in all
+  Vec3 given_n_s = Vec3::Zero();                              ///< total
   Vec3 velocity_m_s = Vec3::Zero(), rate_rad_s = Vec3::Zero();
   Vec3 acceleration_m_s2 = Vec3::Zero(), angular_rad_s2 = Vec3::Zero();
 };
 
 class Quantities final : private Actor {
  public:
-  /// The world must outlive them.
+  /// The world must outlive this object.
   explicit Quantities(World& world);
   ~Quantities() override;
   Quantities(const Quantities&) = delete;
   Quantities& operator=(const Quantities&) = delete;
 
-  /// `prefix` stands before the names of its links and joints, to tell robots apart ("red.").
+  /// `prefix` precedes the names of its links and joints, to tell robots apart ("red.").
   void add(TwinRobot& robot, const std::string& prefix = "");
 
-  /// Of the world's objects: those that move as things, the others by their surface.
+  /// Adds the world's objects: moving ones as things, the others by their surface.
   void add(Scenery& scenery);
 
   const std::vector<Quantity>& all() const { return all_; }
-  /// Null: there is none of this name.
+  /// Null: no quantity has this name.
   const Quantity* find(const std::string& name) const;
   std::vector<std::string> names() const;
-  /// Names of what can be pushed.
+  /// Names of the things that can be pushed.
   std::vector<std::string> things() const;
 
-  /// Each throws std::invalid_argument, which says what there is or may be.
+  /// Each throws std::invalid_argument, which lists the valid names or range.
   double read(const std::string& name) const;
   void set(const std::string& name, double value);
-  /// Throws what set() would, and sets nothing.
+  /// Throws as set() does, but sets nothing.
   void check(const std::string& name, double value) const;
-  /// At the thing's centre of mass, in the world's axes, from the next step on.
+  /// Acts at the thing's centre of mass, in world axes, from the next step on.
   void push(const std::string& thing, const Vec3& force_world_n, double for_s);
   void check_push(const std::string& thing) const;
 
@@ -78,18 +78,18 @@ class Quantities final : private Actor {
   const Quantity& get(const std::string& name) const;
 
   World& world_;
-  std::deque<Thing> things_;  ///< quantities point at them
+  std::deque<Thing> things_;  ///< quantities point to these
   std::vector<Push> pushes_;
   std::vector<Quantity> all_;
 };
 
-/// The quantities of one thing, of a joint, of a whole robot, of the world.
+/// Quantities of a thing, a joint, a whole robot, the world.
 std::vector<Quantity> quantities_of(Thing& thing, const World& world);
 std::vector<Quantity> quantities_of(const std::string& name, TwinRobot& robot, int joint);
 std::vector<Quantity> quantities_of(const std::string& name, const TwinRobot& robot,
                                     const World& world);
 std::vector<Quantity> quantities_of(World& world);
-/// Of what never moves: how its surface meets others.
+/// Surface contact parameters of a static object.
 std::vector<Quantity> surface_quantities(const std::string& name,
                                          const std::vector<GeomTag*>& tags);
 

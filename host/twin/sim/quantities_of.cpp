@@ -16,7 +16,7 @@ Vec3 along(int axis, double value) {
   return value * Vec3::Unit(axis);
 }
 
-/// Three of them, one for each axis of the world.
+/// Three quantities, one per world axis.
 struct Vector {
   std::string name, unit, what;
   double most = 0;
@@ -80,13 +80,13 @@ Vec3 angles_of(const Transform& pose) {
   return roll_pitch_yaw(pose.linear());
 }
 
-/// Nobody sets it.
+/// A quantity that cannot be set.
 Quantity read_only(std::string name, const char* unit, const char* what,
                    std::function<double()> read) {
   return {std::move(name), unit, what, 0, 0, std::move(read), {}};
 }
 
-/// Turns it about its own origin until one of its angles is this.
+/// Turns the thing about its own origin until one of its angles has this value.
 void turn_to(const Thing& thing, int axis, double value_rad) {
   const Transform now = thing.pose();
   Vec3 rpy = angles_of(now);

@@ -5,9 +5,8 @@
 
 namespace verp::sim {
 
-/// What a stream of random numbers is for. Every purpose has a stream of its own, so that one more
-/// sample of one sensor, or one more joint, shifts nothing else. The values are part of what a seed
-/// means: append only.
+/// Purpose of a stream of random numbers. Each purpose has its own stream, so an additional sample
+/// or joint changes nothing else. The values define the meaning of a seed: append only.
 enum class Draw : std::uint64_t {
   kImuBias = 1,
   kZeroError = 2,
@@ -15,7 +14,7 @@ enum class Draw : std::uint64_t {
   kMass = 4,
   kImuNoise = 5,
   kFootNoise = 10,  ///< plus the foot's index
-  kVaryMass = 20,   ///< this and the next: vary.hpp
+  kVaryMass = 20,   ///< this and the following: vary.hpp
   kVaryFriction = 21,
   kVaryDelay = 22,
   kVaryBacklash = 23,
@@ -35,7 +34,7 @@ enum class Draw : std::uint64_t {
 };
 
 /// xoshiro256** (Blackman and Vigna, public domain), seeded by splitmix64 from (seed, purpose). Own
-/// code because the distributions of <random> differ between standard libraries.
+/// code, because the distributions of <random> differ between standard libraries.
 class Random {
  public:
   Random(std::uint64_t seed, std::uint64_t purpose) {
@@ -68,8 +67,8 @@ class Random {
     return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1p-53);
   }
 
-  /// Mean 0, standard deviation 1, never beyond 6: the sum of twelve 16-bit uniforms, in integers,
-  /// so that no libm is involved. Its tails are thinner than a Gaussian's beyond 3.
+  /// Mean 0, standard deviation 1, at most 6: the sum of twelve 16-bit uniforms, in integers, so
+  /// that no libm is involved. Beyond 3 its tails are thinner than a Gaussian's.
   double normal() {
     std::uint64_t sum = 0;
     for (int draw = 0; draw < 3; ++draw) {

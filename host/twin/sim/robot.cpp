@@ -13,10 +13,10 @@ namespace verp::sim {
 namespace {
 
 constexpr double kRadPerDegree = std::numbers::pi / 180;
-/// Fallen: body lower above its feet than this part of what it was, or tilted by more than this.
+/// Fallen: body height above the feet below this share of its initial value, or tilt above this.
 constexpr double kFallenHeight = 0.6;
 constexpr double kFallenTilt = 1.0;
-// Where nobody asks for them the oldest go.
+// If nobody takes the scans, the oldest are dropped.
 constexpr std::size_t kMostScans = 1000;
 
 double made_for_v(const model::Entity& entity) {
@@ -105,7 +105,7 @@ FootLoads TwinRobot::take_foot_loads() {
   return std::exchange(loads_, FootLoads{});
 }
 
-/// A joint's set-point as it stood goal_delay_s ago, in whole steps.
+/// A joint's set-point of goal_delay_s ago, in whole steps.
 const ServoSetpoint& TwinRobot::acting(std::size_t joint) const {
   return arriving_[arriving_.size() - 1 - delay_steps_[joint]][joint];
 }
@@ -179,7 +179,7 @@ void TwinRobot::update_servos(double step_s) {
   for (std::size_t j = 0; j < servo_.size(); ++j) {
     const double rate_rad_s = body_.rate_rad_s(static_cast<int>(j));
     servo_[j].finish(rate_rad_s, step_s);
-    // What the servo did not do to its links, the rest of the world did.
+    // The rest of the world applied what the servo did not.
     external_n_m_[j] += inertia_kg_m2_[j] * rate_rad_s / step_s - servo_[j].torque_n_m();
     current_a += servo_[j].supply_current_a();
     joint_work_j_ += std::max(0.0, servo_[j].torque_n_m() * rate_rad_s) * step_s;
@@ -219,7 +219,7 @@ void TwinRobot::update_feet(double step_s) {
   foot_force_n_ = {};
   for (FootModel& foot : foot_) foot.begin_step();
   for (const Contact& contact : world_.contacts()) {
-    // A sole that touches the robot's other foot carries nothing by that.
+    // Contact with the robot's own other foot carries no weight.
     if (contact.owner != owner_ || contact.other_owner == owner_) continue;
     const int foot = foot_of(contact.node);
     if (foot < 0) continue;
@@ -251,7 +251,7 @@ int TwinRobot::foot_of(int node) const {
 bool TwinRobot::is_down() const {
   const Transform body = body_.link_pose(0);
   const double tilt = std::acos(std::clamp(body.linear()(2, 2), -1.0, 1.0));
-  // Downhill, or down from what it stood on, is no fall.
+  // Walking downhill or stepping down is not a fall.
   double floor_m = std::numeric_limits<double>::infinity();
   for (const int foot : {0, 1}) {
     const FootTruth truth = foot_truth(foot);

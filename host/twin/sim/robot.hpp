@@ -19,8 +19,7 @@
 
 namespace verp::sim {
 
-/// Which imperfections are on. All on is the robot as it is; all off is for tests and for finding a
-/// cause.
+/// Active imperfections. All on is the real robot; all off is for tests and for finding a cause.
 struct Imperfections {
   bool imu = true;           ///< noise and bias
   bool encoder = true;       ///< noise (quantisation stays)
@@ -33,12 +32,10 @@ struct Imperfections {
   static Imperfections none() { return {false, false, false, false, false, false, false}; }
 };
 
-/// Who holds the body at the start. Servos power up limp, so a robot that stands must be held until
-/// it is armed.
+/// How long the body is held. Servos power up limp, so a standing robot must be held until armed.
 enum class Cradle { kNone, kUntilArmed, kAlways };
 
-/// How it is put down: standing, or on the floor on that side; kAny: in a pose and turned as drawn
-/// from the seed.
+/// Start: standing, or lying on the given side. kAny: pose and orientation drawn from the seed.
 enum class Lies { kNo, kFront, kBack, kLeft, kRight, kAny };
 
 struct TwinOptions {
@@ -48,28 +45,28 @@ struct TwinOptions {
   double mass_scale = 1.0;               ///< of every link
   double mass_spread = 0.0;              ///< each link: uniform in 1 +- this
   double goal_delay_s = 0;               ///< from a set-point's arrival until its servo acts on it
-  Vec3 gyro_bias_rad_s = Vec3::Zero();   ///< sensor axes, on top of the noise's own
+  Vec3 gyro_bias_rad_s = Vec3::Zero();   ///< sensor axes, added to the drawn bias
   std::vector<double> initial_rad = {};  ///< joint angles at the start; empty: Entity's stand_rad
-  Vec3 start_m = Vec3::Zero();           ///< midpoint of the soles; z: of the ground there
+  Vec3 start_m = Vec3::Zero();           ///< midpoint of the soles; z: ground height there
   double start_yaw_rad = 0;
-  Lies lies = Lies::kNo;  ///< nobody holds one that does
+  Lies lies = Lies::kNo;  ///< a lying robot is not held
   Cradle cradle = Cradle::kUntilArmed;
-  /// Released this long after all leg servos have torque: the firmware then stands in its pose
-  /// (rise_s is 1 s), and does not walk yet.
+  /// Release this long after all leg servos have torque. The firmware then stands in its pose
+  /// (rise_s is 1 s) and does not walk yet.
   double cradle_s = 1.2;
-  std::optional<double> supply_v = {};  ///< unloaded; none: what the servos are made for
+  std::optional<double> supply_v = {};  ///< unloaded; none: the servos' nominal voltage
   /// Internal resistance of battery and harness. An estimate: 3 LiPo cells of about 10 mOhm (hobby
-  /// packs of 1 to 2 Ah), plug, fuse and the first metre of daisy chain. So much for servos of
-  /// 12 V; for others it goes with the voltage's square: the same part of it is lost at one power.
+  /// packs of 1 to 2 Ah), plug, fuse and the first metre of daisy chain. It holds for 12 V servos.
+  /// For others it scales with the voltage squared, so that equal power loses an equal share.
   double supply_ohm = 0.1;
-  bool cameras = false;  ///< somebody draws what they see: take_exposures()
+  bool cameras = false;  ///< cameras are rendered: take_exposures()
 };
 
-/// One robot in a World: links, servos, sensors. The controller's side is Plant, which speaks
-/// counts; the referee's side is truth(). The world must outlive the robot.
+/// One robot in a World: links, servos, sensors. The controller's side is Plant, in counts; the
+/// referee's side is truth(). The world must outlive the robot.
 class TwinRobot final : public Plant, private Actor {
  public:
-  /// Throws std::invalid_argument, naming link or joint, if the entity can't be simulated.
+  /// Throws std::invalid_argument with the link or joint if the entity cannot be simulated.
   TwinRobot(World& world, const model::Entity& entity, const TwinOptions& options = {});
   ~TwinRobot() override;
   TwinRobot(const TwinRobot&) = delete;
@@ -77,7 +74,7 @@ class TwinRobot final : public Plant, private Actor {
 
   std::uint64_t now_us() const override { return world_.now_us(); }
   void advance_to(std::uint64_t time_us) override { time_->advance_to(time_us); }
-  /// Of a joint that follows another's servo: that servo's.
+  /// For a follower: the set-point of its driver's servo.
   ServoSetpoint& setpoint(int joint) override {
     return setpoint_[static_cast<std::size_t>(motor_of(joint))];
   }
@@ -86,7 +83,7 @@ class TwinRobot final : public Plant, private Actor {
   ImuMeasurement imu() override { return imu_.measurement(); }
   std::array<std::uint16_t, 4> foot_counts(int foot) override;
 
-  /// Whom to ask for a time, instead of the world itself; must outlive the robot.
+  /// Requests time from `time` instead of the world; it must outlive the robot.
   void set_time(TimeSource& time) { time_ = &time; }
 
   const model::Entity& entity() const { return entity_; }
@@ -96,41 +93,41 @@ class TwinRobot final : public Plant, private Actor {
   ServoModel& servo(int joint) { return servo_[static_cast<std::size_t>(joint)]; }
   int owner() const { return owner_; }
   Truth truth() const;
-  /// Lets go of the body at once, whatever the cradle waits for.
+  /// Releases the body at once, whatever the cradle state.
   void release() { body_.release(); }
   bool fallen() const { return fallen_; }
-  /// It stands again as high and as upright as one that never fell: so says fallen() from now on.
-  /// False: it does not, and nothing was done.
+  /// Resets fallen() if the robot stands as high and upright as one that never fell. False: it does
+  /// not, and nothing changes.
   bool forget_fall();
-  /// Somebody puts a limp robot on its feet where it lies, in the pose in which it began, and holds
-  /// it as then (Cradle). False: a servo has torque, and nothing was done.
+  /// Sets a limp robot upright where it lies, in its initial pose, and holds it as at the start
+  /// (Cradle). False: a servo has torque, and nothing changes.
   bool set_upright();
   double supply_v() const { return supply_v_; }
-  /// What the servos drew from the supply since the start, and what work they did on the joints
-  /// (braking takes none of it back).
+  /// Energy that the servos drew from the supply since the start, and their work on the joints
+  /// (braking is not subtracted).
   double supply_energy_j() const { return supply_energy_j_; }
   double joint_work_j() const { return joint_work_j_; }
   double weight_n() const { return body_.mass_kg() * world_.options().gravity_m_s2; }
-  /// Physics steps since the start, and in how many of them each joint's duty was at its limit.
+  /// Physics steps since the start, and per joint the number of steps with duty at its limit.
   std::uint64_t steps() const { return steps_; }
-  /// Scans that could be had since they were last asked for; each tells when it was taken.
+  /// Scans that became available since the last call, with the time of each.
   std::vector<Scan> take_scans() { return std::exchange(scans_, {}); }
-  /// Likewise when its cameras looked, once their pictures could be had.
+  /// The same for exposures, once their pictures are available.
   std::vector<Exposure> take_exposures() { return shutters_.take(); }
-  /// Likewise of its force-torque, contact and truth sensors.
+  /// The same for force-torque, contact and truth sensors.
   ProbeReadings take_readings() { return probes_.take(); }
   const std::vector<std::uint64_t>& saturated_steps() const { return saturated_steps_; }
 
-  /// In how many physics steps one of its links touched another, and which two did so last.
+  /// Number of physics steps with self-contact, and the last two links involved.
   std::uint64_t self_contact_steps() const { return self_contact_steps_; }
   std::array<int, 2> self_contact_nodes() const { return self_contact_nodes_; }
 
-  /// Foot forces since the last call (or the start): a control tick's mean instead of one noisy
-  /// instant.
+  /// Foot forces since the last call or the start: the mean of a control tick instead of one noisy
+  /// sample.
   FootLoads take_foot_loads();
 
  private:
-  /// The joint that has the motor.
+  /// Index of the joint with the motor.
   int motor_of(int joint) const {
     const int driver = entity_.joints[static_cast<std::size_t>(joint)].follows;
     return driver < 0 ? joint : driver;
@@ -159,7 +156,7 @@ class TwinRobot final : public Plant, private Actor {
   Body body_;
   std::vector<ServoModel> servo_;
   std::vector<ServoSetpoint> setpoint_;
-  std::deque<std::vector<ServoSetpoint>> arriving_;  ///< of the last steps, the oldest first
+  std::deque<std::vector<ServoSetpoint>> arriving_;  ///< of the last steps, oldest first
   std::vector<std::size_t> delay_steps_;             ///< of each joint
   ImuModel imu_;
   std::vector<FootModel> foot_;  ///< none, or left and right
@@ -177,8 +174,8 @@ class TwinRobot final : public Plant, private Actor {
   const double supply_ohm_;
   double supply_energy_j_ = 0, joint_work_j_ = 0;
   std::vector<double> inertia_kg_m2_;  ///< of each joint's links, at the start of the step
-  std::vector<double> external_n_m_;   ///< what turned each joint besides its servo, last step
-  std::vector<Drive> coupling_;        ///< of each joint, with its servo, in this step
+  std::vector<double> external_n_m_;   ///< torque on each joint besides its servo, last step
+  std::vector<Drive> coupling_;        ///< of each joint, added to its servo, this step
   double armed_s_ = 0;
   double initial_height_m_ = 0;
   bool fallen_ = false;

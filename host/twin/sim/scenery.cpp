@@ -194,7 +194,7 @@ void Scenery::place(std::size_t index, const Transform& pose_world) {
   if (item.body != nullptr) place_body(item.body, pose_world, item.object->com_m);
 }
 
-/// What moves by itself is where its waypoints have it, and pushes with the speed it has there.
+/// A moving object follows its waypoints and pushes others with its speed there.
 void Scenery::before_step(double step_s) {
   const double t_s = static_cast<double>(world_.now_us()) * 1e-6;
   for (const Item& item : items_) {

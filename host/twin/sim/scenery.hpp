@@ -5,10 +5,10 @@
 #include "host/robot/model/world.hpp"
 #include "host/twin/sim/world.hpp"
 
-/// What a world's file puts beside the robots: in the physics engine, shape by shape.
+/// Objects of a world file in the physics engine, shape by shape.
 namespace verp::sim {
 
-/// A world with what stands in `file` in place of the level floor.
+/// Replaces the level floor by the contents of `file`.
 WorldOptions furnished(WorldOptions options, model::World file);
 
 class Scenery final : private Actor {
@@ -30,9 +30,9 @@ class Scenery final : private Actor {
   /// In the order of data().objects.
   const std::vector<Item>& items() const { return items_; }
   Transform pose(std::size_t index) const;
-  /// Where those are now that can move, as model::moving() names them.
+  /// Present poses of the objects that can move, in the order of model::moving().
   std::vector<Transform> moving_poses() const;
-  /// Of one that is pushed: moves it at once, its speed stays.
+  /// For a dynamic object: moves it at once; its velocity stays.
   void place(std::size_t index, const Transform& pose_world);
 
  private:
@@ -49,11 +49,11 @@ class Scenery final : private Actor {
   std::vector<Item> items_;
   std::vector<dTriMeshDataID> meshes_;
   std::vector<dHeightfieldDataID> heightfields_;
-  std::vector<std::vector<double>> numbers_;  ///< that ODE points at
+  std::vector<std::vector<double>> numbers_;  ///< storage for ODE's pointers
   std::vector<std::vector<dTriIndex>> triangles_;
 };
 
-/// Where a moving object is at that time.
+/// Pose of a moving object at that time.
 Transform pose_at(const model::WorldObject& object, double t_s);
 
 }  // namespace verp::sim

@@ -9,11 +9,10 @@
 #include "host/twin/sim/random.hpp"
 #include "host/twin/sim/world.hpp"
 
-/// Sensors sample in every physics step, whether anybody reads them or not: reading changes
-/// nothing.
+/// Sensors sample in every physics step; reading has no side effect.
 namespace verp::sim {
 
-/// First-order low pass, as the digital filter of an IMU or the RC in front of an ADC.
+/// First-order low pass, like an IMU's digital filter or the RC in front of an ADC.
 class LowPass {
  public:
   double operator()(double value, double step_s);
@@ -24,19 +23,18 @@ class LowPass {
 };
 
 /// Gyroscope and accelerometer, as hal/chip/invensense reads them: bandwidth 23.9 Hz (InvenSense
-/// ICM-20648, DLPF 4), and what is told is the mean of the samples of one control period. The jolt
-/// of a landing is over in less than a period: of one sample in ten, each adds a turn that never
-/// was.
+/// ICM-20648, DLPF 4). It reports the mean of the samples of one control period. The jolt of a
+/// landing is shorter than a period, so single samples would add false rotation.
 class ImuModel {
  public:
-  /// mean_s: over which samples are taken together; 0: the newest alone.
-  /// gyro_bias_rad_s: on top of what the seed makes of the sensor's own.
+  /// mean_s: averaging time; 0: the newest sample alone. gyro_bias_rad_s: added to the bias drawn
+  /// from the seed.
   ImuModel(const model::ImuSensor& sensor, double mean_s, bool noise, std::uint64_t seed,
            const Vec3& gyro_bias_rad_s = Vec3::Zero());
 
-  /// Angular velocity and acceleration of the sensor's own point, world axes; the specific force
-  /// follows. up_world_m_s2: against gravity. measurement() is that of the latency ago, in whole
-  /// steps; before that long has passed, the first.
+  /// Angular velocity and acceleration of the sensor's origin, world axes; the specific force
+  /// follows. up_world_m_s2: opposite to gravity. measurement() is one latency old, in whole steps;
+  /// until then it is the first one.
   void sample(const Mat3& world_imu, const Vec3& angular_velocity_world_rad_s,
               const Vec3& acceleration_world_m_s2, const Vec3& up_world_m_s2, double step_s);
   const ImuMeasurement& measurement() const { return measurement_; }
@@ -53,7 +51,7 @@ class ImuModel {
   std::array<LowPass, 3> gyro_filter_;
   std::array<LowPass, 3> accel_filter_;
   std::deque<ImuMeasurement> samples_;     ///< of the last mean_s
-  std::deque<ImuMeasurement> on_the_way_;  ///< of the last steps, within its latency
+  std::deque<ImuMeasurement> on_the_way_;  ///< of the last steps, within the latency
   ImuMeasurement measurement_;
 };
 
@@ -63,8 +61,8 @@ class FootModel {
   FootModel(const model::Limb& leg, double newton_per_count, bool noise, Random random);
 
   void begin_step() { load_n_ = {}; }
-  /// A normal force at a point of the sole: shared between the corners bilinearly, so that the four
-  /// readings keep the force and its centre of pressure. Points off the sole count at its edge.
+  /// Shares a normal force at a point of the sole bilinearly between the corners. The four readings
+  /// keep the force and its centre of pressure. Points off the sole count at its edge.
   void add_load(const Vec3& point_sole_m, double force_n);
   void end_step(double step_s);
   const std::array<std::uint16_t, 4>& counts() const { return counts_; }

@@ -8,13 +8,12 @@
 namespace verp::sim {
 namespace {
 
-constexpr double kFullPwm = 885.0;  ///< e-manual X-series, PWM Limit: 885 is 100 %
-// e-manual X-series, Position PID Gain: what a register unit of each gain is worth in PWM units per
-// count.
+constexpr double kFullPwm = 885.0;  ///< e-Manual X-series, PWM Limit: 885 is 100 %
+// e-Manual X-series, Position PID Gain: PWM units per count for one register unit of each gain.
 constexpr double kPerP = 1.0 / 128.0;
 constexpr double kPerI = 1.0 / 65536.0;
 constexpr double kPerD = 1.0 / 16.0;
-constexpr double kVelocityUnit_rev_s = 0.229 / 60;  ///< e-manual X-series, Velocity Limit
+constexpr double kVelocityUnit_rev_s = 0.229 / 60;  ///< e-Manual X-series, Velocity Limit
 
 void require(bool good, const model::Joint& joint, const char* what) {
   if (!good) throw std::invalid_argument("joint '" + joint.name + "': " + what);
@@ -94,8 +93,8 @@ double ServoModel::position_loop(const ServoSetpoint& setpoint) {
   return std::clamp(pwm, -limit, limit) / kFullPwm;
 }
 
-// e-Manual, Velocity PI Gain (76, 78). The unit of its error is not told: that of the register is
-// an estimate.
+// e-Manual, Velocity PI Gain (76, 78). The e-Manual gives no unit of the error; the register's unit
+// is an estimate.
 double ServoModel::velocity_loop(const ServoSetpoint& setpoint) {
   const double step_ms = joint_.servo.loop_s * 1e3;
   const double limit = std::min(static_cast<double>(setpoint.pwm_limit), kFullPwm);
@@ -137,8 +136,8 @@ double ServoModel::duty(const ServoSetpoint& setpoint) {
   return std::clamp(duty, duty_for(-setpoint.current_limit_a), duty_for(setpoint.current_limit_a));
 }
 
-// The firmware knows nothing of physics steps: its loop runs at its own instants, on the angle of a
-// little earlier, and its duty stands until the next.
+// The firmware loop runs at its own instants within physics steps. It uses the angle of a little
+// earlier, and its duty holds until the next run.
 double ServoModel::mean_duty(const ServoSetpoint& setpoint, double angle_rad, double rate_rad_s,
                              double step_s) {
   constexpr double kSameInstant_s = 1e-9;
@@ -172,7 +171,7 @@ Drive ServoModel::motor_line(double supply_v) const {
   return std::abs(torque) > limit ? Drive{std::copysign(limit, torque), 0} : line;
 }
 
-/// Friction that there was none of takes hold where the joint is, not where it once stood.
+/// New friction takes hold at the joint's present angle, not at an old one.
 void ServoModel::set_joint_friction(double friction_n_m) {
   joint_.friction_n_m = friction_n_m;
   if (std::abs(rotor_rad_s_) > constants_.still_rad_s) sliding_ = rotor_rad_s_ > 0 ? 1 : -1;
@@ -186,8 +185,8 @@ double ServoModel::friction_budget_n_m(double rate_rad_s, double load_n_m) const
          load_n_m * (gears.l_base + stribeck * gears.l_strib) + gears.f_visc_n_m_s * speed;
 }
 
-// On a flank while that pushes. Inside the play the rotor has but itself to turn: how it would move
-// decides whether it reaches a flank.
+// The rotor stays on a flank while that pushes. Inside the play it turns only itself, and its own
+// motion decides whether it reaches a flank.
 bool ServoModel::engage(double rate_rad_s, double step_s) {
   const double half = joint_.servo.backlash_rad / 2;
   const double push = push_n_m_ * play_rad_;
@@ -207,7 +206,7 @@ bool ServoModel::engage(double rate_rad_s, double step_s) {
   return meets;
 }
 
-// Where rotor and joint meet they go on together, the way the joint goes.
+// Where rotor and joint meet they move on together, in the joint's direction.
 void ServoModel::meet(double angle_rad, double rate_rad_s) {
   const double speed = std::abs(rate_rad_s) > constants_.still_rad_s ? rate_rad_s : rotor_rad_s_;
   const bool still = std::abs(speed) <= constants_.still_rad_s;
@@ -215,10 +214,10 @@ void ServoModel::meet(double angle_rad, double rate_rad_s) {
   stuck_rad_ = angle_rad;
 }
 
-// Stuck: held where it stands, until that took more than the budget. Sliding: the budget against
-// the motion, until that ends; where it may end within this step, a line through standstill, which
-// cannot turn the motion round. A joint that others threw back within a step did not stand
-// between: it slides the other way.
+// Stuck: held in place until that takes more than the budget. Sliding: the budget opposes the
+// motion until it ends. If it may end within this step, a line through standstill cannot reverse
+// the motion. If other forces reversed the joint within a step, it slides the other way without
+// sticking.
 Drive ServoModel::friction_line(double angle_rad, double rate_rad_s, double rest_n_m,
                                 double budget_n_m, double step_s) {
   if (rate_rad_s * sliding_ < -constants_.still_rad_s) sliding_ = -sliding_;
@@ -279,8 +278,8 @@ void ServoModel::finish(double rate_rad_s, double step_s) {
   if (engaged_) rotor_rad_s_ = rate_rad_s;
   torque_n_m_ = drive_.torque_n_m(rate_rad_s);
   friction_n_m_ = friction_.torque_n_m(rate_rad_s);
-  // Friction that stops a rotor takes all that this needs, for one step. That is no pull off a
-  // flank.
+  // For one step, friction that stops a rotor takes all the torque it needs. This does not pull the
+  // rotor off a flank.
   push_n_m_ = gear_.torque_n_m(rate_rad_s) - friction_n_m_ +
               std::clamp(friction_n_m_, -budget_n_m_, budget_n_m_);
   const double motor_torque = motor_.torque_n_m(rotor_rad_s_);
@@ -288,7 +287,7 @@ void ServoModel::finish(double rate_rad_s, double step_s) {
   const double current = motor_torque / servo.stall_torque_n_m * servo.stall_current_a;
   measurement_.current_a = current * servo.direction;
   measurement_.velocity_rad_s = rate_rad_s * servo.direction;
-  // An H-bridge's balance of power; what a braking motor returns the other servos use up.
+  // Power balance of an H-bridge; the other servos use what a braking motor returns.
   supply_current_a_ = std::max(0.0, duty_ * current);
   const double heat_w = current * current * resistance_ohm_;
   const double loss_w =

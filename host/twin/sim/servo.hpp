@@ -6,14 +6,14 @@
 #include "host/twin/sim/profile.hpp"
 #include "host/twin/sim/random.hpp"
 
-/// One position servo: encoder, position loop, DC motor, gearbox, housing temperature. It knows no
-/// physics engine: before a step it turns the joint's state into a line in the torque-speed plane,
-/// which any engine with an implicit velocity motor can apply; after the step it is told what
-/// became of it.
+/// One position servo: encoder, position loop, DC motor, gearbox, housing temperature. It is
+/// independent of the physics engine. Before a step it converts the joint's state to a line in the
+/// torque-speed plane, which any engine with an implicit velocity motor can apply. After the step
+/// the caller passes back the result.
 namespace verp::sim {
 
 /// The joint's drive during one physics step: a line over the joint's speed at the end of the step.
-/// Being linear in the new speed it is stable at any stiffness and any inertia.
+/// It is linear in the new speed, hence stable at any stiffness and inertia.
 struct Drive {
   double standstill_n_m = 0;
   double slope_n_m_s = 0;  ///< never negative
@@ -26,15 +26,15 @@ struct Drive {
   }
 };
 
-/// Encoder counts of a joint angle and back, as the controller computes them: without zero error,
+/// Converts a joint angle to encoder counts and back, as the controller does: without zero error,
 /// not rounded.
 double count_of(const model::Servo& servo, double angle_rad);
 double angle_of(const model::Servo& servo, double count);
 
-/// What the datasheets and e-manuals of the X-series say beyond Entity's servo facts, and estimates
-/// where silent.
+/// Facts from the X-series datasheets and e-Manuals beyond Entity's servo facts, and estimates
+/// where these are silent.
 struct ServoConstants {
-  /// Housing of an XM430: 82 g (e-manual) of mostly aluminium, 0.9 kJ/(kg K); 77 cm2 of surface
+  /// Housing of an XM430: 82 g (e-Manual) of mostly aluminium, 0.9 kJ/(kg K); 77 cm2 of surface
   /// (28.5 x 46.5 x 34 mm) in still air at 10 W/(m2 K). An estimate: it sets how fast a servo
   /// warms, never whether it walks.
   double heat_capacity_j_k = 74.0;
@@ -43,13 +43,13 @@ struct ServoConstants {
   /// Copper's temperature coefficient, IEC 60028.
   double copper_per_k = 0.00393;
   /// XM430 Current Limit register: 1193 units of 2.69 mA, 1.4 times the stall current at 12 V.
-  /// Back-driven motors go beyond stall torque up to here.
+  /// Back-driven motors exceed stall torque up to this limit.
   double current_limit_stalls = 1.4;
-  /// A stuck joint is a stiff line back to where it stuck: it would carry its whole friction at
-  /// this speed, and takes back this part of its displacement a step. It does not creep.
+  /// A stuck joint is a stiff line back to where it stuck. At this speed it would carry its whole
+  /// friction, and each step returns this part of its displacement. It does not creep.
   double hold_speed_rad_s = 1e-4;
   double hold_return = 0.2;
-  double still_rad_s = 1e-3;  ///< slower than this, and braked, a joint stands
+  double still_rad_s = 1e-3;  ///< a braked joint slower than this stands
   /// End stops: a housing's plastic, stiff enough to hold stall torque within half a degree.
   double stop_stiffness_n_m = 500.0;
   double stop_damping_n_m_s = 1.0;
@@ -57,39 +57,39 @@ struct ServoConstants {
 
 struct ServoNoise {
   bool encoder = true;
-  double zero_error_rad = 0;  ///< the encoder reads this much more than the joint's angle
+  double zero_error_rad = 0;  ///< encoder reading minus joint angle
 };
 
 class ServoModel {
  public:
-  /// Throws std::invalid_argument naming the joint if the servo facts can't drive a motor.
+  /// Throws std::invalid_argument with the joint's name if the servo facts cannot drive a motor.
   ServoModel(const model::Joint& joint, const ServoNoise& noise, Random encoder_random,
              double initial_rad, const ServoConstants& constants = {});
 
-  /// Runs the firmware's loop as often as it falls into this physics step, then motor and gearbox.
-  /// external_n_m is what turns the joint besides this servo (gravity, ground, other links): with
-  /// the motor's torque it loads the gears.
+  /// Runs the firmware loop as often as it falls into this physics step, then motor and gearbox.
+  /// external_n_m is the torque on the joint besides this servo (gravity, ground, other links).
+  /// With the motor's torque it loads the gears.
   Drive drive(const ServoSetpoint& setpoint, double angle_rad, double rate_rad_s,
               double external_n_m, double supply_v, double step_s);
-  /// The step is over; rate_rad_s is the joint's new speed.
+  /// Ends the step; rate_rad_s is the joint's new speed.
   void finish(double rate_rad_s, double step_s);
 
   /// Servo sense: positive as counts increase.
   const ServoMeasurement& measurement() const { return measurement_; }
   /// Torque of motor and gearbox on the joint in the last step, joint sense.
   double torque_n_m() const { return torque_n_m_; }
-  /// |motor torque| as a part of stall torque; above 1 when back-driven.
+  /// |motor torque| / stall torque; above 1 when back-driven.
   double torque_use() const { return torque_use_; }
-  /// The duty asked for was at or beyond the limit in the last step.
+  /// The requested duty reached the limit in the last step.
   bool saturated() const { return saturated_; }
-  /// What this servo draws from the supply.
+  /// Current from the supply.
   double supply_current_a() const { return supply_current_a_; }
-  /// The bearing's, beside the servo's own.
+  /// Of the bearing, in addition to the servo's own.
   double joint_damping_n_m_s() const { return joint_.damping_n_m_s; }
   double joint_friction_n_m() const { return joint_.friction_n_m; }
   void set_joint_damping(double damping_n_m_s) { joint_.damping_n_m_s = damping_n_m_s; }
   void set_joint_friction(double friction_n_m);
-  /// Where the profile stands, as the joint's true angle.
+  /// Position of the profile as the joint's true angle.
   double profile_rad() const {
     return angle_of(joint_.servo, profile_.count()) - noise_.zero_error_rad;
   }
@@ -99,7 +99,7 @@ class ServoModel {
   void follow_profile(const ServoSetpoint& setpoint);
   double position_loop(const ServoSetpoint& setpoint);
   double velocity_loop(const ServoSetpoint& setpoint);
-  /// The duty with which the motor draws that current now.
+  /// Duty at which the motor draws that current now.
   double duty_for(double current_a) const;
   double duty(const ServoSetpoint& setpoint);
   double mean_duty(const ServoSetpoint& setpoint, double angle_rad, double rate_rad_s,
@@ -128,16 +128,16 @@ class ServoModel {
 
   double duty_ = 0;         ///< joint sense, mean of the step
   Drive motor_;             ///< the motor alone, in the last step
-  double rotor_rad_s_ = 0;  ///< seen from the joint; its own while inside the play
+  double rotor_rad_s_ = 0;  ///< seen from the joint; free inside the play
   double play_rad_ = 0;     ///< motor side ahead of joint side, within +-backlash/2
   bool engaged_ = true;     ///< not inside the play
   int sliding_ = 0;         ///< sign of the motion that friction opposes; 0: stuck
-  double stuck_rad_ = 0;    ///< where
+  double stuck_rad_ = 0;    ///< angle at which it stuck
   Drive friction_, gear_;   ///< in the last step; gear_ is all that comes through the gears
   Drive drive_;             ///< with end stops and the joint's own damping
   double friction_n_m_ = 0;
-  double budget_n_m_ = 0;  ///< what friction may take for longer than a step
-  double push_n_m_ = 0;    ///< what would have come through the gears had it taken no more
+  double budget_n_m_ = 0;  ///< friction beyond a single step
+  double push_n_m_ = 0;    ///< gear torque with friction limited to the budget
   double torque_n_m_ = 0;
   double torque_use_ = 0;
   double supply_current_a_ = 0;

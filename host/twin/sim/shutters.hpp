@@ -10,17 +10,16 @@
 
 namespace verp::sim {
 
-/// When a robot's cameras look, each at its own rate, and what they then had before them.
+/// Takes exposures for a robot's cameras, each at its own rate.
 class Shutters {
  public:
-  /// `wanted`: somebody draws; else none ever opens.
+  /// `wanted`: pictures are rendered; otherwise no shutter opens.
   Shutters(const model::Entity& entity, bool wanted);
 
-  /// After each step. Cameras that look in the same one and are as late as each other share an
-  /// exposure.
+  /// Call after each step. Cameras with the same step and latency share an exposure.
   void sample(const World& world, const Actor& robot);
-  /// Those whose pictures could be had since they were last asked for; where nobody asks the oldest
-  /// go.
+  /// Exposures whose pictures became available since the last call. If nobody takes them, the
+  /// oldest are dropped.
   std::vector<Exposure> take() { return std::exchange(exposures_, {}); }
 
  private:

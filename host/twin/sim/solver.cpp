@@ -5,7 +5,7 @@
 
 #include "host/twin/sim/solver_lanes.hpp"
 
-// ODE's names for them, template instances that its library exports.
+// ODE's symbols for them: template instances that its library exports.
 #define VERP_IN_PLACE_OF(name) __asm__(name) __attribute__((visibility("default")))
 extern "C" {
 void verp_solve_lower(const double* l, double* b, unsigned n, unsigned skip)
@@ -47,7 +47,7 @@ constexpr SolverLoops kLoops[] = {
 };
 const std::size_t kFirst = __builtin_cpu_supports("avx2") ? 0 : 1;
 
-/// Room for some numbers a row.
+/// Scratch of kEach numbers per row.
 template <std::size_t kEach>
 class Room {
  public:
@@ -57,7 +57,7 @@ class Room {
   double* begin() { return more_.empty() ? usual_ : more_.data(); }
 
  private:
-  // A robot's hinges and servos are 150 rows at most; what is pinned by them all is more.
+  // A robot's hinges and servos need at most 150 rows; only a robot pinned by contacts needs more.
   static constexpr std::size_t kUsual = 256;
   double usual_[kEach * kUsual];
   std::vector<double> more_;

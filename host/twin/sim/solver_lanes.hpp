@@ -3,16 +3,16 @@
 #include <cstdint>
 #include <cstring>
 
-/// The loops of solver.hpp, for one set of instructions or another: whoever includes this inlines
-/// them into a function of its own for each. Most of what a robot's joints make is zero: rows begin
-/// with zeros up to the first joint that they share a body with. What is left out is a product with
-/// +0 only, which adds no bit to a sum that began at +0 (numbers that are no longer finite aside).
+/// The loops of solver.hpp, independent of the instruction set: the including file inlines them
+/// into one function per set. Most of a robot's joint matrix is zero, and rows begin with zeros up
+/// to the first joint with which they share a body. The loops skip only products with +0, which
+/// change no bit of a sum that began at +0 (non-finite numbers aside).
 namespace verp::sim::lanes {
 
 using Index = std::size_t;
 
 #define VERP_INLINE inline __attribute__((always_inline))
-// What is in an array is in registers only when no loop goes over it any more.
+// A local array stays in registers only if no loop indexes it, so unroll all loops.
 #if defined(__clang__)
 #define VERP_UNROLL _Pragma("unroll")
 #else
@@ -23,7 +23,7 @@ using Two = double __attribute__((vector_size(16)));
 using Four = double __attribute__((vector_size(32)));
 using FourBits = std::uint64_t __attribute__((vector_size(32)));
 
-// By reference: what a vector's return by value means depends on the instructions.
+// By reference: the ABI of a returned vector depends on the instruction set.
 VERP_INLINE void load(Two& out, const double* from) {
   std::memcpy(&out, from, sizeof out);
 }
@@ -31,7 +31,7 @@ VERP_INLINE void load(Four& out, const double* from) {
   std::memcpy(&out, from, sizeof out);
 }
 
-/// How many of so many numbers from `row` on, in each of some rows, are +0 by all their bits: a
+/// Length of the common run of +0 (all bits zero) at the start of kRows rows, within `count`; a
 /// multiple of four.
 template <int kRows>
 VERP_INLINE Index leading_zeros(const double* row, Index count, Index skip) {
@@ -49,7 +49,7 @@ VERP_INLINE Index leading_zeros(const double* row, Index count, Index skip) {
   return k;
 }
 
-/// z[g] += rows 4 g to 4 g + 3 of l, times b: column after column, four of each.
+/// z[g] += rows 4 g to 4 g + 3 of l, times b: four columns, in order.
 template <int kGroups>
 VERP_INLINE void add_columns(Four* z, const double* l, const double* b, Index skip) {
   VERP_UNROLL
@@ -67,7 +67,7 @@ VERP_INLINE void add_columns(Four* z, const double* l, const double* b, Index sk
   }
 }
 
-/// The four unknowns whose rows begin at l and whose sums over all columns before are z.
+/// Solves the four unknowns whose rows begin at l; z holds the sums over all earlier columns.
 VERP_INLINE void finish_lower(const double* l, double* b, const Four& z, Index skip) {
   const double *l1 = l + skip, *l2 = l1 + skip, *l3 = l2 + skip;
   b[0] = b[0] - z[0];
@@ -95,7 +95,7 @@ VERP_INLINE void solve_lower(const double* l, double* b, Index n, Index skip) {
   Index row = 0;
   for (; row + 16 <= n; row += 16) lower_rows<4>(l, b, row, skip);
   for (; row + 4 <= n; row += 4) lower_rows<1>(l, b, row, skip);
-  // The rest row by row, even and odd columns apart.
+  // The remaining rows one by one, even and odd columns apart.
   for (; row < n; ++row) {
     Two z = {};
     const double* of = l + row * skip;
@@ -111,7 +111,7 @@ VERP_INLINE void solve_lower(const double* l, double* b, Index n, Index skip) {
   }
 }
 
-/// The four unknowns of which b is the first; sums over all rows below are z.
+/// Solves the four unknowns from b on; z holds the sums over all rows below.
 VERP_INLINE void finish_upper(const double* l, double* b, const Four& z, Index skip) {
   const double *l1 = l + skip, *l2 = l1 + skip, *l3 = l2 + skip;
   b[3] = b[3] - z[3];
@@ -120,8 +120,8 @@ VERP_INLINE void finish_upper(const double* l, double* b, const Four& z, Index s
   b[0] = b[0] - z[0] - l3[0] * b[3] - l2[0] * b[2] - l1[0] * b[1];
 }
 
-/// z += kRows rows of l, the last one first, each times its b: columns from the first that is not
-/// zero in all of them up to `columns`.
+/// z += kRows rows of l, last first, each times its b. Covers the columns from the first that is
+/// not zero in all of them up to `columns`.
 template <int kRows>
 VERP_INLINE void add_rows(double* z, const double* l, const double* b, Index columns, Index skip) {
   for (Index k = leading_zeros<kRows>(l, columns, skip); k < columns; k += 4) {
@@ -153,8 +153,8 @@ VERP_INLINE void solve_upper(const double* l, double* b, Index n, Index skip, do
   }
 }
 
-/// Some rows of A on their way to L, columns first: column k of all of them is x[k], and becomes
-/// what the row has there before it is scaled by 1 / D.
+/// A block of A's rows on its way to L, stored by columns: x[k] is column k of all rows, before
+/// scaling by 1 / D.
 template <int kGroups>
 struct Panel {
   static constexpr Index kLanes = 4 * kGroups;
@@ -174,7 +174,7 @@ struct Panel {
     }
   }
 
-  /// Columns j to j + kColumns - 1, an even number of them; those before are done, and zero up to
+  /// Columns j to j + kColumns - 1 (kColumns is even). Earlier columns are done, and zero up to
   /// `from`.
   template <int kColumns>
   VERP_INLINE void solve(Index j, Index from) const {
@@ -182,7 +182,7 @@ struct Panel {
     for (Index k = from; k < j; ++k) add<kColumns>(z, 0, j, k);
     VERP_UNROLL
     for (int c = 0; c < kColumns; c += 2) {
-      // ODE sums up to the pair, and takes what is within it off by itself.
+      // ODE sums up to the pair and subtracts the terms within the pair separately.
       for (Index k = j; k < j + static_cast<Index>(c); ++k) add<2>(z + c, c, j, k);
       const Index column = j + static_cast<Index>(c);
       const double within = row(column + 1)[column];
@@ -213,7 +213,7 @@ struct Panel {
     }
   }
 
-  /// Scales column k of all rows; own: sums of squares, cross: of the second row of a pair with its
+  /// Scales column k of all rows. own: sums of squares. cross: second row of a pair times its
   /// first, in the second's lane.
   VERP_INLINE void scale(Index k, Four* own, Four* cross) const {
     VERP_UNROLL
@@ -231,7 +231,7 @@ struct Panel {
     }
   }
 
-  /// The pair's own block, once the columns before are summed.
+  /// The pair's own block, after the earlier columns are summed.
   VERP_INLINE void finish(Index r, double z11, double z21, double z22) const {
     for (Index k = first; k < r; ++k) {
       const double p1 = at(k, r), p2 = at(k, r + 1);
@@ -269,7 +269,7 @@ struct Panel {
   }
 };
 
-/// An odd matrix's last row.
+/// Last row of an odd matrix.
 VERP_INLINE void factor_last(double* a, double* d, Index r, Index skip) {
   double* row = a + r * skip;
   for (Index j = 0; j < r; j += 2) {

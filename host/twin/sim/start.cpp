@@ -12,10 +12,9 @@ namespace verp::sim {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-/// The soles start this far above the ground: contact begins in the first milliseconds, without
-/// penetration.
+/// Initial gap below the soles: contact begins in the first milliseconds, without penetration.
 constexpr double kStartGap = 0.0002;
-/// Spread of the initial pose, one sigma: what a person placing the robot by hand gets right.
+/// Spread of the initial pose, one sigma: the accuracy of a person who places the robot by hand.
 constexpr double kJointSpread = 0.2 * kDegree;
 constexpr double kLeanSpread = 0.2 * kDegree;
 constexpr double kYawSpread = 0.5 * kDegree;
@@ -24,7 +23,7 @@ double uniform(Random& random, double low, double high) {
   return low + (high - low) * 0.5 * (1 + random.uniform(-1, 1));
 }
 
-/// Angles inside their limits at which no link is within another.
+/// Angles inside their limits at which no links intersect.
 std::vector<double> any_angles(const model::Entity& entity, Random& random) {
   constexpr int kMostDraws = 1000;
   std::vector<double> angle_rad;
@@ -45,7 +44,7 @@ std::vector<double> any_angles(const model::Entity& entity, Random& random) {
   throw std::invalid_argument("no pose of '" + entity.name + "' was found in which no links meet");
 }
 
-/// How the standing body is turned to lie on that side.
+/// Rotation from standing to lying on that side.
 Mat3 laid(Lies lies, Random& random) {
   constexpr double kQuarter = std::numbers::pi / 2;
   const auto turn = [](double angle_rad, const Vec3& axis) {

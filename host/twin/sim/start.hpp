@@ -5,14 +5,14 @@
 
 namespace verp::sim {
 
-/// Angles and pose at the start, with what the seed makes of them.
+/// Angles and pose at the start, including the seed's variation.
 struct Start {
   std::vector<double> joint_rad;  ///< of entity.joints
   Transform body_world;           ///< the root link's frame in the world
 };
 
-/// As the options say: standing, or lying on a side; the lowest point just above the ground.
-/// Throws std::invalid_argument: no pose was found in which no links meet (Lies::kAny).
+/// Start pose of the options: standing, or lying on a side, the lowest point just above the ground.
+/// Throws std::invalid_argument if it finds no pose without intersecting links (Lies::kAny).
 Start make_start(const model::Entity& entity, const TwinOptions& options);
 
 }  // namespace verp::sim

@@ -5,7 +5,7 @@
 
 #include "host/twin/sim/world.hpp"
 
-/// What really happens, for scoring, plots and pictures. The controller never sees it.
+/// The true state, for scoring, plots and pictures. The controller never sees it.
 namespace verp::sim {
 
 using Vec2 = Eigen::Vector2d;
@@ -27,7 +27,7 @@ struct Truth {
   double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;  ///< of the body; Rz(yaw) Ry(pitch) Rx(roll)
   Vec3 com_world_m = Vec3::Zero();
   Vec3 com_velocity_world_m_s = Vec3::Zero();
-  bool zmp_valid = false;             ///< the feet carry something
+  bool zmp_valid = false;             ///< the feet carry load
   Vec2 zmp_world_m = Vec2::Zero();    ///< on the plane z = 0, last step
   std::array<FootTruth, 2> foot;      ///< left, right
   std::vector<Vec2> support_world_m;  ///< convex, counter-clockwise: soles in contact
@@ -44,12 +44,11 @@ inline constexpr double kContactForceN = 1.0;
 /// Contact forces of the feet, summed over physics steps: their mean and the mean ZMP.
 class FootLoads {
  public:
-  /// Adds one contact force on a foot.
   void add(const Vec3& position_world_m, const Vec3& force_world_n);
   void add(const FootLoads& other);
   bool valid() const { return force_n_ > kContactForceN; }
-  /// Where the moment of the summed forces about the plane z = 0 has no horizontal part. Only if
-  /// valid().
+  /// Point where the moment of the summed forces about the plane z = 0 has no horizontal part. Call
+  /// only if valid().
   Vec2 zmp_world_m() const { return moment_n_m_ / force_n_; }
   double force_n() const { return force_n_; }
 
@@ -58,7 +57,7 @@ class FootLoads {
   Vec2 moment_n_m_ = Vec2::Zero();
 };
 
-/// Counter-clockwise convex hull; collinear points are dropped.
+/// Counter-clockwise convex hull without collinear points.
 std::vector<Vec2> convex_hull(std::vector<Vec2> points);
 
 /// (roll, pitch, yaw) of Rz(yaw) Ry(pitch) Rx(roll).

@@ -51,7 +51,8 @@ class Drawing {
     const double friction =
         stream(Draw::kVaryFriction).uniform(bands_.friction_low, bands_.friction_high);
     out_.world.ground_surface.friction = friction;
-    // A contact takes the lesser of its partners' (world.cpp): the robot's own must not hide it.
+    // A contact uses the smaller friction of its partners (world.cpp), so the robot's must not hide
+    // it.
     for (model::Node& node : out_.entity.nodes) {
       for (model::Collision& shape : node.collisions) shape.friction = friction;
     }

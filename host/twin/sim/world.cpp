@@ -14,11 +14,11 @@
 namespace verp::sim {
 namespace {
 
-/// In whose place ODE would end the program.
+/// Replaces ODE's exit from the program.
 struct OdeGaveUp : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-/// What ODE would print of what it goes on after: nobody can act on it.
+/// Drops ODE's messages about problems after which it continues: nobody can act on them.
 void say_nothing(int, const char*, va_list) {}
 [[noreturn]] void give_up(int, const char* text, va_list arguments) {
   char said[256];
@@ -38,7 +38,7 @@ struct OdeRuntime {
   ~OdeRuntime() { dCloseODE(); }
 };
 
-/// What cannot be destroyed any more: ODE was left in the middle of a step, with jobs to do.
+/// Keeps what cannot be destroyed: ODE was left in the middle of a step, with pending jobs.
 void keep(dWorldID world, dThreadingImplementationID threading) {
   static std::mutex mutex;
   static auto& kept = *new std::vector<std::pair<dWorldID, dThreadingImplementationID>>;
@@ -46,18 +46,18 @@ void keep(dWorldID world, dThreadingImplementationID threading) {
   kept.emplace_back(world, threading);
 }
 
-/// Per pair of geometries: a box on a plane has four, and more would only slow the solver.
+/// Per pair of geometries. A box on a plane has four; more would only slow the solver.
 constexpr int kMaxContacts = 8;
 
-/// ODE's joint error reduction per step and constraint softness. Hinges: ODE's default for the
-/// former; softness so small that no joint gives way visibly, and singular configurations still
+/// ODE's joint error reduction per step and constraint softness (CFM). The first is ODE's default.
+/// The second is so small that no joint visibly gives way, but singular configurations still
 /// factorise.
 constexpr double kErrorReduction = 0.2;
 constexpr double kConstraintSoftness = 1e-9;
-/// Penetration is undone at this speed at most, so that a bad start doesn't throw the robot into
-/// the air.
+/// Highest speed at which ODE corrects penetration, so that a bad start does not throw the robot
+/// into the air.
 constexpr double kMaxCorrectingVelocity = 1.0;
-/// What meets slower than this stays: gravity's gain in a step of 2 ms, or things would never rest.
+/// Slower impacts do not bounce: gravity's gain in a step of 2 ms. Otherwise things never rest.
 constexpr double kLeastBounce_m_s = 0.02;
 
 /// Springs in series; stiffness 0 means rigid.
@@ -99,7 +99,7 @@ World::World(const WorldOptions& options) : options_(options) {
   static const OdeRuntime runtime;
   dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll));
   world_ = dWorldCreate();
-  // Of its own: worlds without one share ODE's, which two threads must not step by at a time.
+  // Own threading: worlds without it share ODE's, which two threads must not step at a time.
   threading_ = dThreadingAllocateSelfThreadedImplementation();
   dWorldSetStepThreadingImplementation(world_, dThreadingImplementationGetFunctions(threading_),
                                        threading_);
@@ -168,8 +168,8 @@ void World::collide(dGeomID a, dGeomID b) {
   const int count = dCollide(a, b, kMaxContacts, &points[0].geom, sizeof(dContact));
   for (int i = 0; i < count; ++i) {
     dContact& point = points[i];
-    // A moving body comes first: then ODE's feedback is the force on it, whatever dCollide's order
-    // was.
+    // Put a moving body first, so that ODE's feedback is the force on it, whatever dCollide's
+    // order.
     if (dGeomGetBody(point.geom.g1) == nullptr) {
       std::swap(point.geom.g1, point.geom.g2);
       for (int axis = 0; axis < 3; ++axis) point.geom.normal[axis] = -point.geom.normal[axis];

@@ -12,9 +12,9 @@
 #include "host/robot/model/entity.hpp"
 #include "host/robot/model/world.hpp"
 
-/// The physics engine: ODE in double precision, stepped by dWorldStep at a fixed interval by the
-/// calling thread only. Everything in it is a function of the calls made, so two equal runs are
-/// equal to the last bit.
+/// The physics engine: ODE in double precision. Only the calling thread steps it, by dWorldStep at
+/// a fixed interval. The state is a function of the calls alone, so two equal runs are equal to the
+/// last bit.
 namespace verp::sim {
 
 using model::Mat3;
@@ -25,17 +25,18 @@ struct Surface {
   double friction = 1.0;
   double stiffness_n_m = 5e4;
   double damping_n_s_m = 500;
-  double restitution = 0;  ///< of speed; of two surfaces the larger counts. A soft one eats it up
+  double restitution = 0;  ///< of speed; the larger of two surfaces counts. A soft surface absorbs
+                           ///< it
 };
 
 inline constexpr int kScenery = -1;
 
-/// Whose geometry this is: an owner number from World::new_owner(), or kScenery.
+/// Owner of a geometry: a number from World::new_owner(), or kScenery.
 struct GeomTag {
   int owner = kScenery;
   int node = 0;  ///< link index of the owner's Entity
   Surface surface;
-  /// Links of the same owner that it passes through, bit n: link n. Scenery never collides with
+  /// Links of the same owner that never collide with it, bit n: link n. Scenery never collides with
   /// itself.
   std::uint64_t passes = 0;
 
@@ -45,7 +46,7 @@ struct GeomTag {
   }
 };
 
-/// One contact point of the last step as one of its partners felt it.
+/// One contact point of the last step, seen by one of its partners.
 struct Contact {
   int owner = kScenery;
   int node = 0;
@@ -57,32 +58,32 @@ struct Contact {
 
 class Scenery;
 
-/// What a ray goes through: the shapes of one link.
+/// The shapes that a ray ignores: those of one link.
 struct RayFilter {
-  int owner = kScenery - 1;  ///< nobody
+  int owner = kScenery - 1;  ///< no owner
   int node = 0;
 };
 
-/// Something that acts in every physics step: a robot.
+/// An object that acts in every physics step, for example a robot.
 class Actor {
  public:
   virtual ~Actor() = default;
   virtual void before_step(double step_s) = 0;
   virtual void after_step(double step_s) = 0;
-  /// Where the links of a robot are; what is none has none.
+  /// Poses of the robot's links; empty for objects that are not robots.
   virtual std::vector<Transform> link_poses() const { return {}; }
 };
 
-/// Who lets a world's time go on. One whose bus stands alone in a world moves it; among several,
-/// somebody sees to it that the world steps once for all of them.
+/// Advances a world's time. A single bus advances the world itself; with several, a coordinator
+/// steps the world once for all.
 class TimeSource {
  public:
   virtual ~TimeSource() = default;
-  /// Comes back when the world has done all whole steps that end at or before time_us.
+  /// Returns when the world has done all whole steps that end at or before time_us.
   virtual void advance_to(std::uint64_t time_us) = 0;
 };
 
-/// The solver gave up: a speed is beyond all numbers. The world that threw it is over.
+/// The solver gave up because a speed overflowed. The world that threw it cannot continue.
 class Diverged : public std::runtime_error {
  public:
   Diverged(double at_s, double step_s, const std::string& why)
@@ -97,12 +98,12 @@ class Diverged : public std::runtime_error {
 struct WorldOptions {
   std::uint32_t step_us = 1000;
   double gravity_m_s2 = 9.80665;
-  Vec3 up = Vec3::UnitZ();  ///< against gravity; the world's frame is the floor's, so a tilted up
-                            ///< is a tilted floor
+  Vec3 up = Vec3::UnitZ();  ///< opposite to gravity; the world's frame is the floor's, so a tilted
+                            ///< up is a tilted floor
   bool ground = true;       ///< the plane z = 0
   Surface ground_surface{
       .friction = 1.0, .stiffness_n_m = 0, .damping_n_s_m = 0};  ///< 0 stiffness: rigid
-  /// What a world's file has, its ground too; null: nothing. Gravity is given above.
+  /// Contents of a world file, including its ground; null: none. gravity_m_s2 above still holds.
   std::shared_ptr<const model::World> scenery = {};
 };
 
@@ -120,33 +121,32 @@ class World final : public TimeSource {
   /// Runs whole steps up to the last one that ends at or before time_us; never goes back.
   void advance_to(std::uint64_t time_us) override;
 
-  /// Contact points of the last step.
   const std::vector<Contact>& contacts() const { return contacts_; }
 
   int new_owner() { return owners_++; }
-  /// Actors act in the order they were added. An actor removes itself before it goes.
+  /// Actors act in the order in which they were added. An actor must remove itself before its end.
   void add(Actor& actor) { actors_.push_back(&actor); }
   void remove(Actor& actor) { std::erase(actors_, &actor); }
   const std::vector<Actor*>& actors() const { return actors_; }
 
   /// Attaches a tag that lives as long as the world, and lets the geometry collide.
   GeomTag& tag(dGeomID geom, const GeomTag& tag);
-  /// A shape in this world's space, not attached to a body; the pose is the caller's business.
+  /// A shape in this world's space, not attached to a body; the caller sets its pose.
   dGeomID make_shape(const model::Collision& collision);
 
   dWorldID ode_world() const { return world_; }
   dSpaceID ode_space() const { return space_; }
-  /// Null: the world was made without.
+  /// Null: the world has no scenery.
   Scenery* scenery() { return scenery_.get(); }
   const Scenery* scenery() const { return scenery_.get(); }
-  /// How far it is to the first shape in that direction; nothing within range_m.
+  /// Distance to the first shape in that direction; nothing if none is within range_m.
   std::optional<double> ray_m(const Vec3& from_world_m, const Vec3& direction_world, double range_m,
                               const RayFilter& filter = {}) const;
-  /// Of the highest thing below 1.5 m, within around_m of there: where a robot can be put down.
+  /// Height of the highest surface below 1.5 m within around_m: where a robot can be put down.
   double height_m(double x_m, double y_m, double around_m) const;
   /// From the next step on; the direction stays.
   void set_gravity(double gravity_m_s2);
-  /// Of the plane z = 0; null if there is none.
+  /// Tag of the plane z = 0; null: no plane.
   GeomTag* ground_tag() { return ground_; }
 
  private:
