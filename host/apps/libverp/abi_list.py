@@ -73,8 +73,8 @@ def abi(header: str) -> dict:
     text, lines = _plain(header), header.splitlines()
     ffi = cffi.FFI()
     ffi.cdef(text)
-    numbers = "".join(f"typedef int {name};" for name in _NUMBERS)  # one line, so that lines stay what they are
-    known = ffi.dlopen(None)  # the values of enumerators
+    numbers = "".join(f"typedef int {name};" for name in _NUMBERS)  # one line, so that line numbers stay
+    known = ffi.dlopen(None)  # gives the values of enumerators
     out = {"abi": 0, "library": "libverp.so.0", "constants": [], "enums": [], "handles": [], "structs": [],
            "callbacks": [], "functions": []}
     for node in c_parser.CParser().parse(numbers + text).ext[len(_NUMBERS) :]:

@@ -11,15 +11,15 @@ namespace verp::abi {
 
 struct Run;
 
-/// The radios of a session's robots, and what each has heard and its user has not taken.
+/// The radios of a session's robots, and each robot's queue of received messages.
 class Air {
  public:
-  /// Throws Failure, naming the number that is of no radio.
+  /// Throws Failure that names an invalid number.
   explicit Air(const verp_radio& what);
 
-  /// Before the first tick: all robots are there.
+  /// Before the first tick, with all robots present.
   void begin(std::size_t robots);
-  /// That robot has done a tick.
+  /// Advances the radios after a tick of that robot.
   void ticked(Run& run, std::uint32_t robot);
   int send(Run& run, std::uint32_t robot, std::int32_t to, std::string data);
   int take(std::uint32_t robot, void* data, std::uint64_t room, std::uint64_t* size,

@@ -19,7 +19,7 @@ using namespace verp::abi;
 
 namespace {
 
-/// What stands behind a verp_core.
+/// State behind a verp_core.
 struct Core {
   verp::Params params;
   verp::State state = {};
@@ -44,7 +44,7 @@ const verp::LegParams& leg_of(const Core& core, std::uint32_t side) {
   return core.params.leg[side];
 }
 
-/// Of a number that is none nothing could be computed but more of them.
+/// Refuses numbers that are not finite, because all results would be, too.
 void need_finite(const float* values, std::size_t count, const char* name) {
   for (std::size_t i = 0; i < count; ++i) {
     finite(values[i], (std::string(name) + "[" + std::to_string(i) + "]").c_str());
@@ -56,8 +56,8 @@ void need_all_joints(const Core& core, const float* angle_rad, std::uint32_t joi
   need_finite(angle_rad, joints, "angle_rad");
 }
 
-/// What only scales, shears or mirrors has no angles; the numbers of one that is told in a few
-/// digits are off by less.
+/// Matrices that scale, shear or mirror have no angles. The tolerance admits rotations that were
+/// rounded to a few digits.
 void need_rotation(const float* from, const char* name) {
   constexpr double kTolerance = 1e-3;
   Eigen::Matrix3d r;

@@ -8,11 +8,10 @@
 
 namespace verp::abi {
 
-/// Rotation, row by row, then position.
+/// Writes the rotation, row by row, then the position.
 void put_pose(const Pose& pose, float* to);
 
-/// The gait alone, from standing: what it plans for each of `count` ticks, the last `stop` of them
-/// after it was asked to stop.
+/// Plans `count` ticks of gait from standing, the last `stop` of them after a stop order.
 void plan_walk(const Params& params, const Command& velocity, verp_plan* plan, std::uint32_t count,
                std::uint32_t stop);
 

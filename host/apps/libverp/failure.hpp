@@ -8,7 +8,7 @@
 
 namespace verp::abi {
 
-/// Why a call gives another status than VERP_OK.
+/// A call's status other than VERP_OK, and the reason.
 class Failure : public std::runtime_error {
  public:
   Failure(verp_status status, const std::string& why) : std::runtime_error(why), status_(status) {}
@@ -18,10 +18,11 @@ class Failure : public std::runtime_error {
   verp_status status_;
 };
 
-/// Keeps the exception that is being handled as this thread's last error, and gives its status.
+/// Stores the current exception as this thread's last error and returns its status.
 int fail(const char* function) noexcept;
 
-/// A function of the ABI: no exception leaves it. A body that gives no status gives VERP_OK.
+/// Runs the body of an ABI function: no exception leaves it. A body without a result returns
+/// VERP_OK.
 template <std::invocable Body>
 int call(const char* function, Body body) noexcept {
   try {
@@ -36,10 +37,10 @@ int call(const char* function, Body body) noexcept {
   }
 }
 
-/// Throw Failure for an argument that is null, a text that is empty, or a struct of another size.
+/// Throw Failure for a null argument, an empty text, or a struct of another size.
 void need(const void* argument, const char* name);
 void need_text(const char* text, const char* name);
-/// Null stands for none, and an empty text for a mistake.
+/// Null is valid; an empty text is an error.
 void need_text_or_null(const char* text, const char* name);
 template <class Struct>
 void need_struct(const Struct* argument, const char* name) {
@@ -50,9 +51,9 @@ void need_struct(const Struct* argument, const char* name) {
                     std::to_string(sizeof(Struct)) +
                     "; set it to sizeof, and compile against this library's verp.h");
 }
-/// One of a whole struct's bytes.
+/// Throws Failure unless the size is that of the whole struct.
 void need_size(std::uint64_t size, std::uint64_t wanted, const char* name);
-/// A finite number.
+/// Throws Failure unless the number is finite.
 double finite(double value, const char* name);
 
 }  // namespace verp::abi

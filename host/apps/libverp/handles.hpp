@@ -11,20 +11,21 @@
 
 namespace verp::abi {
 
-/// How many forks lie between the process that loaded the library and this one.
+/// Number of forks between the process that loaded the library and this one.
 unsigned forks();
 
-/// The objects behind one kind of handle. A handle is a number that is never given twice, so a
-/// closed one is known; each is in use by one call at a time. A process that was forked
-/// has copies of its parent's objects, whose files and programs are the parent's: it may touch none
-/// of them, and its end ends none.
+/// The objects behind one kind of handle. A handle is a number that is never reused, so a closed
+/// one is recognised. One call at a time uses an object. A forked process has copies of its
+/// parent's objects, whose files and programs belong to the parent: it must not use or destroy
+/// them.
 template <class Object>
 class Handles {
  public:
-  /// `what` it is, in words; `kind` tells its handles from others'.
+  /// `what` is the kind in words; `kind` separates its handles from other kinds'.
   Handles(const char* what, std::uint64_t kind) : what_(what), next_(kind) { forks(); }
   ~Handles() {
-    // The parent's are never destroyed here; somebody has them, so that no leak is told.
+    // Objects of the parent are never destroyed here. This list keeps them reachable, so that no
+    // leak is reported.
     static auto& of_parent = *new std::vector<std::shared_ptr<Object>>;
     for (auto& [id, place] : places_) {
       if (place.forks != forks()) of_parent.push_back(std::move(place.object));
@@ -33,7 +34,7 @@ class Handles {
   Handles(const Handles&) = delete;
   Handles& operator=(const Handles&) = delete;
 
-  /// A call's use of an object, from its beginning to its end.
+  /// One call's use of an object, from start to end.
   class Use {
    public:
     Use(Handles& all, std::uint64_t id, std::shared_ptr<Object> object)
@@ -68,7 +69,7 @@ class Handles {
     return Use(*this, id, place.object);
   }
 
-  /// No call finds it any more.
+  /// Removes the object, so that no later call finds it.
   template <class Handle>
   std::shared_ptr<Object> take(Handle handle) {
     const auto id = reinterpret_cast<std::uint64_t>(handle);

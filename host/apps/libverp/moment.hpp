@@ -8,8 +8,7 @@
 
 namespace verp::abi {
 
-/// One tick in the hands of a user's controller. While it runs, verp_decide() finds it by its
-/// token.
+/// One tick, passed to a user's controller. While it runs, verp_decide() finds it by its token.
 class Moment {
  public:
   Moment(const Params& params, State& state, const Inputs& inputs, Outputs& outputs);
@@ -17,12 +16,12 @@ class Moment {
   Moment(const Moment&) = delete;
   Moment& operator=(const Moment&) = delete;
 
-  /// What the controller gives. Throws Failure if it throws.
+  /// Runs the controller and returns its status. Throws Failure if the controller throws.
   int run(verp_controller controller, void* user, std::uint32_t robot);
-  /// The core's own decision, once.
+  /// Runs the core's own controller, once.
   void decide();
   bool decided() const { return decided_; }
-  /// Where it runs, and lives no longer than that.
+  /// The thread on which the controller runs; the moment ends with it.
   std::thread::id thread() const { return thread_; }
 
  private:

@@ -16,7 +16,7 @@ struct What {
   std::uint32_t bit;
   const char* name;
   const char* encoding;  ///< of camera::Picture
-  std::uint64_t bytes;   ///< a pixel
+  std::uint64_t bytes;   ///< per pixel
 };
 constexpr What kWhats[] = {{VERP_COLOUR, "colour", "rgb8", 3},
                            {VERP_DEPTH, "depth", "16UC1", 2},

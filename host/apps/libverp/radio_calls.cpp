@@ -8,9 +8,9 @@
 namespace verp::abi {
 namespace {
 
-constexpr std::uint64_t kMostBytes = 65'536;  // that any conditions let a message have
+constexpr std::uint64_t kMostBytes = 65'536;  // limit under any conditions
 
-/// A message is said or heard between ticks, or by a controller inside one.
+/// A caller sends and takes messages between ticks, or inside a controller.
 template <class Act>
 int with(verp_session session, Act&& act) {
   if (Run* run = Ticking::find(session)) return act(*run);
@@ -69,7 +69,7 @@ int verp_session_send(verp_session session, uint32_t robot, int32_t to, const vo
     return with(session, [&](Run& run) {
       run.seat(robot);
       Air& air = air_of(run);
-      // No radio takes more, and a size that is none is not to be copied.
+      // No radio takes more; refusing it here avoids a copy of an invalid size.
       if (size > kMostBytes) {
         throw Failure(VERP_BAD_ARGUMENT,
                       "data is of " + std::to_string(size) + " bytes: no message has so many");

@@ -15,7 +15,7 @@
 namespace verp::abi {
 namespace {
 
-/// "gait.lift_m=0.012 balance.zeros_enable=0"
+/// Parses "gait.lift_m=0.012 balance.zeros_enable=0".
 void tune(const std::string& text, Tuning& tuning) {
   std::istringstream words(text);
   for (std::string word; words >> word;) {
@@ -42,7 +42,7 @@ int tuning_id_of(const std::string& name) {
 }
 
 float tuning_value_for(int id, const std::string& name, double value) {
-  // Ranges are float32: 0.03 is inside one that ends at 0.03F, whatever its double is.
+  // Ranges are float32: 0.03 is inside a range that ends at 0.03F, even if the double is larger.
   const auto number = static_cast<float>(value);
   if (in_range(id, number)) return number;
   throw Failure(VERP_BAD_ARGUMENT,

@@ -6,15 +6,15 @@
 
 namespace verp::abi {
 
-/// A robot as both the twin and the controller want it. May be asked from any thread.
+/// A robot for the twin and for the controller. Any thread may load one.
 struct Loaded {
   model::Entity entity;
   Params params;
 };
-/// `bus` and `tuning` may be null. Throws LoadError, and Failure for tuning that is none.
+/// `bus` and `tuning` may be null. Throws LoadError, and Failure for invalid tuning.
 Loaded load(const char* model, const char* bus, const char* tuning);
 
-/// Throws Failure unless there is such a number of the tuning, and it may have that value.
+/// Throw Failure for an unknown tuning name and for a value out of range.
 int tuning_id_of(const std::string& name);
 float tuning_value_for(int id, const std::string& name, double value);
 

@@ -31,7 +31,7 @@ std::uint32_t number_of(Run& run, const session::Robot& ticked) {
   return index;
 }
 
-/// Physics that give up are the end of all its robots' runs, and its results say so.
+/// If the physics diverges, the runs of all robots end, and their results say so.
 const session::Robot* tick_of(Run& run) {
   try {
     return run.session.tick();

@@ -4,10 +4,10 @@
 
 namespace verp::abi {
 
-/// All that are open.
+/// All open sessions.
 Handles<Run>& sessions();
 
-/// A call in this thread has a session tick. Until it returns, who calls in the same thread is a
+/// Marks a session that ticks on this thread. Until it ends, any caller on this thread is a
 /// callback of that session.
 class Ticking {
  public:
@@ -18,14 +18,14 @@ class Ticking {
   Ticking(const Ticking&) = delete;
   Ticking& operator=(const Ticking&) = delete;
 
-  /// Null: it does not tick here.
+  /// Null: the session does not tick on this thread.
   static Run* find(verp_session session);
 
  private:
   static Ticking*& last();
   const verp_session session_;
   Run& run_;
-  Ticking* const before_;  ///< a callback of one session may have another one tick
+  Ticking* const before_;  ///< nested: a callback of one session may tick another
 };
 
 }  // namespace verp::abi

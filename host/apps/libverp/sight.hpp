@@ -8,34 +8,34 @@
 
 namespace verp::abi {
 
-/// What a session's robots see, and what they look like: keeps when each camera last looked and
-/// where everything was then, and has it drawn when somebody asks.
+/// Camera pictures and renderings of a session. Keeps each camera's last time and the poses at that
+/// time, and draws a picture on request.
 class Sight {
  public:
   explicit Sight(const sim::WorldOptions& world);
 
-  /// One more robot.
   void add(const session::WalkPlan& plan);
-  /// The robot has done a tick, in which its cameras may have looked.
+  /// Notes the cameras that took a picture in the robot's tick.
   void looked(session::Session& session, std::uint32_t robot);
 
-  /// What that camera last saw, in that encoding (camera::Picture); null: it has not looked yet.
-  /// Throws CameraError.
+  /// The camera's last picture in that encoding (camera::Picture); null: none taken yet. Throws
+  /// CameraError.
   const camera::Picture* picture(std::uint32_t robot, std::uint32_t camera, const char* encoding);
-  /// The world as it is. Throws CameraError, and std::invalid_argument if there is no such view.
+  /// Draws the world as it is now. Throws CameraError, and std::invalid_argument for an unknown
+  /// view.
   camera::Picture render(session::Session& session, std::uint32_t robot,
                          const camera::Outside& from);
 
  private:
   struct Look {
-    std::shared_ptr<const camera::Moment> at;  ///< null: never
-    std::vector<camera::Picture> drawn;        ///< empty: nobody has asked
+    std::shared_ptr<const camera::Moment> at;  ///< null: none taken yet
+    std::vector<camera::Picture> drawn;        ///< empty: not drawn yet
   };
   camera::Painter& painter();
 
   camera::Stage stage_;
-  std::vector<std::vector<Look>> last_;       ///< of each robot, of each of its cameras
-  std::unique_ptr<camera::Painter> painter_;  ///< since somebody asked
+  std::vector<std::vector<Look>> last_;       ///< by robot, then by camera
+  std::unique_ptr<camera::Painter> painter_;  ///< created by the first request
 };
 
 }  // namespace verp::abi

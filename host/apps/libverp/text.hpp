@@ -5,7 +5,7 @@
 
 namespace verp::abi {
 
-/// As much of a text as has room, and the zero that ends it.
+/// Copies as much of a text as fits, with a final zero.
 template <std::size_t kSize>
 void put_text(std::string_view from, char (&to)[kSize]) {
   const std::size_t length = std::min(from.size(), kSize - 1);

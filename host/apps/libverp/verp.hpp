@@ -1,6 +1,6 @@
 #pragma once
-// libverp in C++: handles that close themselves, errors that are exceptions. Nothing but verp.h is
-// behind it, so a program stays compatible with later libraries of the same ABI.
+// libverp in C++: handles that close themselves, exceptions for errors. It uses only verp.h, so a
+// program works with any library of the same ABI.
 #include <algorithm>
 #include <array>
 #include <exception>
@@ -18,11 +18,11 @@
 
 namespace verp_lib {
 
-/// What a call gave, and in what() why.
+/// A failed call: its status, and the reason in what().
 class Error : public std::runtime_error {
  public:
   explicit Error(int given) : std::runtime_error(verp_last_error()), status(given) {}
-  /// Of what the library was not asked.
+  /// For errors found before the library is called.
   Error(int given, const std::string& why) : std::runtime_error(why), status(given) {}
   int status;
 };
@@ -31,13 +31,13 @@ inline int checked(int status) {
   return status < 0 ? throw Error(status) : status;
 }
 
-/// A text as C has it: it ends at a zero, which therefore is none of its characters.
+/// Converts to a C string. Throws if the text contains a zero character.
 inline const char* c_text(const std::string& text, const char* what) {
   if (text.find('\0') == std::string::npos) return text.c_str();
   throw Error(VERP_BAD_ARGUMENT, std::string(what) + " has a zero character in it");
 }
 
-/// The controller of a robot, alone.
+/// One robot's controller, without a world.
 class Core {
  public:
   explicit Core(const std::string& model = "generic21", const char* bus = nullptr,
@@ -66,7 +66,7 @@ class Core {
     return count;
   }
   using Pose = std::array<float, VERP_POSE>;
-  /// Of all links, the body's first.
+  /// Poses of all links, the body's first.
   std::vector<Pose> forward(std::span<const float> angle_rad) const {
     std::vector<Pose> poses(angle_rad.size() + 1);
     checked(verp_core_forward(handle(), angle_rad.data(), size_of(angle_rad), poses[0].data()));
@@ -89,7 +89,7 @@ class Core {
   }
   std::vector<verp_plan> plan(double vx_m_s, double vy_m_s, double wz_rad_s, std::uint32_t ticks,
                               std::uint32_t stop = 0) const {
-    std::vector<verp_plan> plan(ticks <= VERP_MOST_PLANNED ? ticks : 1);  // if not, it is refused
+    std::vector<verp_plan> plan(ticks <= VERP_MOST_PLANNED ? ticks : 1);  // refused if more
     checked(verp_core_plan(handle(), vx_m_s, vy_m_s, wz_rad_s, plan.data(), ticks, stop));
     return plan;
   }
@@ -111,29 +111,29 @@ class Core {
   std::unique_ptr<verp_core, Close> core_;
 };
 
-/// One tick in a controller's hands.
+/// One tick, passed to a controller.
 class Moment {
  public:
   explicit Moment(const verp_moment& moment) : moment_(moment) {}
   std::uint32_t robot() const { return moment_.robot; }
   const verp_inputs& inputs() const { return *moment_.inputs; }
   verp_outputs& outputs() const { return *moment_.outputs; }
-  /// The robot's own controller decides.
+  /// Runs the robot's own controller.
   void decide() const { checked(verp_decide(moment_.token)); }
 
  private:
   const verp_moment& moment_;
 };
 
-/// Rows from the top: of colour red, green, blue of each pixel; of depth mm, 0 where nothing is.
+/// Rows from the top. Colour: red, green, blue per pixel. Depth: mm, 0 where there is nothing.
 template <class Pixel>
 struct Picture {
   std::uint32_t width = 0, height = 0;
-  double time_s = 0;  ///< when a camera looked, simulated
+  double time_s = 0;  ///< simulated time of a camera's picture
   std::vector<Pixel> pixels;
 };
 
-/// A world and the robots in it. Throws what a controller of its user throws, too.
+/// A world and its robots. Also rethrows the exceptions of a user's controllers.
 class Session {
  public:
   using Controller = std::function<void(const Moment&)>;
@@ -160,10 +160,10 @@ class Session {
     checked(verp_session_view(handle(), robot, ticks_.back().get()));
     return robot;
   }
-  /// False: the run is over.
+  /// Runs at most `count` ticks. False: the run has ended.
   bool tick(std::uint32_t count = 1) {
     const int status = verp_session_tick(handle(), count, nullptr, nullptr);
-    // Of no other status: that may be a second thread's, whose exception it is not.
+    // With another status, the exception may belong to another thread's call.
     if (status == VERP_CALLBACK_FAILED && *thrown_)
       std::rethrow_exception(std::exchange(*thrown_, nullptr));
     return checked(status) == VERP_OK;
@@ -221,7 +221,7 @@ class Session {
     }
     return all;
   }
-  /// What that camera saw when it last looked; none: it has not yet.
+  /// The camera's last picture; nullopt: none taken yet.
   std::optional<Picture<std::uint8_t>> colour(std::uint32_t camera = 0,
                                               std::uint32_t robot = 0) const {
     return picture<std::uint8_t>(VERP_COLOUR, camera, robot);
@@ -234,13 +234,13 @@ class Session {
                                                std::uint32_t robot = 0) const {
     return picture<std::uint16_t>(VERP_LABELS, camera, robot);
   }
-  /// The world as it is now; time_s stays 0.
+  /// Draws the world as it is now; time_s stays 0.
   Picture<std::uint8_t> render(verp_view view) const {
     view.size = sizeof view;
     Picture<std::uint8_t> out{view.width, view.height, 0, {}};
     if (std::max(view.width, view.height) <= VERP_MOST_PIXELS)
       out.pixels.resize(std::size_t{3} * view.width * view.height);
-    if (out.pixels.empty()) out.pixels.resize(1);  // to be refused
+    if (out.pixels.empty()) out.pixels.resize(1);  // for the library to refuse
     checked(verp_session_render(handle(), &view, out.pixels.data(), out.pixels.size()));
     return out;
   }
@@ -258,9 +258,9 @@ class Session {
     checked(verp_radio_defaults(&radio));
     return radio;
   }
-  /// Each robot has a radio: before the first tick.
+  /// Gives each robot a radio, before the first tick.
   void radio(const verp_radio& what) { checked(verp_session_radio(handle(), &what)); }
-  /// False: too many wait for the air already. Without `to`: to everybody.
+  /// False: too many messages wait to be sent.
   bool send(std::uint32_t robot, const std::string& data, std::int32_t to = VERP_EVERYBODY) {
     return checked(verp_session_send(handle(), robot, to, data.data(), data.size())) == VERP_OK;
   }
@@ -268,7 +268,7 @@ class Session {
     std::uint32_t from = 0;
     std::string data;
   };
-  /// The next that this robot heard up to its last tick; none: no further one.
+  /// The next message that the robot received up to its last tick; nullopt: there is none.
   std::optional<Message> take(std::uint32_t robot) {
     Message message;
     message.data.resize(65536);
@@ -278,7 +278,7 @@ class Session {
     message.data.resize(size);
     return status == VERP_NO_MESSAGE ? std::nullopt : std::optional(std::move(message));
   }
-  /// In place of the robot's own controller; an empty one: its own again.
+  /// Replaces the robot's own controller; an empty function restores it.
   void control(Controller controller, std::uint32_t robot = 0) {
     if (!controller) {
       checked(verp_session_control(handle(), robot, nullptr, nullptr));
@@ -326,10 +326,10 @@ class Session {
   std::unique_ptr<std::exception_ptr> thrown_ = std::make_unique<std::exception_ptr>();
   std::map<std::uint32_t, std::unique_ptr<Attached>> controllers_;
   std::vector<std::unique_ptr<verp_tick>> ticks_;
-  std::unique_ptr<verp_session, Close> session_;  ///< goes before what it looks at
+  std::unique_ptr<verp_session, Close> session_;  ///< destroyed before the memory that it uses
 };
 
-/// Ticks, and the digest, of a trace that replays bit for bit; throws Error if it does not.
+/// Tick count and digest of a trace that replays bit for bit; throws Error if it does not.
 struct Replayed {
   std::uint64_t ticks = 0, digest = 0;
 };

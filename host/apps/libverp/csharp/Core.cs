@@ -1,7 +1,7 @@
 using System;
 
 namespace Verp {
-  /// <summary>The controller of one robot, alone, with its own bits.</summary>
+  /// <summary>One robot's controller without a world, with the robot's own bits.</summary>
   public sealed unsafe class Core : Handle {
     public Core(string model = "generic21", string bus = null, string tuning = null) {
       IntPtr core;
@@ -12,9 +12,9 @@ namespace Verp {
 
     protected override int CloseNow() { return Native.verp_core_close(handle); }
 
-    /// <summary>As it is when power comes on.</summary>
+    /// <summary>Returns to the state at power-on.</summary>
     public void Reset() { Checked(Native.verp_core_reset(handle)); }
-    /// <summary>One control tick.</summary>
+    /// <summary>Runs one control tick.</summary>
     public void Step(ref verp_inputs inputs, ref verp_outputs outputs) {
       fixed (verp_inputs* seen = &inputs)
       fixed (verp_outputs* sent = &outputs) Checked(Native.verp_core_step(handle, seen, sent));
@@ -41,7 +41,7 @@ namespace Verp {
       }
       return names;
     }
-    /// <summary>A joint's angle in its servo's counts.</summary>
+    /// <summary>Servo count for a joint angle.</summary>
     public int Count(uint joint, float angle_rad) {
       int count;
       Checked(Native.verp_core_count(handle, joint, angle_rad, &count));
@@ -55,7 +55,7 @@ namespace Verp {
 
     /// <summary>Poses of all links, the body's first: 12 numbers each, rotation then position, body frame.</summary>
     public float[] Forward(float[] angle_rad) {
-      uint links = Math.Min(Length(angle_rad), (uint)Native.VERP_MAX_JOINTS) + 1;  // more are refused
+      uint links = Math.Min(Length(angle_rad), (uint)Native.VERP_MAX_JOINTS) + 1;  // the library refuses more
       var poses = new float[links * Native.VERP_POSE];
       fixed (float* angles = angle_rad, to = poses)
         Checked(Native.verp_core_forward(handle, angles, Length(angle_rad), to));
@@ -67,8 +67,8 @@ namespace Verp {
       fixed (float* angles = angle_rad, to = com_m) Checked(Native.verp_core_com(handle, angles, Length(angle_rad), to));
       return com_m;
     }
-    /// <summary>Six angles, hip to ankle, that put the sole of a leg to a pose (12 numbers, body frame). `flags`: 0 if it
-    /// stands exactly so.</summary>
+    /// <summary>Six angles, hip to ankle, that bring the sole of a leg to a pose (12 numbers, body frame). `flags`: 0 if
+    /// the solution is exact.</summary>
     public float[] LegIk(uint side, float[] sole, out uint flags) {
       if (sole == null || sole.Length != Native.VERP_POSE)
         throw VerpException.Wrong("verp_core_leg_ik: sole is no pose of 12 numbers");
@@ -77,9 +77,9 @@ namespace Verp {
       fixed (uint* said = &flags) Checked(Native.verp_core_leg_ik(handle, side, pose, null, to, said));
       return angle_rad;
     }
-    /// <summary>What the gait plans, tick by tick; see verp_plan.</summary>
+    /// <summary>Plans a walk, tick by tick; see verp_plan.</summary>
     public verp_plan[] Plan(double vx_m_s, double vy_m_s, double wz_rad_s, uint ticks, uint stop = 0) {
-      var plan = new verp_plan[ticks <= Native.VERP_MOST_PLANNED ? ticks : 1];  // if not, it is refused
+      var plan = new verp_plan[ticks <= Native.VERP_MOST_PLANNED ? ticks : 1];  // the library refuses more
       fixed (verp_plan* to = plan) Checked(Native.verp_core_plan(handle, vx_m_s, vy_m_s, wz_rad_s, to, ticks, stop));
       return plan;
     }

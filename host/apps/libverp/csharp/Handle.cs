@@ -3,25 +3,25 @@ using System.Runtime.InteropServices;
 using System.Text;
 
 namespace Verp {
-  /// <summary>A call that failed: Message names it and says why. Of a controller that threw, InnerException is what it
-  /// threw.</summary>
+  /// <summary>A call failed; Message names it and gives the reason. If a controller threw, InnerException is its
+  /// exception.</summary>
   public sealed class VerpException : Exception {
     public VerpException(verp_status status, string message, Exception inner = null) : base(message, inner) {
       Status = status;
     }
     public verp_status Status { get; }
 
-    /// <summary>Of what the library was not asked; `why` names the call.</summary>
+    /// <summary>For errors found before the library is called; `why` names the call.</summary>
     internal static VerpException Wrong(string why) { return new VerpException(verp_status.VERP_BAD_ARGUMENT, why); }
 
-    /// <summary>To be called right after the call, in its thread.</summary>
+    /// <summary>Call it right after the library's call, on the same thread.</summary>
     internal static unsafe int Checked(int status) {
       if (status < 0) throw new VerpException((verp_status)status, Texts.Of(Native.verp_last_error()));
       return status;
     }
   }
 
-  /// <summary>Texts as C has them: UTF-8 with a zero at the end.</summary>
+  /// <summary>C strings: UTF-8 with a final zero.</summary>
   static class Texts {
     /// <summary>`what` names the call and its argument.</summary>
     public static byte[] ToC(string text, string what) {
@@ -36,8 +36,8 @@ namespace Verp {
     }
   }
 
-  /// <summary>A handle of the library's: closed once, by Dispose(), or when nobody has it any more. The library knows a closed
-  /// one, and one that another thread is using: such calls throw VerpException.</summary>
+  /// <summary>A library handle, closed once, by Dispose() or the finalizer. Calls with a closed handle, or with one that
+  /// another thread uses, throw VerpException.</summary>
   public abstract class Handle : SafeHandle {
     protected Handle() : base(IntPtr.Zero, true) {
       if (Native.verp_abi() != Native.Abi || !Native.SizesAreThose())
@@ -47,13 +47,13 @@ namespace Verp {
 
     public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
 
-    /// <summary>The library's call.</summary>
+    /// <summary>Calls the library's close function.</summary>
     protected abstract int CloseNow();
-    /// <summary>What the library has looked at until now is let go.</summary>
+    /// <summary>Releases the memory that the library used.</summary>
     protected virtual void LetGo() {}
 
-    /// <summary>Throws if a callback or another thread is using it, and then it stays open; and if a trace could not become
-    /// whole.</summary>
+    /// <summary>Throws if a callback or another thread uses the handle, which then stays open, and if a trace cannot be
+    /// completed.</summary>
     protected override void Dispose(bool disposing) {
       if (!disposing || IsClosed || IsInvalid) {
         base.Dispose(disposing);
@@ -67,14 +67,14 @@ namespace Verp {
       Checked(status);
     }
 
-    /// <summary>Nobody has it any more.</summary>
+    /// <summary>Called by the finalizer.</summary>
     protected override bool ReleaseHandle() {
       bool closed = CloseNow() >= 0;
       LetGo();
       return closed;
     }
 
-    /// <summary>Of an instance, so that this one lives until its call is over.</summary>
+    /// <summary>An instance method, so that this object lives until its call returns.</summary>
     protected int Checked(int status) {
       try {
         return VerpException.Checked(status);

@@ -1,19 +1,19 @@
 using System;
 
 namespace Verp {
-  /// <summary>Decides a tick. It may throw: the run ends, and Session.Tick() tells.</summary>
+  /// <summary>Decides a tick. If it throws, the run ends and Session.Tick() throws.</summary>
   public delegate void Controller(Moment moment);
 
-  /// <summary>One tick in a controller's hands: copies, so that nothing breaks if it is looked at later.</summary>
+  /// <summary>One tick, passed to a controller. It holds copies, so later access is safe.</summary>
   public sealed unsafe class Moment {
     public uint Robot { get; private set; }
     public verp_inputs Inputs;
-    /// <summary>Those of the tick before; what stands here afterwards is sent.</summary>
+    /// <summary>Initially those of the previous tick; the library sends what the controller leaves here.</summary>
     public verp_outputs Outputs;
     ulong token;
     verp_outputs* sent;
 
-    /// <summary>The robot's own controller decides; Outputs may then be changed.</summary>
+    /// <summary>Runs the robot's own controller; Outputs may then be changed.</summary>
     public void Decide() {
       VerpException.Checked(Native.verp_decide(token));
       Outputs = *sent;
@@ -34,7 +34,7 @@ namespace Verp {
   public struct Replayed {
     public ulong Ticks, Digest;
 
-    /// <summary>Throws where it does not.</summary>
+    /// <summary>Throws if a bit differs.</summary>
     public static unsafe Replayed Of(string trace) {
       var replayed = new Replayed();
       fixed (byte* file = Texts.ToC(trace, "verp_replay: file")) {

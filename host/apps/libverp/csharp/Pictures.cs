@@ -1,16 +1,16 @@
 using System;
 
 namespace Verp {
-  /// <summary>Rows from the top: of colour red, green, blue of each pixel; of depth mm, 0 where nothing is.</summary>
+  /// <summary>Rows from the top. Colour: red, green, blue per pixel. Depth: mm, 0 where there is nothing.</summary>
   public sealed class Picture<Pixel> {
     public uint Width, Height;
-    /// <summary>When a camera looked, simulated.</summary>
+    /// <summary>Simulated time of a camera's picture.</summary>
     public double Time_s;
     public Pixel[] Pixels;
   }
 
   public sealed unsafe partial class Session {
-    /// <summary>Those of the robot's file.</summary>
+    /// <summary>The cameras of the robot's file.</summary>
     public verp_camera[] Cameras(uint robot = 0) {
       uint count;
       Checked(Native.verp_session_cameras(handle, robot, &count));
@@ -19,19 +19,19 @@ namespace Verp {
       return all;
     }
 
-    /// <summary>What that camera saw when it last looked; null: it has not yet.</summary>
+    /// <summary>The camera's last picture; null: it has not taken one yet.</summary>
     public Picture<byte> Colour(uint camera = 0, uint robot = 0) {
       verp_camera by = CameraOf(robot, camera);
       var seen = new Picture<byte> { Width = by.width, Height = by.height, Pixels = new byte[3 * by.width * by.height] };
       fixed (byte* to = seen.Pixels) return Read(robot, camera, Native.VERP_COLOUR, to, seen.Pixels.Length, seen) ? seen : null;
     }
-    /// <summary>Along the camera's axis.</summary>
+    /// <summary>Distance along the camera's axis.</summary>
     public Picture<ushort> Depth(uint camera = 0, uint robot = 0) { return Words(robot, camera, Native.VERP_DEPTH); }
-    /// <summary>A number a link, then one a thing of the world; 0: the floor, or nothing.</summary>
+    /// <summary>A number per link, then one per object of the world; 0: the floor, or nothing.</summary>
     public Picture<ushort> Labels(uint camera = 0, uint robot = 0) { return Words(robot, camera, Native.VERP_LABELS); }
 
-    /// <summary>The world as it is now, from front, side, three-quarter, back, top, follow or head of a robot, or a camera
-    /// that a file declares.</summary>
+    /// <summary>The world as it is now. `view`: front, side, three-quarter, back, top, follow or head of a robot, or a
+    /// camera that a file declares.</summary>
     public Picture<byte> Render(string view = "follow", uint width = 640, uint height = 480, uint robot = 0,
                                 bool plain = false) {
       fixed (byte* name = Texts.ToC(view, "verp_session_render: view")) {
@@ -39,7 +39,7 @@ namespace Verp {
         return Render(what, width, height);
       }
     }
-    /// <summary>From one place to another, world frame; `fov_rad` is of the height.</summary>
+    /// <summary>The world seen from eye_m to target_m, world frame; `fov_rad` is vertical.</summary>
     public Picture<byte> Render(double[] eye_m, double[] target_m, double fov_rad = 0.5, uint width = 640, uint height = 480,
                                 bool plain = false) {
       if (eye_m == null || target_m == null || eye_m.Length != 3 || target_m.Length != 3)
@@ -56,7 +56,7 @@ namespace Verp {
       what.size = (uint)sizeof(verp_view);
       what.width = width;
       what.height = height;
-      bool fits = width > 0 && height > 0 && Math.Max(width, height) <= Native.VERP_MOST_PIXELS;  // if not, it is refused
+      bool fits = width > 0 && height > 0 && Math.Max(width, height) <= Native.VERP_MOST_PIXELS;  // the library refuses the rest
       var drawn = new Picture<byte> { Width = width, Height = height, Pixels = new byte[fits ? 3UL * width * height : 1] };
       fixed (byte* to = drawn.Pixels) Checked(Native.verp_session_render(handle, &what, to, (ulong)drawn.Pixels.LongLength));
       return drawn;

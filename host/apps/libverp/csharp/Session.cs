@@ -3,18 +3,18 @@ using System.Collections.Generic;
 using System.Runtime.InteropServices;
 
 namespace Verp {
-  /// <summary>A robot and its walk; see verp_robot. What is null is the library's own choice.</summary>
+  /// <summary>A robot and its walk; see verp_robot. Null selects the library's default.</summary>
   public sealed class Robot {
     public string Model = "generic21", Bus, Name, Tuning, Record;
     public ulong Seed = 1;
-    /// <summary>0: it obeys Session.Command() alone.</summary>
+    /// <summary>0: the robot obeys Session.Command() alone.</summary>
     public double Walk_s = 20;
-    /// <summary>NaN in X: the velocity of `verp walk`.</summary>
+    /// <summary>If Vx_m_s is NaN: the velocity of `verp walk`.</summary>
     public double Vx_m_s = double.NaN, Vy_m_s, Wz_rad_s, X_m, Y_m, Yaw_rad;
     public bool OpenEnd;
   }
 
-  /// <summary>A world and the robots in it, a control tick at a time.</summary>
+  /// <summary>A world and its robots, run one control tick at a time.</summary>
   public sealed unsafe partial class Session : Handle {
     readonly List<verp_tick[]> ticks = new List<verp_tick[]>();
     readonly List<GCHandle> pinned = new List<GCHandle>();  // the library writes there
@@ -37,7 +37,7 @@ namespace Verp {
       pinned.Clear();
     }
 
-    /// <summary>One more robot, before the first tick: its number.</summary>
+    /// <summary>Adds a robot before the first tick; returns its index.</summary>
     public uint Add(Robot robot) {
       if (robot == null) throw VerpException.Wrong("verp_session_add: robot is null");
       verp_robot what;
@@ -59,7 +59,7 @@ namespace Verp {
         what.name = name;
         what.tuning = tuning;
         what.record = record;
-        lock (ticks) {  // as many, and in the library's order
+        lock (ticks) {  // keeps the list in the library's order
           Checked(Native.verp_session_add(handle, &what, &index));
           View(index);
         }
@@ -76,8 +76,8 @@ namespace Verp {
       Checked(Native.verp_session_view(handle, robot, (verp_tick*)place.AddrOfPinnedObject()));
     }
 
-    /// <summary>At most so many ticks, each of one robot. False: the run is over. What a controller threw comes back as the
-    /// InnerException.</summary>
+    /// <summary>Runs at most `count` ticks, each of one robot. False: the run has ended. An exception of a controller
+    /// becomes the InnerException.</summary>
     public bool Tick(uint count = 1) {
       int status = Native.verp_session_tick(handle, count, null, null);
       if (status == (int)verp_status.VERP_CALLBACK_FAILED && thrown != null) {
@@ -89,7 +89,7 @@ namespace Verp {
       return Checked(status) == (int)verp_status.VERP_OK;
     }
 
-    /// <summary>The robot's last tick, which the next one overwrites. What it gives outlives the session.</summary>
+    /// <summary>The robot's last tick; the next tick overwrites it. The memory outlives the session.</summary>
     public ref verp_tick Seen(uint robot = 0) {
       if (IsClosed)
         throw new VerpException(verp_status.VERP_BAD_HANDLE, "Session.Seen: this session was closed; open one");
@@ -104,38 +104,40 @@ namespace Verp {
       return digest;
     }
 
-    /// <summary>The controller's State after the last tick; verp_layout("state") tells its fields.</summary>
+    /// <summary>The controller's State after the last tick; verp_layout("state") lists its fields.</summary>
     public void State(byte[] state, uint robot = 0) {
       fixed (byte* to = state) Checked(Native.verp_session_state(handle, robot, to, state == null ? 0 : (ulong)state.Length));
     }
 
-    /// <summary>Ends the run of all robots; traces become whole.</summary>
+    /// <summary>Ends the runs of all robots and completes their traces.</summary>
     public verp_result Result(uint robot = 0) {
       var result = new verp_result { size = (uint)sizeof(verp_result) };
       Checked(Native.verp_session_result(handle, robot, &result));
       return result;
     }
 
-    /// <summary>From now on the caller has the robot: velocity in its body frame, head to the left and down.</summary>
+    /// <summary>Takes control of the robot: velocity in its body frame, head angles positive to the left and
+    /// down.</summary>
     public void Command(verp_request request, double vx_m_s = 0, double vy_m_s = 0, double wz_rad_s = 0, double pan_rad = 0,
                         double tilt_rad = 0, uint robot = 0) {
       Checked(Native.verp_session_command(handle, robot, (uint)request, vx_m_s, vy_m_s, wz_rad_s, pan_rad, tilt_rad));
     }
-    /// <summary>What `Radio` takes, filled in: a modem of IEEE 802.15.4 in a hall.</summary>
+    /// <summary>Parameters for Radio(): an IEEE 802.15.4 modem in a hall.</summary>
     public static verp_radio RadioDefaults() {
       verp_radio radio;
       VerpException.Checked(Native.verp_radio_defaults(&radio));
       return radio;
     }
-    /// <summary>Each robot has a radio: before the first tick.</summary>
+    /// <summary>Gives each robot a radio, before the first tick.</summary>
     public void Radio(verp_radio radio) { Checked(Native.verp_session_radio(handle, &radio)); }
-    /// <summary>False: too many wait for the air already. `to` -1: everybody.</summary>
+    /// <summary>False: too many messages wait to be sent. `to` -1: all robots.</summary>
     public bool Send(byte[] data, int to = -1, uint robot = 0) {
       if (data == null) throw VerpException.Wrong("verp_session_send: data is null");
       fixed (byte* from = data)
         return Checked(Native.verp_session_send(handle, robot, to, from, (ulong)data.Length)) == (int)verp_status.VERP_OK;
     }
-    /// <summary>The next message that the robot heard up to its last tick, and from whom; null: no further one.</summary>
+    /// <summary>The next message that the robot received up to its last tick, and its sender; null: there is
+    /// none.</summary>
     public byte[] Take(out uint from, uint robot = 0) {
       var room = new byte[65536];
       ulong size;
@@ -148,25 +150,25 @@ namespace Verp {
       Array.Resize(ref room, (int)size);
       return room;
     }
-    /// <summary>The walk that was asked for goes on.</summary>
+    /// <summary>Ends the caller's control; the requested walk continues.</summary>
     public void GiveBack(uint robot = 0) { Checked(Native.verp_session_give_back(handle, robot)); }
-    /// <summary>While it is pressed the robot is limp.</summary>
+    /// <summary>While pressed, the robot is limp.</summary>
     public void EmergencyStop(bool pressed = true, uint robot = 0) {
       Checked(Native.verp_session_emergency_stop(handle, robot, pressed ? 1 : 0));
     }
 
-    /// <summary>A number of the tuning, in force in one of the next ticks.</summary>
+    /// <summary>Sets a tuning value; it takes effect in one of the next ticks.</summary>
     public void Tune(string name, double value, uint robot = 0) {
       fixed (byte* text = Texts.ToC(name, "verp_session_tune: name")) Checked(Native.verp_session_tune(handle, robot, text, value));
     }
-    /// <summary>A number of the tuning as it is in force.</summary>
+    /// <summary>The tuning value in force.</summary>
     public double Tuning(string name, uint robot = 0) {
       double value;
       fixed (byte* text = Texts.ToC(name, "verp_session_tuning: name")) Checked(Native.verp_session_tuning(handle, robot, text, &value));
       return value;
     }
 
-    /// <summary>The numbers of the physics, once all robots were added.</summary>
+    /// <summary>The quantities of the physics, after all robots were added.</summary>
     public verp_quantity[] Quantities() {
       uint count;
       Checked(Native.verp_session_quantities(handle, &count));
@@ -182,21 +184,21 @@ namespace Verp {
       fixed (byte* text = Texts.ToC(quantity, "verp_session_read: quantity")) Checked(Native.verp_session_read(handle, text, &value));
       return value;
     }
-    /// <summary>From the next physics step on.</summary>
+    /// <summary>Sets a quantity from the next physics step on.</summary>
     public void Set(string quantity, double value) {
       fixed (byte* text = Texts.ToC(quantity, "verp_session_set: quantity")) Checked(Native.verp_session_set(handle, text, value));
     }
-    /// <summary>Pushes a link or an object at its centre of mass, N in the world's axes.</summary>
+    /// <summary>Pushes a link or object at its centre of mass, N in world axes.</summary>
     public void Push(string thing, double fx_n, double fy_n, double fz_n, double for_s) {
       fixed (byte* text = Texts.ToC(thing, "verp_session_push: thing")) Checked(Native.verp_session_push(handle, text, fx_n, fy_n, fz_n, for_s));
     }
 
-    /// <summary>In place of the robot's own controller, from the next tick on; null: its own again.</summary>
+    /// <summary>Replaces the robot's own controller from the next tick on; null restores it.</summary>
     public void Control(Controller controller, uint robot = 0) {
       verp_controller callback = controller == null ? (verp_controller)null : Callback(controller);
-      lock (controllers) {  // the one that is kept is the one in force
+      lock (controllers) {  // keeps the controller in force, not another thread's
         Checked(Native.verp_session_control(handle, robot, callback, null));
-        controllers[robot] = callback;  // is kept from the garbage collector, and the one before is not needed any more
+        controllers[robot] = callback;  // protects it from the garbage collector; replaces the last one, no longer needed
       }
     }
 
@@ -206,7 +208,7 @@ namespace Verp {
         try {
           moment.Run(seen, controller);
           return 0;
-        } catch (Exception error) {  // must not leave: below is C. Tick() throws it
+        } catch (Exception error) {  // must not reach the C code below; Tick() rethrows it
           thrown = error;
           return 1;
         }

@@ -1,5 +1,5 @@
-/* camera FILE.ppm [SECONDS]: writes what the robot sees at the end of a walk through a room, and
- * has a picture made of it there. */
+/* camera FILE.ppm [SECONDS]: walks through a room, writes the robot's last view to FILE and renders
+ * a picture of the robot. */
 #include "host/apps/libverp/examples/check.h"
 
 static double mean(const uint8_t* picture, size_t size) {

@@ -1,5 +1,5 @@
-// camera.exe FILE.ppm [SECONDS]: writes what the robot sees at the end of a walk through a room, and has a picture made of it
-// there.
+// camera.exe FILE.ppm [SECONDS]: walks through a room, writes the robot's last view to FILE and renders a picture of the
+// robot.
 using System;
 using System.Globalization;
 using System.IO;

@@ -1,5 +1,4 @@
-// controller.exe [SECONDS]: a controller of one's own in place of the robot's. This one has the robot's own decide, and adds a
-// nod of the head to it.
+// controller.exe [SECONDS]: a user's controller. It runs the robot's own controller and adds a nod of the head.
 using System;
 using System.Globalization;
 using Verp;

@@ -1,5 +1,5 @@
-/* radio [TRACE.mcap]: two robots, one of which does what the other one tells it by radio. Both know
- * nothing else of each other. */
+/* radio [TRACE.mcap]: one robot sends orders by radio and the other obeys them; they share nothing
+ * else. */
 #include <string.h>
 
 #include "host/apps/libverp/examples/check.h"

@@ -1,5 +1,5 @@
-// radio [TRACE.mcap]: two robots, one of which does what the other one tells it by radio. Both know
-// nothing else of each other.
+// radio [TRACE.mcap]: one robot sends orders by radio and the other obeys them; they share nothing
+// else.
 #include <cstdio>
 #include <string>
 
@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
     const double now_s = session.seen(leader).time_s;
     const std::string wanted = now_s > 6 && now_s < 10 ? "walk" : "stand";
     if (wanted != doing) obey(session, leader, doing = wanted);
-    if (now_s >= next_s) {  // again and again: three in ten are lost
+    if (now_s >= next_s) {  // repeated, because three in ten are lost
       next_s += 0.2;
       said += session.send(leader, doing);
     }

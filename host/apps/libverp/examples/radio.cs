@@ -1,5 +1,4 @@
-// radio.exe [TRACE.mcap]: two robots, one of which does what the other one tells it by radio. Both know nothing else of each
-// other.
+// radio.exe [TRACE.mcap]: one robot sends orders by radio and the other obeys them; they share nothing else.
 using System;
 using System.Globalization;
 using System.Text;
@@ -28,7 +27,7 @@ static class TwoThatTalk {
         double now_s = session.Seen(leader).time_s;
         string wanted = now_s > 6 && now_s < 10 ? "walk" : "stand";
         if (wanted != doing) Obey(session, leader, doing = wanted);
-        if (now_s >= next_s) {  // again and again: three in ten are lost
+        if (now_s >= next_s) {  // repeated, because three in ten are lost
           next_s += 0.2;
           if (session.Send(Encoding.ASCII.GetBytes(doing), robot: leader)) ++said;
         }

@@ -26,7 +26,7 @@ with verp.Session() as session:
         if wanted != doing:
             doing = wanted
             obey(session, leader, doing)
-        if now_s >= next_s:  # again and again: three in ten are lost
+        if now_s >= next_s:  # repeated, because three in ten are lost
             next_s += 0.2
             said += session.send(doing, robot=leader)
         for sender, order in session.take(follower):

@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
     session.add(robot);
     while (session.tick(100)) {
     }
-  }  // the file becomes whole
+  }  // closing the session completes the file
   const verp_lib::Replayed replayed = verp_lib::replay(argv[1]);
   std::printf("%" PRIu64 " ticks 0x%016" PRIx64 "\n", replayed.ticks, replayed.digest);
 }

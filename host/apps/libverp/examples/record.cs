@@ -16,7 +16,7 @@ static class Record {
       session.Add(robot);
       while (session.Tick(100)) {
       }
-    }  // the file becomes whole
+    }  // closing the session completes the file
     Replayed replayed = Replayed.Of(args[0]);
     Console.WriteLine("{0} ticks 0x{1:x16}", replayed.Ticks, replayed.Digest);
     return 0;

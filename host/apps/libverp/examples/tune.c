@@ -1,4 +1,4 @@
-/* tune [SECONDS]: a number of the gait is changed while the robot walks, and one of the physics. */
+/* tune [SECONDS]: changes a number of the gait and one of the physics during a walk. */
 #include "host/apps/libverp/examples/check.h"
 
 int main(int argc, char** argv) {

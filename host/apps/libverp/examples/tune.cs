@@ -1,4 +1,4 @@
-// tune.exe [SECONDS]: a number of the gait is changed while the robot walks, and one of the physics.
+// tune.exe [SECONDS]: changes a number of the gait and one of the physics during a walk.
 using System;
 using System.Globalization;
 using Verp;

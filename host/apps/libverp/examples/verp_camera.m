@@ -1,6 +1,6 @@
 function verp_camera(file, seconds)
-%VERP_CAMERA(FILE, SECONDS) Writes what the robot sees at the end of a walk through a room (.ppm), and
-% has a picture made of it there.
+%VERP_CAMERA(FILE, SECONDS) Walks through a room, writes the robot's last view to FILE (.ppm) and
+% renders a picture of the robot.
   if nargin < 2, seconds = 20; end
   session = verp.Session('demo');
   session.add('walk_s', seconds);

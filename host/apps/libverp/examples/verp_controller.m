@@ -1,6 +1,6 @@
 function verp_controller(seconds)
-%VERP_CONTROLLER(SECONDS) A controller of one's own in place of the robot's. This one has the robot's
-% own decide, and adds a nod of the head to it.
+%VERP_CONTROLLER(SECONDS) A user's controller. It runs the robot's own controller and adds a nod of
+% the head.
   if nargin < 1, seconds = 20; end
   core = verp.Core();
   pitch = find(strcmp(core.joint_names, 'head_pitch'));

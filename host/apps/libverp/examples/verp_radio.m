@@ -1,6 +1,6 @@
 function verp_radio(trace)
-%VERP_RADIO(TRACE) Two robots, one of which does what the other one tells it by radio. Both know nothing
-% else of each other.
+%VERP_RADIO(TRACE) One robot sends orders by radio and the other obeys them; they share nothing
+% else.
   if nargin < 1, trace = ''; end
 
   function obey(robot, order)
@@ -25,7 +25,7 @@ function verp_radio(trace)
       doing = wanted;
       obey(leader, doing);
     end
-    if now_s >= next_s  % again and again: three in ten are lost
+    if now_s >= next_s  % repeated, because three in ten are lost
       next_s = next_s + 0.2;
       said = said + session.send(doing, -1, leader);
     end

@@ -1,5 +1,5 @@
 function verp_tune(seconds)
-%VERP_TUNE(SECONDS) A number of the gait is changed while the robot walks, and one of the physics.
+%VERP_TUNE(SECONDS) Changes a number of the gait and one of the physics during a walk.
   if nargin < 1, seconds = 20; end
   session = verp.Session();
   session.add('walk_s', seconds);

@@ -1,7 +1,7 @@
 #ifndef VERP_MATLAB_ARGUMENTS_H
 #define VERP_MATLAB_ARGUMENTS_H
-/* What MATLAB gave to a call and wants of it. What is wrong becomes an error of MATLAB's, which
- * leaves the function by a long jump: none of these may be called while the library is at work. */
+/* Arguments and results of a call from MATLAB. A wrong argument raises a MATLAB error, which leaves
+ * the function by a long jump, so call none of these while the library runs. */
 #include <mex.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -13,22 +13,22 @@ typedef struct arguments {
   mxArray** out;
 } arguments;
 
-/* The call that is under way, for its errors. Gives the one before. */
+/* Sets the name of the current call for error messages; returns the previous one. */
 const char* begin_call(const char* name);
-/* An error of its arguments: printf's words. */
+/* Raises an error about an argument; arguments as for printf. */
 void refuse(const char* words, ...);
-/* A call's status, if it is no error. */
+/* Raises an error if the status is one; else returns it. */
 int checked(int status);
 
 double number(const arguments* a, int index, const char* what);
 uint32_t whole(const arguments* a, int index, const char* what);
 int32_t signed_whole(const arguments* a, int index, const char* what);
-/* Null where there is an empty array, or nothing. MATLAB frees it when the call is over. */
+/* Null for an empty array or a missing argument. MATLAB frees the text after the call. */
 char* text(const arguments* a, int index, const char* what);
 char* text_of(const mxArray* given, const char* what);
-/* As many floats as the array has. */
+/* All elements of the array; `count` receives their number. */
 float* floats(const arguments* a, int index, size_t* count, const char* what);
-/* The first argument: handles are numbers to the library, and to MATLAB. */
+/* The handle in the first argument; handles are numbers in MATLAB too. */
 void* handle(const arguments* a);
 
 mxArray* doubles(const float* from, size_t rows, size_t columns);

@@ -1,6 +1,6 @@
 #ifndef VERP_MATLAB_CALLS_H
 #define VERP_MATLAB_CALLS_H
-/* What verp_mex(CALL, ...) knows: each does what the function of that name in verp.h does. */
+/* The calls of verp_mex(CALL, ...): each does what the function of that name in verp.h does. */
 #include "host/apps/libverp/matlab/arguments.h"
 
 void session_open(const arguments* a);
@@ -26,7 +26,7 @@ void session_render(const arguments* a);
 void session_radio(const arguments* a);
 void session_send(const arguments* a);
 void session_take(const arguments* a);
-/* When MATLAB ends, or forgets this file: traces that are written become whole. */
+/* Closes all sessions and so completes their traces, when MATLAB exits or unloads this file. */
 void close_all(void);
 
 void core_open(const arguments* a);

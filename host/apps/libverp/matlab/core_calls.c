@@ -1,4 +1,4 @@
-/* The controller alone. */
+/* Calls of the controller without a world. */
 #include <string.h>
 
 #include "host/apps/libverp/matlab/calls.h"

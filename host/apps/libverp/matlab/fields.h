@@ -1,12 +1,12 @@
 #ifndef VERP_MATLAB_FIELDS_H
 #define VERP_MATLAB_FIELDS_H
-/* Structs of verp.h as MATLAB's: a field is a row of doubles, but digests (uint64). */
+/* Converts structs of verp.h to MATLAB structs. A field is a row of doubles; a digest is uint64. */
 #include <mex.h>
 #include <stddef.h>
 
 typedef enum field_type { kU8, kU16, kU32, kU64, kI16, kI32, kFloat, kDouble } field_type;
 
-/* A number or an array of them, in a struct. Names are flat: command.request is command_request. */
+/* A number or an array in a struct. Nested names are flat: command.request is command_request. */
 typedef struct field {
   const char* name;
   field_type type;
@@ -14,7 +14,7 @@ typedef struct field {
   size_t count;
 } field;
 
-/* The fields of one struct; `parts` are structs inside it. */
+/* The fields of one struct; `parts` are the structs inside it. */
 typedef struct shape {
   const char* what;
   const field* fields;
@@ -24,15 +24,14 @@ typedef struct shape {
 
 extern const shape kInputs, kOutputs, kTruth, kTick, kResult, kPlan;
 
-/* `many` structs that lie one behind the other, as a row. */
+/* Converts an array of `many` structs to a struct row. */
 mxArray* to_matlab(const shape* of, const void* structs, size_t many);
-/* Writes those fields that `from` has. Null, or in words what is wrong with one, in memory of its
- * own until the next call. */
+/* Writes the fields that `from` has. Returns null, or an error text that is valid until the next
+ * call. */
 const char* from_matlab(const shape* of, const mxArray* from, void* into);
-/* The same of a struct that has no other fields: a name that is none of them was meant as another.
- */
+/* Like from_matlab(), but refuses unknown fields, which are probably misspelt. */
 const char* from_matlab_alone(const shape* of, const mxArray* from, void* into);
-/* One number of a struct; the same words. */
+/* Sets one number of a struct; returns null or an error text. */
 const char* set_number(const field* what, size_t index, double value, void* into);
 
 #endif

@@ -1,4 +1,4 @@
-/* What robots see, and pictures of the world, as MATLAB has pictures: (row, column, colour). */
+/* Camera pictures and renderings, in MATLAB's order: (row, column, colour). */
 #include <string.h>
 
 #include "host/apps/libverp/matlab/calls.h"
@@ -20,7 +20,7 @@ static mxArray* row(const double* from, size_t count) {
   return made;
 }
 
-/* 4x4, of a rotation row by row and a position. */
+/* A 4x4 matrix from a row-major rotation and a position. */
 static mxArray* pose(const double* from) {
   mxArray* made = mxCreateDoubleMatrix(4, 4, mxREAL);
   double* to = mxGetPr(made);
@@ -75,7 +75,7 @@ void session_cameras(const arguments* a) {
   }
 }
 
-/* Of rows from the top, `deep` numbers a pixel. */
+/* A picture from rows, top first, with `deep` numbers per pixel. */
 static mxArray* picture_of(const void* from, size_t height, size_t width, size_t deep,
                            size_t bytes) {
   const mwSize size[] = {(mwSize)height, (mwSize)width, (mwSize)deep};
@@ -93,7 +93,7 @@ static mxArray* picture_of(const void* from, size_t height, size_t width, size_t
   return made;
 }
 
-/* session_picture(session, robot, camera, what): the picture, and when; empty: not yet. */
+/* session_picture(session, robot, camera, what): the picture and its time; empty: none yet. */
 void session_picture(const arguments* a) {
   const uint32_t robot = whole(a, 1, "robot"), index = whole(a, 2, "camera");
   const uint32_t what = whole(a, 3, "what");
@@ -120,7 +120,7 @@ static void place(const arguments* a, int index, const char* what, double* to) {
   memcpy(to, mxGetPr(a->in[index]), 3 * sizeof *to);
 }
 
-/* session_render(session, name, width, height, robot, plain, eye, target, fov); with a name the
+/* session_render(session, name, width, height, robot, plain, eye, target, fov); with a name, the
  * last three may be missing. */
 void session_render(const arguments* a) {
   verp_view view = {.size = sizeof view,

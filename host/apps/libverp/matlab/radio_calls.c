@@ -1,4 +1,4 @@
-/* What robots say to each other. */
+/* Radio calls. */
 #include <string.h>
 
 #include "host/apps/libverp/matlab/calls.h"
@@ -36,7 +36,7 @@ void session_radio(const arguments* a) {
   checked(verp_session_radio(session, &radio));
 }
 
-/* session_send(session, robot, to, uint8): false if too many wait. */
+/* session_send(session, robot, to, uint8): false if too many messages wait. */
 void session_send(const arguments* a) {
   const verp_session session = session_of(a);
   if (a->given < 4 || !mxIsUint8(a->in[3])) refuse("data: a row of uint8 is needed");
@@ -45,7 +45,7 @@ void session_send(const arguments* a) {
   a->out[0] = mxCreateLogicalScalar(checked(status) == VERP_OK);
 }
 
-/* session_take(session, robot): a row of uint8, and from whom; -1: there is none. */
+/* session_take(session, robot): a row of uint8 and the sender; -1: no message. */
 void session_take(const arguments* a) {
   uint64_t size = 0;
   uint32_t from = 0;

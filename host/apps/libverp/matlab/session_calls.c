@@ -1,4 +1,4 @@
-/* Worlds and the robots in them. */
+/* Session calls. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +11,7 @@ static verp_session session_of(const arguments* a) {
   return (verp_session)handle(a);
 }
 
-/* ---- what a session writes its ticks into ---- */
+/* ---- the memory for a session's ticks ---- */
 
 typedef struct seen {
   struct seen* next;
@@ -45,7 +45,8 @@ void close_all(void) {
   while (all_seen != NULL) {
     seen* one = all_seen;
     all_seen = one->next;
-    /* A session that is at work writes there on. Of a second robot, it is closed already. */
+    /* A busy session still writes to this memory. For a second robot, the session is already
+     * closed. */
     if (verp_session_close(one->session) != VERP_BUSY) free(one);
   }
 }
@@ -104,9 +105,9 @@ void session_add(const arguments* a) {
   a->out[0] = mxCreateDoubleScalar(index);
 }
 
-/* The users' controllers of the call that is under way: a struct array, one element a robot, with a
- * function (or nothing) and whether the robot's own controller decides first. In place of outputs a
- * function may give a text: what went wrong. */
+/* The controllers of the current call: a struct array with, per robot, a function (or nothing) and
+ * whether the robot's own controller runs first. Instead of outputs a function may return an error
+ * text. */
 static const mxArray* controllers = NULL;
 static char thrown[512];
 
@@ -142,7 +143,7 @@ static int controller(const verp_moment* moment, void* user) {
 
 /* session_tick(session, count, controllers): true while there is a further tick. */
 void session_tick(const arguments* a) {
-  const verp_session session = session_of(a); /* what may be refused comes before what is kept */
+  const verp_session session = session_of(a); /* arguments are checked before anything is kept */
   const uint32_t count = whole(a, 1, "count");
   const mxArray* given = a->given > 2 ? a->in[2] : NULL;
   if (given != NULL && !mxIsStruct(given)) refuse("controllers: a struct array is needed");
@@ -163,7 +164,7 @@ void session_tick(const arguments* a) {
   a->out[0] = mxCreateLogicalScalar(checked(status) == VERP_OK);
 }
 
-/* session_control(session, robot, on): the function itself comes with each tick. */
+/* session_control(session, robot, on): the function itself is passed with each tick. */
 void session_control(const arguments* a) {
   const int on = number(a, 2, "on") != 0;
   checked(verp_session_control(session_of(a), whole(a, 1, "robot"), on ? controller : NULL, NULL));

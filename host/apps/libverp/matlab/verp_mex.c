@@ -1,6 +1,6 @@
-/* libverp for MATLAB and Octave: verp_mex(CALL, ...), behind the classes in +verp. Written against
- * MathWorks' documented C API only. An error of MATLAB's leaves a function by a long jump: none is
- * raised while the library is at work, so the user's controller is called with a trap. */
+/* libverp for MATLAB and Octave: verp_mex(CALL, ...), behind the classes in +verp. Uses only
+ * MathWorks' documented C API. A MATLAB error leaves a function by a long jump, so none may occur
+ * while the library runs; the user's controller is therefore called with a trap. */
 #include <string.h>
 
 #include "host/apps/libverp/matlab/calls.h"
@@ -76,8 +76,8 @@ void mexFunction(int nlhs, mxArray* plhs[], int nrhs, const mxArray* prhs[]) {
   for (size_t i = 0; name != NULL && i < sizeof kCalls / sizeof kCalls[0]; ++i) {
     if (strcmp(name, kCalls[i].name) == 0) {
       mxFree(name);
-      /* One that a controller makes is inside another. An error leaves its own name behind, but
-       * whoever comes next sets it. */
+      /* A call by a controller is nested in another call. After an error its name remains, until
+       * the next call sets its own. */
       const char* before = begin_call(kCalls[i].name);
       kCalls[i].call(&given);
       begin_call(before);

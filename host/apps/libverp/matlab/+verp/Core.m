@@ -2,11 +2,11 @@ classdef Core < handle
 %VERP.CORE The controller of one robot, without a world, bit for bit as on the robot.
 %
 %   core = verp.Core('generic21');
-%   outputs = core.step(struct('tick', 0));   % fields that are left out are 0; see verp_inputs
+%   outputs = core.step(struct('tick', 0));   % missing fields are 0; see verp_inputs
 %   [angles, flags] = core.leg_ik(0, pose);
 %
-% verp.Core(MODEL, BUS, TUNING): a robot of common/robots or an SDF file, one of its buses ('': the
-% first), 'gait.lift_m=0.012 ...'. Joints and sides count from 0, as in verp.h; side 0 is left. Poses
+% verp.Core(MODEL, BUS, TUNING): a robot of common/robots or an SDF file; one of its buses ('': the
+% first); 'gait.lift_m=0.012 ...'. Joints and sides count from 0, as in verp.h; side 0 is left. Poses
 % are 4x4 matrices in the body frame: origin at the trunk's centre, x forward, y left, z up.
 
   properties (SetAccess = private)
@@ -26,27 +26,27 @@ classdef Core < handle
     end
 
     function reset(obj)
-    %RESET As it is when power comes on.
+    %RESET Returns to the state at power-on.
       verp_mex('core_reset', obj.core);
     end
 
     function outputs = step(obj, inputs)
-    %STEP One control tick: a struct as verp_inputs has it gives one as verp_outputs.
+    %STEP Runs one control tick: takes a struct like verp_inputs, returns one like verp_outputs.
       outputs = verp_mex('core_step', obj.core, inputs);
     end
 
     function digest = digest(obj)
-    %DIGEST Of all ticks since power came on, uint64.
+    %DIGEST Of all ticks since power-on, uint64.
       digest = verp_mex('core_digest', obj.core);
     end
 
     function count = count(obj, joint, angle_rad)
-    %COUNT Of a servo, for its joint's angle.
+    %COUNT Servo count for a joint angle.
       count = verp_mex('core_count', obj.core, joint, angle_rad);
     end
 
     function angle_rad = angle(obj, joint, count)
-    %ANGLE Of a joint, for its servo's count.
+    %ANGLE Joint angle for a servo count.
       angle_rad = verp_mex('core_angle', obj.core, joint, count);
     end
 
@@ -65,8 +65,8 @@ classdef Core < handle
     end
 
     function [angle_rad, flags] = leg_ik(obj, side, sole)
-    %LEG_IK Six angles, hip to ankle, that put the sole of a leg to a pose. Flags: 1 out of reach,
-    % 2 a joint at its limit, 4 not converged.
+    %LEG_IK Six angles, hip to ankle, that bring the sole of a leg to a pose. Flags: 1 out of
+    % reach, 2 a joint at its limit, 4 not converged.
       if ~isequal(size(sole), [4 4])
         error('verp:argument', 'verp: leg_ik() takes the sole''s pose as a 4x4 matrix');
       end
@@ -77,8 +77,8 @@ classdef Core < handle
     end
 
     function plan = plan(obj, velocity, ticks, stop)
-    %PLAN The gait from standing with [vx vy wz], as many ticks, the last `stop` of them after it
-    % was asked to stop: a struct array, see verp_plan.
+    %PLAN Plans so many ticks of gait from standing with velocity [vx vy wz], the last `stop` of
+    % them after a stop order. Returns a struct array, see verp_plan.
       if nargin < 4, stop = 0; end
       if numel(velocity) ~= 3
         error('verp:argument', 'verp: plan() takes a velocity of three numbers');
@@ -87,7 +87,7 @@ classdef Core < handle
     end
 
     function close(obj)
-    %CLOSE Its handle is good no more.
+    %CLOSE Closes the handle.
       if ~isempty(obj.core)
         open = obj.core;
         obj.core = [];

@@ -1,23 +1,23 @@
 classdef Session < handle
-%VERP.SESSION Robots in a world, a control tick at a time.
+%VERP.SESSION Robots in a world, run one control tick at a time.
 %
 %   session = verp.Session();             % on a level floor
-%   session.add('walk_s', 10);            % generic21, as `verp walk` has it
+%   session.add('walk_s', 10);            % generic21, as in `verp walk`
 %   while session.tick(1)
-%     seen = session.seen();              % what it measured, was told and did
+%     seen = session.seen();              % its inputs, outputs and true state
 %   end
 %   result = session.result();
 %   session.close();
 %
-% SI units. World frame: z up, the floor at 0. Robots and joints count from 0, as in verp.h, which
-% has every field of seen() and result(). An error names the call and why.
+% SI units. World frame: z up, the floor at 0. Robots and joints count from 0. verp.h lists the
+% fields of seen() and result(). An error names the call and the reason.
 %
-% verp.Session(WORLD) takes a world of common/worlds, or an SDF file; verp.Session(WORLD, STEP_US)
+% verp.Session(WORLD): a world of common/worlds, or an SDF file. verp.Session(WORLD, STEP_US): with
 % a physics step in microseconds (0: 1000).
 
   properties (SetAccess = private)
     session              % the library's handle
-    controllers = struct('function', {}, 'own_first', {})  % one a robot
+    controllers = struct('function', {}, 'own_first', {})  % one per robot
   end
 
   methods
@@ -28,11 +28,10 @@ classdef Session < handle
     end
 
     function robot = add(obj, varargin)
-    %ADD One more robot, before the first tick: its number.
-    % add('model', 'op3', 'bus', '', 'name', '', 'tuning', 'gait.lift_m=0.012', 'record',
-    % 'a.mcap', 'seed', 1, 'walk_s', 20, 'vx_m_s', 0.18, 'vy_m_s', 0, 'wz_rad_s', 0, 'x_m', 0,
-    % 'y_m', 0, 'yaw_rad', 0, 'open_end', false): all may be left out. With walk_s = 0 it obeys
-    % command() alone.
+    %ADD Adds a robot before the first tick; returns its index. add('model', 'op3', 'bus', '',
+    % 'name', '', 'tuning', 'gait.lift_m=0.012', 'record', 'a.mcap', 'seed', 1, 'walk_s', 20,
+    % 'vx_m_s', 0.18, 'vy_m_s', 0, 'wz_rad_s', 0, 'x_m', 0, 'y_m', 0, 'yaw_rad', 0, 'open_end',
+    % false): every argument is optional. With walk_s = 0 the robot obeys command() alone.
       known = {'model', 'bus', 'name', 'tuning', 'record', 'seed', 'walk_s', 'vx_m_s', 'vy_m_s', ...
                'wz_rad_s', 'x_m', 'y_m', 'yaw_rad', 'open_end'};
       if mod(numel(varargin), 2) ~= 0
@@ -59,7 +58,7 @@ classdef Session < handle
     end
 
     function more = tick(obj, count)
-    %TICK At most so many ticks, each of one robot (1). False: the run is over.
+    %TICK Runs at most `count` (1) ticks, each of one robot. False: the run has ended.
       if nargin < 2, count = 1; end
       more = verp_mex('session_tick', obj.session, count, obj.controllers);
     end
@@ -71,7 +70,7 @@ classdef Session < handle
     end
 
     function result = result(obj, robot)
-    %RESULT Ends the run of all robots, and tells how the walk went; see verp_result.
+    %RESULT Ends the runs of all robots; returns the robot's result, see verp_result.
       if nargin < 2, robot = 0; end
       result = verp_mex('session_result', obj.session, robot);
     end
@@ -83,8 +82,8 @@ classdef Session < handle
     end
 
     function command(obj, request, velocity, head_rad, robot)
-    %COMMAND From now on the caller has the robot: 'relax', 'stand', 'get_up' or 'walk' with the velocity
-    % [vx m/s, vy m/s, wz rad/s] in its body frame, head [to the left, down] in rad.
+    %COMMAND Takes control of the robot: 'relax', 'stand', 'get_up' or 'walk', with the velocity
+    % [vx m/s, vy m/s, wz rad/s] in its body frame and the head angles [to the left, down] in rad.
       if nargin < 3, velocity = [0 0 0]; end
       if nargin < 4, head_rad = [0 0]; end
       if nargin < 5, robot = 0; end
@@ -97,24 +96,24 @@ classdef Session < handle
     end
 
     function give_back(obj, robot)
-    %GIVE_BACK The walk that was asked for goes on.
+    %GIVE_BACK Ends the caller's control; the requested walk continues.
       if nargin < 2, robot = 0; end
       verp_mex('session_give_back', obj.session, robot);
     end
 
     function emergency_stop(obj, pressed, robot)
-    %EMERGENCY_STOP While it is pressed the robot is limp.
+    %EMERGENCY_STOP While pressed, the robot is limp.
       if nargin < 2, pressed = true; end
       if nargin < 3, robot = 0; end
       verp_mex('session_emergency_stop', obj.session, robot, pressed);
     end
 
     function control(obj, controller, own_first, robot)
-    %CONTROL A function in place of the robot's own controller, from the next tick on:
+    %CONTROL Replaces the robot's own controller from the next tick on by a function
     %   outputs = controller(inputs, outputs)
-    % as structs of counts (verp_inputs, verp_outputs); what it gives is sent as it is. `outputs`
-    % comes in as it was in the tick before, or, with own_first, as the robot's own controller has
-    % just decided. An empty controller: its own again.
+    % of structs of counts (verp_inputs, verp_outputs), whose result is sent as it is. The argument
+    % `outputs` holds those of the previous tick or, with own_first, the new decision of the robot's
+    % own controller. An empty controller restores the robot's own.
       if nargin < 3, own_first = false; end
       if nargin < 4, robot = 0; end
       if ~isempty(controller) && ~isa(controller, 'function_handle')
@@ -129,35 +128,35 @@ classdef Session < handle
     end
 
     function tune(obj, name, value, robot)
-    %TUNE A number of the tuning (`verp parameters`), in force in one of the next ticks.
+    %TUNE Sets a tuning value (`verp parameters`); it takes effect in one of the next ticks.
       if nargin < 4, robot = 0; end
       verp_mex('session_tune', obj.session, robot, name, value);
     end
 
     function value = tuning(obj, name, robot)
-    %TUNING A number of the tuning as it is in force.
+    %TUNING The tuning value in force.
       if nargin < 3, robot = 0; end
       value = verp_mex('session_tuning', obj.session, robot, name);
     end
 
     function found = quantities(obj)
-    %QUANTITIES The numbers of the physics, once all robots were added: name, unit, what, low,
+    %QUANTITIES The quantities of the physics, after all robots were added: name, unit, what, low,
     % high, settable.
       found = verp_mex('session_quantities', obj.session);
     end
 
     function value = read(obj, quantity)
-    %READ A number of the physics: 'trunk.mass_kg'.
+    %READ A quantity of the physics: 'trunk.mass_kg'.
       value = verp_mex('session_read', obj.session, quantity);
     end
 
     function set(obj, quantity, value)
-    %SET A number of the physics, from the next step on.
+    %SET Sets a quantity of the physics from the next step on.
       verp_mex('session_set', obj.session, quantity, value);
     end
 
     function push(obj, thing, force_n, for_s)
-    %PUSH Pushes a link or an object at its centre of mass, [x y z] N in the world's axes.
+    %PUSH Pushes a link or object at its centre of mass, [x y z] N in world axes.
       if numel(force_n) ~= 3
         error('verp:argument', 'verp: push() takes a force of three numbers');
       end
@@ -165,18 +164,18 @@ classdef Session < handle
     end
 
     function cameras = cameras(obj, robot)
-    %CAMERAS Those of the robot's file: name, what each gives ('colour depth'), width, height,
-    % rate_hz, matrix (fx 0 cx; 0 fy cy; 0 0 1, in pixels, the middle of the first being 0),
-    % distortion (k1 k2 p1 p2 k3), near_m, far_m, link (counted as in core.forward()) and pose in it.
+    %CAMERAS The cameras of the robot's file: name, contents ('colour depth'), width, height,
+    % rate_hz, matrix (fx 0 cx; 0 fy cy; 0 0 1, in pixels; the middle of the first one is 0),
+    % distortion (k1 k2 p1 p2 k3), near_m, far_m, link (index as in core.forward()) and pose in it.
       if nargin < 2, robot = 0; end
       cameras = verp_mex('session_cameras', obj.session, robot);
     end
 
     function [pixels, time_s] = picture(obj, what, camera, robot)
-    %PICTURE What a camera saw when it last looked, up to the robot's last tick, and when:
-    % 'colour' as (row, column, red green blue), uint8; 'depth' in mm (0: nothing) or 'labels' as
-    % (row, column), uint16. Empty: it has not looked yet. Cameras count from 0. It is drawn when it
-    % is asked for, and the run stays what it was.
+    %PICTURE A camera's last picture, up to the robot's last tick, and its time: 'colour' as (row,
+    % column, red green blue), uint8; 'depth' in mm (0: nothing) or 'labels' as (row, column),
+    % uint16. Empty: none taken yet. Cameras count from 0. The picture is drawn on request; that
+    % does not affect the run.
       if nargin < 2, what = 'colour'; end
       if nargin < 3, camera = 0; end
       if nargin < 4, robot = 0; end
@@ -188,10 +187,10 @@ classdef Session < handle
     end
 
     function pixels = render(obj, view, width, height, robot, plain)
-    %RENDER The world as it is now, as (row, column, red green blue), uint8, seen from front, side,
-    % three-quarter, back, top, follow or head of a robot, from a camera that a file declares, or
-    % from {eye, target, fov}: places in m, world frame, and the angle of the height in rad.
-    % `plain`: without shadows, and sooner.
+    %RENDER The world as it is now, as (row, column, red green blue), uint8. View: front, side,
+    % three-quarter, back, top, follow or head of a robot; a camera that a file declares; or {eye,
+    % target, fov}, points in m, world frame, and the vertical angle in rad. `plain`: without
+    % shadows, and faster.
       if nargin < 2, view = 'follow'; end
       if nargin < 3, width = 640; end
       if nargin < 4, height = 480; end
@@ -207,9 +206,10 @@ classdef Session < handle
     end
 
     function radio(obj, varargin)
-    %RADIO Each robot has a radio, before the first tick: radio('range_m', 30, 'loss', 0.02, 'fade', 0.02,
-    % 'fade_s', 0.3, 'delay_s', 0.004, 'jitter_s', 0.004, 'bytes_s', 31250, 'most_bytes', 96,
-    % 'most_waiting', 16, 'overhead_bytes', 31, 'seed', 1): all may be left out; see verp_radio.
+    %RADIO Gives each robot a radio, before the first tick: radio('range_m', 30, 'loss', 0.02,
+    % 'fade', 0.02, 'fade_s', 0.3, 'delay_s', 0.004, 'jitter_s', 0.004, 'bytes_s', 31250,
+    % 'most_bytes', 96, 'most_waiting', 16, 'overhead_bytes', 31, 'seed', 1). Every argument is
+    % optional; see verp_radio.
       known = {'range_m', 'loss', 'fade', 'fade_s', 'delay_s', 'jitter_s', 'bytes_s', 'most_bytes', ...
                'most_waiting', 'overhead_bytes', 'seed'};
       if mod(numel(varargin), 2) ~= 0
@@ -226,8 +226,8 @@ classdef Session < handle
     end
 
     function sent = send(obj, data, to, robot)
-    %SEND A message of the robot's, uint8 or a text, to another one, or to everybody (-1). False: too
-    % many wait for the air already. Nothing acknowledges it.
+    %SEND Sends a message, uint8 or text, from a robot to another one or to all (-1). False: too
+    % many messages wait to be sent. There is no acknowledgement.
       if nargin < 3, to = -1; end
       if nargin < 4, robot = 0; end
       if ischar(data), data = uint8(data); end
@@ -235,14 +235,14 @@ classdef Session < handle
     end
 
     function [data, from] = take(obj, robot)
-    %TAKE The next message that the robot heard up to its last tick, uint8, and from whom. `from` is
-    % -1 if there is no further one.
+    %TAKE The next message that the robot received up to its last tick, uint8, and its sender.
+    % `from` is -1 if there is no message.
       if nargin < 2, robot = 0; end
       [data, from] = verp_mex('session_take', obj.session, robot);
     end
 
     function close(obj)
-    %CLOSE Ends the run; a trace that is written becomes whole. Also what MATLAB's end does.
+    %CLOSE Ends the run and completes its traces. MATLAB's exit does the same.
       if isempty(obj.session), return; end
       try
         verp_mex('session_close', obj.session);

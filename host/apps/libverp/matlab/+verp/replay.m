@@ -1,6 +1,6 @@
 function [digest, ticks] = replay(trace)
-%VERP.REPLAY Runs the controller once more over what a trace says that it saw.
+%VERP.REPLAY Runs the controller again on the inputs of a trace.
 %   [digest, ticks] = verp.replay('a.mcap')
-% gives the digest, uint64; where a bit differs it is an error that says where.
+% returns the digest, uint64; if a bit differs, the error says where.
   [digest, ticks] = verp_mex('replay', trace);
 end

@@ -1,6 +1,6 @@
 function outputs = tried(controller, inputs, outputs)
-%VERP.TRIED What a controller puts out, or the words of its error. For verp.Session: what a call back
-% from the library throws, Octave does not tell it.
+%VERP.TRIED A controller's outputs, or its error text. Used by verp.Session, because Octave does
+% not report the exception of a function that the library calls.
   try
     outputs = controller(inputs, outputs);
   catch thrown

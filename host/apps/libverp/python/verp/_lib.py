@@ -107,7 +107,7 @@ def check(status: int) -> int:
     return status
 
 
-# What a user gave, as C has it. `what` names the call and its argument, for the error.
+# Converts a user's arguments to C. `what` names the call and its argument, for errors.
 
 
 def _short(value: Any) -> str:
@@ -164,7 +164,7 @@ def reals(value: Any, what: str, shape: tuple[int, ...] | None = None) -> NDArra
 def _reader(ctype: cffi.FFI.CType, what: str) -> Callable[[Any], object] | None:
     """How to read what a user gives for an argument or field of that type; none: it is this package's own."""
     if ctype.kind == "pointer" and ctype.item.cname == "char":
-        return lambda value: value if isinstance(value, ffi.CData) else text(value, what)  # the library may write there
+        return lambda value: value if isinstance(value, ffi.CData) else text(value, what)  # a buffer for the library to fill
     if ctype.kind != "primitive":
         return None
     if ctype.cname in _SCALARS:
@@ -190,7 +190,7 @@ def _call(name: str, arguments: list[str]) -> Callable[..., int]:
     return call
 
 
-#: verp.h's functions that give a status, without their `verp_`: they read what a user gave, and raise what went wrong.
+#: verp.h's functions that return a status, without their `verp_`: they convert the user's arguments and raise errors.
 calls = SimpleNamespace()
 for _name, _arguments in re.findall(r"\bint (verp_\w+)\(([^()]*)\);", _declared):
     setattr(calls, _name.removeprefix("verp_"), _call(_name, [re.split(r"[ *]+", each)[-1] for each in _arguments.split(",")]))

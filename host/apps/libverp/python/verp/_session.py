@@ -92,11 +92,11 @@ class Session(Sight):
         what, where = ffi.new("verp_world *", {"size": ffi.sizeof("verp_world")}), ffi.new("verp_session *")
         kept = fill(what, "verp_session_open", {"physics_step_us": physics_step_us, "file": world})
         calls.session_open(what, where)
-        del kept  # not before
+        del kept  # keeps the texts alive during the call
         super().__init__(where[0], lib.verp_session_close)
         self._ticks: dict[int, np.ndarray] = {}
-        self._kept: dict[int, tuple[object, ...]] = {}  # what the library may call
-        self._setting = threading.RLock()  # what it calls, and what is kept of it, are the same
+        self._kept: dict[int, tuple[object, ...]] = {}  # callbacks that the library may call
+        self._setting = threading.RLock()  # keeps self._kept equal to the library's callbacks
         self._thrown: BaseException | None = None
 
     def add(
@@ -122,10 +122,10 @@ class Session(Sight):
         what.flags = lib.VERP_OPEN_END if open_end else 0
         robot = ffi.new("uint32_t *")
         calls.session_add(self._session, what, robot)
-        del kept  # not before
+        del kept  # keeps the texts alive during the call
         tick, seen = memory("verp_tick", TICK)
         tick.size = TICK.itemsize
-        self._ticks[robot[0]] = seen  # before the library writes there, whatever interrupts us
+        self._ticks[robot[0]] = seen  # before the library writes there, even if interrupted
         calls.session_view(self._session, robot[0], tick)
         return robot[0]
 
@@ -250,7 +250,7 @@ class Session(Sight):
         """A message of the robot's to another one, or to everybody. False: too many wait for the air already. Nothing
         acknowledges it; it stands in the traces of who says and who hears it."""
         try:
-            given = bytes(memoryview(data))  # a text has no bytes before it is encoded
+            given = bytes(memoryview(data))  # refuses text, which has no bytes until it is encoded
         except TypeError:
             raise TypeError(f"verp_session_send: data is bytes, not {data!r}") from None
         whom = lib.VERP_EVERYBODY if to is None else to
@@ -293,7 +293,7 @@ class Session(Sight):
                                     "it writes into moment.outputs and returns None")
                 ffi.memmove(seen.outputs, moment._out, OUTPUTS.itemsize)
                 return 0
-            except BaseException as thrown:  # it is raised by tick()
+            except BaseException as thrown:  # tick() raises it
                 self._thrown = thrown
                 return 1
 
