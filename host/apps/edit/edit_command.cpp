@@ -29,7 +29,7 @@ struct EditWords {
 const std::map<std::string, double> kUnits = {
     {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}};
 
-/// A file by its path, or a robot by its name; a path that is not there yet is one of a new robot.
+/// A file by its path, or a robot by its name; a path that does not exist is for a new robot.
 fs::path file_of(const std::string& word) {
   std::error_code error;
   const fs::path path = word;
@@ -50,7 +50,6 @@ Edit set_all(const Document& document, const EditWords& words) {
   for (const std::string& word : words.words) what += (what.empty() ? "set " : ", ") + word;
   return together(document, what, [&](Document& copy) {
     for (const std::string& word : words.words) {
-      // A name may hold one: the value begins behind the last of the path.
       const auto [path, value] = parted(word);
       copy.apply(set(copy, path, value));
     }
@@ -79,7 +78,7 @@ Edit import_one(const Document& document, const EditWords& words) {
   return put_mesh(document, words.link, made.body, words.on);
 }
 
-/// A sound robot stays one, and of one that is not finished yet what is there stays right.
+/// Refuses an edit that breaks a sound robot, or a finished part of an unfinished one.
 void require_sound(const std::optional<Complaint>& before, const std::optional<Complaint>& after,
                    bool unfinished) {
   if (!after) return;
@@ -119,7 +118,7 @@ int change(const EditWords& words, bool may_be_new, const Change& make) {
   return cli::kGood;
 }
 
-/// Words below `edit`, in the order in which they are told.
+/// The subcommands of `edit`, in the order of their use.
 class Verbs {
  public:
   Verbs(CLI::App& edit, std::shared_ptr<EditWords> words) : edit_(edit), words_(std::move(words)) {}

@@ -1,7 +1,7 @@
 #pragma once
 #include "host/apps/cli/command.hpp"
 
-/// The words that need OpenGL.
+/// Commands that need OpenGL.
 namespace verp::pictures {
 
 cli::Subcommand add_shot(CLI::App& root);

@@ -3,7 +3,7 @@
 
 namespace verp::pictures {
 
-/// A small number in the picture's upper left corner; a dot of it is `scale` pixels.
+/// Draws a small number in the upper left corner; a dot is `scale` pixels.
 void write_number(render::Image& image, int number, int scale);
 
 }  // namespace verp::pictures

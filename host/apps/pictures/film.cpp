@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kSlack_s = 1e-6;
 
-/// Lets through what is at least so far apart.
+/// Passes instants that are at least so far apart.
 class Shutter {
  public:
   Shutter(double from_s, double every_s) : next_s_(from_s), every_s_(every_s) {}
@@ -41,7 +41,7 @@ class WalkFilm final : public Film {
     for (const session::WalkPlan& plan : plans_) scene::add_robot(scene_, plan.entity);
   }
 
-  double end_s() const override { return plans_.front().walk_s + 3; }  // it stands up first
+  double end_s() const override { return plans_.front().walk_s + 3; }  // the robot stands up first
 
   void play(double from_s, double every_s, const Show& show) override {
     Shutter shutter(from_s, every_s);
@@ -67,7 +67,7 @@ class WalkFilm final : public Film {
     }
   }
 
-  /// As the twin puts them down.
+  /// The stance in which the twin starts.
   scene::Snapshot start() const override {
     const sim::World world(world_);
     scene::Snapshot now;

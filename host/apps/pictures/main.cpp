@@ -7,7 +7,8 @@
 
 namespace {
 
-/// A size that the driver cannot draw, a picture that cannot be written: what was asked, not a bug.
+/// Reports a RenderError as bad input: a size that the driver cannot draw or a picture that cannot
+/// be written is not a bug.
 verp::cli::Subcommand told(verp::cli::Subcommand command) {
   command.run = [run = std::move(command.run)] {
     try {
@@ -25,7 +26,7 @@ std::vector<verp::cli::Subcommand> commands(CLI::App& root) {
 
 }  // namespace
 
-/// `verp shot` and `verp video`: a program of its own, so that `verp` needs no OpenGL.
+/// `verp shot` and `verp video` are a program of their own, so that `verp` needs no OpenGL.
 int main(int argc, char** argv) {
   return verp::cli::run_program(argc, argv, commands);
 }

@@ -9,7 +9,7 @@ class App;
 
 namespace verp::pictures {
 
-/// What shot and video have in common.
+/// Options of both shot and video.
 struct PictureOptions {
   std::string file;
   std::string camera = "three-quarter";
@@ -23,14 +23,14 @@ void declare_picture(CLI::App& app, PictureOptions& options, const std::string& 
 /// Width and height of --size. Throws ToolError.
 render::Size size_of(const std::string& command, const PictureOptions& options);
 
-/// With --marks, those as well.
+/// With --marks, includes the marks.
 render::Effects effects_of(const PictureOptions& options);
 
-/// The view that --camera names. Throws ToolError with the names there are.
+/// The view that --camera names. Throws ToolError that lists the views.
 scene::Camera camera_of(const std::string& command, const PictureOptions& options,
                         const scene::Scene& scene, const scene::Snapshot& now, render::Size size);
 
-/// The folder of the file is there, and its name ends in one of these. Throws ToolError.
+/// Requires that the file's folder exists and its name has one of these endings. Throws ToolError.
 void require_place(const std::string& command, const std::string& file,
                    const std::vector<std::string>& endings);
 

@@ -33,7 +33,7 @@ struct ShotOptions {
   bool depth = false, segmentation = false, states = false, json = false;
 };
 
-/// The instant that is asked for: a robot that stands, or a moment of its walk or of a trace.
+/// The requested instant: a standing robot, or a moment of its walk or of a trace.
 scene::Snapshot instant(const ShotOptions& options, Film& film, cli::Progress& progress) {
   scene::Snapshot found;
   if (!options.at_s && !is_trace(options.walk)) return film.start();
@@ -58,7 +58,7 @@ scene::Snapshot instant(const ShotOptions& options, Film& film, cli::Progress& p
                                          kShot, at_s));
 }
 
-/// One snapshot of each state of one cycle in the midst of a walk.
+/// One snapshot for each state of a cycle in the middle of a walk.
 std::vector<scene::Snapshot> cycle(Film& film, cli::Progress& progress) {
   constexpr std::uint8_t kTransition = 2;
   std::vector<scene::Snapshot> states;

@@ -5,11 +5,11 @@
 
 namespace verp::pictures {
 
-/// A person with a camera beside the robot: goes along, does not sway with it.
+/// Follows the robot smoothly and does not sway with it.
 class SteadyCamera {
  public:
   scene::Camera follow(scene::Camera wanted) {
-    constexpr double kShare = 0.06;  // of the way, each picture
+    constexpr double kShare = 0.06;  // of the way, per picture
     if (last_) {
       wanted.eye_m = last_->eye_m + kShare * (wanted.eye_m - last_->eye_m);
       wanted.target_m = last_->target_m + kShare * (wanted.target_m - last_->target_m);

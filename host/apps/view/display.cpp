@@ -21,8 +21,7 @@ namespace {
 std::function<std::string()> save_before_the_end;
 bool showing = false, heard = false;
 
-/// What drivers print goes nowhere from here to there, as libGL cannot be told: users get one
-/// line, ours.
+/// Discards what drivers print, because libGL cannot be silenced: users get one line of ours.
 int real_stderr = -1;
 
 void silence_drivers() {
@@ -54,13 +53,13 @@ void at_exit() {
   ::_exit(cli::kNoDevice);
 }
 
-/// Xlib's own way to end the program, with lines of its own, asks this first.
+/// Xlib calls this before it prints its own lines and ends the program.
 int hear_xlib(void*) {
   at_exit();
   return 0;
 }
 
-/// Only where Qt has brought Xlib along, and without its headers.
+/// Works without Xlib's headers, and only if Qt has loaded Xlib.
 void listen_to_xlib() {
   using Handler = int (*)(void*);
   void* found = ::dlsym(RTLD_DEFAULT, "XSetIOErrorHandler");
@@ -70,7 +69,7 @@ void listen_to_xlib() {
 void hear_qt(QtMsgType type, const QMessageLogContext&, const QString& text) {
   if (type == QtFatalMsg) {
     hear_drivers();
-    // Before there is a window: no platform could start.
+    // There is no window yet: no platform plugin could start.
     cli::complain("verp view: the display " +
                   std::string(std::getenv("DISPLAY") ? std::getenv("DISPLAY") : "") +
                   " cannot be opened; is DISPLAY right? Without one, try `verp shot` or "
@@ -83,7 +82,7 @@ void hear_qt(QtMsgType type, const QMessageLogContext&, const QString& text) {
 }  // namespace
 
 std::string no_display() {
-  ::setenv("EGL_LOG_LEVEL", "fatal", 0);  // libEGL's own lines: what they mean is told once, by us
+  ::setenv("EGL_LOG_LEVEL", "fatal", 0);  // we report the cause of libEGL's lines ourselves
   qInstallMessageHandler(hear_qt);
   if (is_set("QT_QPA_PLATFORM") || is_set("DISPLAY") || is_set("WAYLAND_DISPLAY")) return "";
   return "verp view: no display here (neither DISPLAY nor WAYLAND_DISPLAY is set); log in to a "

@@ -4,19 +4,19 @@
 
 namespace verp::view {
 
-/// Why no window can open here, as one line; empty: nothing speaks against it. Before QApplication,
+/// The reason in one line why no window can open here, else empty. Call it before QApplication,
 /// which would end the program.
 std::string no_display();
 
-/// Why nothing can be drawn on this display, as one line; empty: OpenGL 3.3 is there. After
-/// QApplication and before any window, in which Qt would crash.
+/// The reason in one line why OpenGL 3.3 is missing on this display, else empty. Call it after
+/// QApplication and before any window, because Qt would crash in one.
 std::string no_driver();
 
-/// From now on a display that goes away, or was none, ends the program with one line and exit
-/// status 3, after `save`, which may add a line. Once before the window is made, without
-/// `save`, and once with it.
+/// From now on, losing the display calls `save`, prints one line and `save`'s line if there is one,
+/// and exits with status 3. Call it once before the window is made, without `save`, and once after,
+/// with it.
 void survive_the_display(std::function<std::string()> save);
-/// The program ends as it should: nothing is to be told.
+/// The program ends normally: print nothing.
 void leave_the_display();
 
 }  // namespace verp::view

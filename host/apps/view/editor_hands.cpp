@@ -12,7 +12,7 @@
 #include "host/author/edit/names.hpp"
 #include "host/author/edit/parts.hpp"
 
-/// What a person's hands do in the editor: buttons, and the line that adds parts.
+/// The editor's buttons, and the line that adds parts.
 namespace verp::view {
 
 QWidget* EditorPanel::make_adder() {

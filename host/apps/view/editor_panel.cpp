@@ -24,9 +24,10 @@
 namespace verp::view {
 namespace {
 
-constexpr int kTyping_ms = 250;  // a check takes some ten milliseconds: after a key, not at each
+constexpr int kTyping_ms = 250;  // a check takes some ten milliseconds, so it waits for a pause in
+                                 // typing
 
-/// Tells of each letter that is typed into a cell.
+/// Reports each letter that the user types into a cell.
 class Typing final : public QStyledItemDelegate {
  public:
   Typing(std::function<void(int, const QString&)> typed, QObject* parent)
@@ -157,7 +158,7 @@ void EditorPanel::select(const std::string& path) {
   tree_->scrollTo(index);
 }
 
-/// Makes a change of the document and puts it on the stack, which applies it.
+/// Makes an edit and pushes it on the undo stack, which applies it.
 void EditorPanel::change(const Make& make) {
   if (!document_) return;
   try {
@@ -207,7 +208,7 @@ void EditorPanel::preview(int row, const QString& text) {
   soon_->start();
 }
 
-/// Checks the document, or what it would be with what is being typed.
+/// Checks the document with the text that is being typed.
 void EditorPanel::look() {
   if (!document_) return;
   soon_->stop();
@@ -215,11 +216,11 @@ void EditorPanel::look() {
   try {
     if (!typed_path_.empty()) seen.apply(edit::set(seen, typed_path_, typed_));
   } catch (const model::LoadError&) {
-    return;  // it will be told when it is entered
+    return;  // reported when the text is entered
   }
   const auto complaint = edit::check(seen);
   tell(complaint);
-  const bool shown_already = undo_.count() == 0;  // as it was opened
+  const bool shown_already = undo_.count() == 0;  // unchanged since it was opened
   if (!complaint && !seen.is_urdf() && typed_path_.empty() && edited && !shown_already) {
     edited(model::load_robot_text(seen.file().string(), seen.text()));
   }

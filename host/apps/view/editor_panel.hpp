@@ -21,27 +21,28 @@ namespace verp::view {
 class EditorTable;
 class EditorTree;
 
-/// A robot's file: its parts, their numbers with units, and what `verp check` says while one types.
-/// Each change is the smallest of the text, and goes on the undo stack.
+/// Editor of a robot's file: its parts, their values with units, and the result of `verp check`
+/// during typing. Each change is the smallest edit of the text and goes on the undo stack.
 class EditorPanel final : public QWidget {
  public:
   explicit EditorPanel(QUndoStack& undo, QWidget* parent = nullptr);
   ~EditorPanel() override;
 
-  /// Empty, or why it cannot be edited. Changes that are not saved are not lost: then it refuses.
+  /// Returns the reason if the file cannot be edited, else empty. Refuses while there are unsaved
+  /// changes.
   std::string open(const std::string& file, bool may_be_new = false);
-  /// Empty, or why not, and where the text was put.
+  /// Returns empty, or the reason and where the text was put.
   std::string save();
-  /// Puts what is not saved beside the file; says where.
+  /// Writes unsaved text beside the file and returns its path.
   std::string put_aside() const { return document_ ? document_->put_aside() : ""; }
   bool changed() const { return document_ && document_->changed(); }
   const edit::Document* document() const { return document_ ? &*document_ : nullptr; }
   void select(const std::string& path);
-  std::string selected() const;  ///< path; empty: none
+  std::string selected() const;  ///< path; may be empty
 
   std::function<void(const std::string& text)> said;
   std::function<void(const model::Entity& robot)> edited;  ///< a sound robot, after each change
-  std::function<void(const std::string& link)> chosen;     ///< a link, or what is on one
+  std::function<void(const std::string& link)> chosen;     ///< the link of the selected part
   std::function<void(const std::string& file, const std::string& text)> walk;
 
  private:

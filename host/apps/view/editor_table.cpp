@@ -43,7 +43,7 @@ void EditorTable::add(const edit::Document& document, int element, const std::st
 
 void EditorTable::mark(const std::string& path) {
   marked_ = path;
-  // Not of the values: a cell in which somebody types would be read anew.
+  // Marks only: new values would reset a cell in which the user types.
   if (!rows_.empty()) emit dataChanged(index(0, 0), index(rowCount() - 1, 0));
 }
 
@@ -75,7 +75,7 @@ bool EditorTable::setData(const QModelIndex& index, const QVariant& value, int r
   if (!index.isValid() || role != Qt::EditRole || index.column() != 1) return false;
   const Row row = rows_[std::size_t(index.row())];
   const std::string text = value.toString().toStdString();
-  // Once the cell is closed: the change makes all rows anew.
+  // Waits until the cell is closed, because the change rebuilds all rows.
   if (text != row.value) {
     QTimer::singleShot(0, this, [this, path = row.path, text] {
       if (wanted) wanted(path, text);

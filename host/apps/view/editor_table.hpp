@@ -8,15 +8,15 @@
 
 namespace verp::view {
 
-/// The numbers and words of one part, each with its unit.
+/// The values of one part, each with its unit.
 class EditorTable final : public QAbstractTableModel {
  public:
   using QAbstractTableModel::QAbstractTableModel;
 
-  /// Looked at now; nothing of it is kept but texts.
+  /// Copies the texts; the document is not kept.
   void show_part(const edit::Document& document, int element);
   void clear();
-  /// The path whose value is wrong; empty: none.
+  /// The path of the wrong value; may be empty.
   void mark(const std::string& path);
   const std::string& path(int row) const { return rows_[std::size_t(row)].path; }
   int row_of(const std::string& path) const;  ///< -1: none

@@ -10,7 +10,7 @@
 namespace verp::view {
 namespace {
 
-// What stands in parts and is one itself; all else of a part is its numbers and words.
+// Elements that are parts inside parts; other children are values.
 constexpr std::array kInner = {"sensor", "collision", "visual", "verp:servo", "verp:joint"};
 
 }  // namespace

@@ -7,18 +7,18 @@
 namespace verp::view {
 
 /// The parts of a robot's file: links, joints, frames, sensors, buses with their servos. An index
-/// carries the number of its element.
+/// holds its element's number.
 class EditorTree final : public QAbstractItemModel {
  public:
   using QAbstractItemModel::QAbstractItemModel;
 
-  /// The document is looked at until the next call; null: nothing.
+  /// Keeps the pointer until the next call; may be null.
   void set_document(const edit::Document* document);
   int element(const QModelIndex& index) const {
     return index.isValid() ? int(index.internalId()) : -1;
   }
   QModelIndex index_of(int element) const;
-  /// The part that `verp check` complains about; it is marked.
+  /// Marks the part that `verp check` complains about.
   void mark(const std::string& path);
 
   QModelIndex index(int row, int column, const QModelIndex& parent = {}) const override;

@@ -21,7 +21,7 @@
 namespace verp::view {
 namespace {
 
-constexpr int kInterrupt_ms = 200;  // that Ctrl-C waits for at most
+constexpr int kInterrupt_ms = 200;  // longest delay of Ctrl-C
 
 int tell(const std::string& line) {
   cli::complain(line);
@@ -33,7 +33,7 @@ int show(MainWindow& window) {
   QObject::connect(&interrupts, &QTimer::timeout, [&] {
     if (!cli::interrupted() && !window.isHidden()) return;
     window.close();
-    QApplication::quit();  // closing what is not shown yet would end nothing
+    QApplication::quit();  // close() does not end a program whose window is not shown yet
   });
   interrupts.start(kInterrupt_ms);
   window.show();
@@ -52,7 +52,7 @@ int run_view(const tool::ViewOptions& asked) {
   tool::read_robot_words(options);
   cli::catch_interrupts();
   const bool trace = options.model.ends_with(".mcap");
-  std::optional<RunSetup> setup;  // a mistake in the words is told before any window
+  std::optional<RunSetup> setup;  // reports mistakes in the options before a window opens
   if (trace) record::read_trace(options.model);
   if (!trace) setup = run_of(options);
   if (!asked.link.empty()) link::parse_endpoint(asked.link);
@@ -92,7 +92,7 @@ int run_view(const tool::ViewOptions& asked) {
   return show(window);
 }
 
-/// What ends before the window is closed is told by whoever asked, not as the display's end.
+/// An error before the window closes is reported by the caller, not as a lost display.
 int run_view_and_leave(const tool::ViewOptions& asked) {
   try {
     return run_view(asked);

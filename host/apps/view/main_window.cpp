@@ -28,9 +28,10 @@
 namespace verp::view {
 namespace {
 
-constexpr int kNumbersEvery = 4;                          // frames: nobody reads faster
+constexpr int kNumbersEvery = 4;                          // frames between updates of numbers,
+                                                          // which users cannot read faster
 constexpr scene::Colour kLinked{0.16F, 0.47F, 0.86F, 1};  // of the robot at the link
-constexpr int kLayout = 1;                                // version of what is remembered of it
+constexpr int kLayout = 1;                                // version of the saved layout
 
 double wall_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -58,7 +59,7 @@ MainWindow::MainWindow(QSettings& settings, MakeRun make_run)
       transport_(new Transport(this)),
       timer_(new QTimer(this)) {
   setWindowTitle("verp view");
-  resize(1280, 740);  // with a desktop's bars on a screen of 800 lines
+  resize(1280, 740);  // fits a screen of 800 lines with a desktop's bars
   setCentralWidget(scene_);
   make_editor();
   addToolBar(Qt::BottomToolBarArea, transport_);
@@ -222,7 +223,7 @@ void MainWindow::open(const QString& file) {
     if (file.endsWith(".mcap")) return watch(std::filesystem::path(file.toStdString()));
     watch(make_run_(file.toStdString()));
   } catch (const std::exception& error) {
-    // What is not sound yet can be mended.
+    // The editor opens a robot that is not sound, so that the user can repair it.
     if (!file.endsWith(".mcap")) editor_->open(file.toStdString());
     say(QString::fromUtf8(error.what()));
   }

@@ -35,11 +35,12 @@ class StatePanel;
 class Transport;
 class TuningPanel;
 
-/// The window: one robot, in the twin or in a trace, and all there is to do with it. It only brings
-/// together: what it shows is Player's, what it does is LiveRun's.
+/// The main window: one robot in the twin or in a trace. Player holds what it shows, LiveRun acts
+/// on the robot; the window only connects them.
 class MainWindow final : public QMainWindow {
  public:
-  /// `make_run`: the run of a robot by name or file; throws an exception with a line of text.
+  /// `make_run` gives the run of a robot by name or file, or throws an exception with one line of
+  /// text.
   using MakeRun = std::function<RunSetup(const std::string& model)>;
   MainWindow(QSettings& settings, MakeRun make_run);
   ~MainWindow() override;
@@ -47,12 +48,12 @@ class MainWindow final : public QMainWindow {
   void watch(RunSetup setup);
   /// Throws record::TraceError.
   void watch(const std::filesystem::path& trace);
-  /// From now on the controller at the end of that link stands beside each robot that is watched.
-  /// Throws link::EndpointError.
+  /// Shows the controller at that link beside each robot that is opened from now on. Throws
+  /// link::EndpointError.
   void link_to(const std::string& link);
-  /// Steered by that joystick, whenever it is plugged in.
+  /// Steers by that joystick whenever it is plugged in.
   void steer_by(const std::string& gamepad);
-  /// A robot's file or a trace; a failure is told in the window.
+  /// Opens a robot's file or a trace; the window shows failures.
   void open(const QString& file);
 
   Player* player() { return player_.get(); }
@@ -61,9 +62,9 @@ class MainWindow final : public QMainWindow {
   PosePanel& pose() { return *pose_; }
   EditorPanel& editor() { return *editor_; }
 
-  /// Why the window closed before its user wanted; empty: it did not.
+  /// The window's reason to close by itself, else empty.
   const std::string& failure() const { return failure_; }
-  /// Ends the run, and its record. Empty, or what of it was lost.
+  /// Ends the run and its record. Returns what was lost, else empty.
   std::string finish();
 
  protected:
@@ -108,18 +109,19 @@ class MainWindow final : public QMainWindow {
 
   QSettings& settings_;
   const MakeRun make_run_;
-  std::string link_;  ///< empty: none
+  std::string link_;  ///< empty: no link
   std::shared_ptr<Linked> linked_;
   std::unique_ptr<Gamepad> gamepad_;
   std::unique_ptr<Player> player_;
-  std::shared_ptr<const TraceFilm> trace_;     ///< null of a run
-  std::unique_ptr<StepOn> shadow_;             ///< goes on by itself from a tick of the trace
-  std::size_t state_index_ = ~std::size_t{0};  ///< of the trace: what the panel shows
+  std::shared_ptr<const TraceFilm> trace_;     ///< null in a run
+  std::unique_ptr<StepOn> shadow_;             ///< continues by itself from a tick of the trace
+  std::size_t state_index_ = ~std::size_t{0};  ///< trace tick that the panel shows
   std::shared_ptr<const Film> film_;
   std::shared_ptr<const scene::Entity> entity_;
   std::unique_ptr<Steering> steering_;
-  std::shared_ptr<const scene::Entity> edited_;  ///< shown as it is edited, until time goes on
-  std::string chosen_link_;                      ///< that is chosen in the editor
+  std::shared_ptr<const scene::Entity> edited_;  ///< the robot in the editor, shown until time goes
+                                                 ///< on
+  std::string chosen_link_;                      ///< selected in the editor
   QUndoStack* undo_;
   QUndoGroup* undos_;
   SceneView* scene_;
@@ -139,9 +141,10 @@ class MainWindow final : public QMainWindow {
   QLabel *mode_, *speed_, *faults_, *link_told_, *digest_;
   QByteArray first_layout_;
   std::string failure_, said_, happened_;
-  std::set<std::string> told_;              ///< of what is not drawn: once each
-  std::optional<scene::Vec3> grip_link_m_;  ///< where another link was taken, in its frame
-  std::optional<scene::Vec3> foot_from_m_;  ///< of the foot that is dragged, when it was taken
+  std::set<std::string> told_;              ///< notes about missing items, each reported once
+  std::optional<scene::Vec3> grip_link_m_;  ///< grip on a link other than a foot, in the link's
+                                            ///< frame
+  std::optional<scene::Vec3> foot_from_m_;  ///< start of the dragged foot
   int frames_ = 0;
 };
 

@@ -10,14 +10,14 @@
 #include "host/apps/view/pose_panel.hpp"
 #include "host/os/files/whole.hpp"
 
-/// The robot as it is edited: shown, chosen in, and walked.
+/// Shows the edited robot, selects its parts and lets it walk.
 namespace verp::view {
 namespace {
 
 constexpr scene::Colour kChosen{0.95F, 0.55F, 0.12F, 1};
 
-/// A text as a file beside the one that it will be, for as long as somebody reads it: what a robot
-/// includes lies as seen from there.
+/// A temporary file beside the robot's, so that included files are found by the same relative
+/// paths.
 class Beside {
  public:
   Beside(const std::filesystem::path& file, const std::string& text)
@@ -47,8 +47,8 @@ void MainWindow::make_editor() {
   undos_->addStack(undo_);
   undos_->addStack(stack);
   undos_->setActiveStack(undo_);
-  // Undo takes back what was done last, here or there.
-  // A stack is emptied last of all, when the window and the group are gone.
+  // Undo takes back the latest change in either stack. A stack's destructor clears it when the
+  // window and the group are gone; count() is 0 then.
   connect(stack, &QUndoStack::indexChanged, this, [this, stack] {
     if (stack->count() > 0) undos_->setActiveStack(stack);
   });
@@ -108,7 +108,7 @@ void MainWindow::show_scene() {
   scene_->set_scene(std::move(scene));
 }
 
-/// What is not saved is not lost.
+/// Saves unsaved edits beside the file.
 std::string MainWindow::finish() {
   const std::string lost =
       player_ && player_->live() != nullptr ? player_->live()->finish() : std::string();

@@ -7,11 +7,11 @@
 #include "host/apps/view/main_window.hpp"
 #include "host/apps/view/pose_panel.hpp"
 
-// What a person does to the robot.
+// User actions on the robot.
 namespace verp::view {
 namespace {
 
-constexpr double kPush_n_m = 100;  // of a drag
+constexpr double kPush_n_m = 100;  // per metre of drag
 constexpr double kPush_s = 0.1;
 
 }  // namespace
@@ -38,7 +38,7 @@ void MainWindow::stop(bool pressed) {
   stop_->setText(pressed ? "Release stop" : "Emergency stop");
 }
 
-/// A person's word: from then on the robot is that person's, and stands when it is up.
+/// The user takes control: the robot obeys only the window and stands once it is up.
 void MainWindow::get_up() {
   if (live() == nullptr || !steering_ || !get_up_->isEnabled()) return;
   steering_->stop();
@@ -49,7 +49,7 @@ void MainWindow::get_up() {
   if (!player_->playing()) player_->play();
 }
 
-/// Offered to a robot that lies limp and knows how.
+/// Enabled for a fallen robot without torque that has actions.
 void MainWindow::show_get_up(const scene::RobotView& robot) {
   const bool can = live() != nullptr && !live()->setup().plan.actions.empty();
   const bool limp = !safety::has_torque(static_cast<safety::Mode>(robot.mode));
@@ -68,7 +68,7 @@ void MainWindow::show_get_up(const scene::RobotView& robot) {
   happened_ = status.happened;
 }
 
-/// The scene shows the robot in the hand as long as there is one.
+/// The scene shows the held robot while there is one.
 void MainWindow::pick_up() {
   if (!player_) return;
   if (!pose_->posing()) return scene_->say("");
@@ -107,7 +107,7 @@ session::Intervention MainWindow::push_of(const SceneView::Hold& at) const {
   session::Intervention push{.kind = session::Intervention::Kind::kPush, .name = {}};
   push.name = entity_->nodes[static_cast<std::size_t>(at.node)].name;
   push.force_world_n = kPush_n_m * (at.to_world_m - at.at_world_m);
-  // As a person would type it.
+  // Rounded, as a user would type it.
   for (double& axis : push.force_world_n) axis = std::round(10 * axis) / 10;
   push.for_s = kPush_s;
   return push;

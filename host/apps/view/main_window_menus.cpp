@@ -139,7 +139,7 @@ void MainWindow::make_run_menu() {
   make_corner();
 }
 
-/// What is urgent: beside the menus, whatever is open.
+/// Urgent buttons in the menu bar's corner, always visible.
 void MainWindow::make_corner() {
   const auto button = [this](const char* text, const char* name) {
     auto* made = new QPushButton(text);

@@ -9,7 +9,7 @@
 #include "host/run/session/fault_names.hpp"
 #include "host/show/scene/plan_marks.hpp"
 
-// What comes from elsewhere: a controller at a link, a gamepad, the State that a trace had.
+// External inputs: a controller at a link, a gamepad, a trace's State.
 namespace verp::view {
 
 void MainWindow::link_to(const std::string& link) {
@@ -61,7 +61,7 @@ void MainWindow::show_state() {
   }
   const scene::TracePlayer& player = trace_->player();
   std::size_t index = player.index_at(player_->shown_s());
-  if (shadow_ && index != shadow_->index()) step_on(0);  // somebody went elsewhere
+  if (shadow_ && index != shadow_->index()) step_on(0);  // the user moved to another tick
   if (index == state_index_) return;
   state_index_ = index;
   StatePanel::Tick recorded;
@@ -99,7 +99,7 @@ void MainWindow::step_on(int ticks) {
   player_->seek((shadow_->inputs().tick + 0.5) * player.trace().period_s());
 }
 
-/// Where the robot was, with the goals of the controller that goes on by itself.
+/// The recorded robot with the goals of the controller that continues by itself.
 Picture MainWindow::with_shadow(Picture now) const {
   if (!shadow_ || !now || now->robots.empty()) return now;
   auto picture = std::make_shared<scene::Snapshot>(*now);

@@ -23,12 +23,12 @@ class PlotPanel final : public QWidget {
   void set_shown(int signal, bool shown);
   std::vector<int> shown() const;
   void clear();
-  /// New points, and the line at the instant that the scene shows.
+  /// Adds new points and moves the line to the instant that the scene shows.
   void refresh(double shown_s, bool follows);
   void fit();
   void restyle();
 
-  std::function<void(double t_s)> sought;  ///< somebody clicked
+  std::function<void(double t_s)> sought;  ///< the user clicked
 
   QCustomPlot& plot() { return *plot_; }
   int points_of(int signal) const;
@@ -50,7 +50,7 @@ class PlotPanel final : public QWidget {
   QCustomPlot* plot_;
   QCPItemStraightLine* cursor_;
   QLabel* empty_;
-  bool moved_ = false;  ///< by hand: follows no more until fit()
+  bool moved_ = false;  ///< the user moved the view: no following until fit()
   QPointF pressed_;
 };
 

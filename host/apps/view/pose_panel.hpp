@@ -15,8 +15,8 @@ class QSlider;
 
 namespace verp::view {
 
-/// A slider for each joint of the robot held in the air, and what a dragged foot's inverse
-/// kinematics says.
+/// Joint sliders for the robot held in the air, and the result of a dragged foot's inverse
+/// kinematics.
 class PosePanel final : public QWidget {
  public:
   explicit PosePanel(QWidget* parent = nullptr);
@@ -25,16 +25,16 @@ class PosePanel final : public QWidget {
   bool posing() const;
   void set_posing(bool posing);
   PoseHand* hand() { return hand_.get(); }
-  /// A point of a link, in its frame, that is dragged to there.
+  /// Drags a point of a link, in the link's frame, to a place in the world.
   void drag_link(int node, const scene::Vec3& point_link_m, const scene::Vec3& to_world_m);
-  /// A foot that is dragged to there.
+  /// Drags a foot.
   void drag_foot(int side, const scene::Vec3& sole_world_m);
   scene::Vec3 sole_world_m(int side) const;
   /// In the frame of that link.
   scene::Vec3 in_link_m(int node, const scene::Vec3& at_world_m) const;
   Picture picture() const;
 
-  std::function<void()> changed;  ///< pose, or whether there is one
+  std::function<void()> changed;  ///< the pose, or whether the robot is held
 
  private:
   void show_hand();
@@ -44,7 +44,7 @@ class PosePanel final : public QWidget {
   std::unique_ptr<PoseHand> hand_;
   QCheckBox* posing_;
   QLabel* legs_;
-  std::string link_;  ///< that was dragged last; empty: none was
+  std::string link_;  ///< dragged last; may be empty
   QWidget* joints_ = nullptr;
   QGridLayout* grid_ = nullptr;
   std::vector<QSlider*> sliders_;

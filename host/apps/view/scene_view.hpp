@@ -13,8 +13,8 @@ class QLabel;
 
 namespace verp::view {
 
-/// The scene in 3D, and the mouse in it. Left drag turns, middle or right drag moves, the wheel
-/// zooms; a drag with Shift takes hold of what is under it.
+/// The 3D scene and its mouse control. Left drag turns, middle or right drag moves, the wheel
+/// zooms; a drag with Shift grips what is under the mouse.
 class SceneView final : public QOpenGLWidget {
  public:
   explicit SceneView(QWidget* parent = nullptr);
@@ -22,7 +22,7 @@ class SceneView final : public QOpenGLWidget {
 
   void set_scene(scene::Scene scene);
   void show_picture(Picture now);
-  /// One of scene::view_names(). False: there is none of that name.
+  /// One of scene::view_names(). Returns false for an unknown name.
   bool set_view(const std::string& name);
   const std::string& view() const { return view_; }
   void set_follow(bool follow) { follow_ = follow; }
@@ -30,18 +30,19 @@ class SceneView final : public QOpenGLWidget {
   const scene::Orbit& orbit() const { return orbit_; }
   render::Effects& effects() { return effects_; }
 
-  void say(const QString& text);  ///< in the picture's corner; empty: nothing
+  void say(const QString& text);  ///< text in the picture's corner; may be empty
 
-  /// Where a hand has hold of the robot.
+  /// The user's grip on a robot.
   struct Hold {
     int robot = 0, node = 0;
-    scene::Vec3 at_world_m = scene::Vec3::Zero();  ///< where it took hold
-    scene::Vec3 to_world_m = scene::Vec3::Zero();  ///< where it is, as far away from the eye
+    scene::Vec3 at_world_m = scene::Vec3::Zero();  ///< where the grip began
+    scene::Vec3 to_world_m = scene::Vec3::Zero();  ///< where the mouse is now, at the same distance
+                                                   ///< from the eye
   };
   std::function<void(const Hold&)> held, let_go;
   std::function<void(const Hold&)> taken;              ///< a double click on a robot
-  std::function<void(const std::string& why)> failed;  ///< it cannot draw
-  std::function<void(const std::string& what)> noted;  ///< one thing of the scene it does not draw
+  std::function<void(const std::string& why)> failed;  ///< the view cannot draw
+  std::function<void(const std::string& what)> noted;  ///< an item that the view cannot draw
 
   std::uint64_t drawn() const { return drawn_; }
 

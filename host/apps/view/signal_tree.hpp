@@ -9,7 +9,7 @@ class QLineEdit;
 
 namespace verp::view {
 
-/// What can be plotted, by groups, with a box to tick and the value of the instant shown.
+/// All signals that can be plotted, in groups, with a check box and the current value.
 class SignalTree final : public QWidget {
  public:
   explicit SignalTree(QWidget* parent = nullptr);

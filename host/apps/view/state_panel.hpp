@@ -14,8 +14,8 @@ class QTreeWidgetItem;
 
 namespace verp::view {
 
-/// All of State, Inputs and Outputs at the tick that is shown of a trace, by name; and, while a
-/// controller goes on from there by itself, beside it what was recorded.
+/// All fields of State, Inputs and Outputs at a trace's tick, by name. While a controller continues
+/// from there by itself, also the recorded values.
 class StatePanel final : public QWidget {
  public:
   explicit StatePanel(QWidget* parent = nullptr);
@@ -25,18 +25,18 @@ class StatePanel final : public QWidget {
     Inputs inputs;
     Outputs outputs;
   };
-  /// `recorded`: null while what is shown is the record itself.
+  /// `recorded` is null while the record itself is shown.
   void show_tick(const Tick& now, const Tick* recorded);
-  /// There is none to show: why.
+  /// Shows why there is no tick.
   void show_none(const QString& why);
-  /// How the controller that goes on stands to the record; empty: none does.
+  /// Compares the continuing controller with the record; empty if there is no such controller.
   void say(const QString& how);
 
-  /// Go on by so many ticks; 0: back to the record.
+  /// Continues by so many ticks; 0: back to the record.
   std::function<void(int ticks)> stepped;
 
   int different() const { return different_; }
-  /// The text of a field, by its path ("state.gait.phase"); empty: there is none.
+  /// The text of a field by its path ("state.gait.phase"); empty if there is none.
   QString value(const QString& path) const;
 
  private:

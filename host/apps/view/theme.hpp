@@ -5,7 +5,7 @@
 class QApplication;
 class QCustomPlot;
 
-/// Colours of the window: the report's, so that a curve looks the same in both.
+/// The window's colours, the same as the report's.
 namespace verp::view {
 
 struct Theme {
@@ -14,7 +14,7 @@ struct Theme {
   QColor series(int index) const;
 };
 
-/// The one in force.
+/// The current theme.
 const Theme& theme();
 void apply_theme(QApplication& application, bool dark);
 void apply_theme(QCustomPlot& plot);

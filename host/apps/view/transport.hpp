@@ -10,7 +10,7 @@ namespace verp::view {
 
 class Player;
 
-/// Time: reset, play, one tick back and forth, speed, and a slider over all there is to see.
+/// Time control: reset, play, one tick back and forth, speed, and a slider over the whole time.
 class Transport final : public QToolBar {
  public:
   explicit Transport(QWidget* parent = nullptr);

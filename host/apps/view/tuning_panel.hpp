@@ -11,14 +11,14 @@ class QLabel;
 
 namespace verp::view {
 
-/// Gait, balance and safety numbers in force, each with its range. Changes go on the undo stack.
+/// Gait, balance and safety numbers with their ranges. Changes go on the undo stack.
 class TuningPanel final : public QWidget {
  public:
   TuningPanel(QUndoStack& undo, QWidget* parent = nullptr);
 
-  /// The robot's own; `live`: they can be changed.
+  /// Sets the robot's own numbers; `live`: they can be changed.
   void set_robot(const Tuning& own, bool live);
-  /// Those in force now.
+  /// Shows the numbers in effect.
   void show_tuning(const Tuning& tuning);
 
   std::function<void(int id, float value)> wanted;
@@ -31,7 +31,7 @@ class TuningPanel final : public QWidget {
   QUndoStack& undo_;
   QLabel* hint_;
   std::vector<QDoubleSpinBox*> boxes_;
-  Tuning own_, asked_, seen_;  ///< seen_: in force when last looked
+  Tuning own_, asked_, seen_;  ///< seen_: in effect at the last look
 };
 
 }  // namespace verp::view

@@ -18,10 +18,10 @@ namespace {
 constexpr int kMostTicks = 60000;
 constexpr int kCollideEvery = 5;  // ticks
 constexpr double kMostTorqueShare = 0.9;
-constexpr double kLeastMargin_m = -0.005;  // the balance takes that much
-constexpr double kTouch_m = 1e-3;          // skins of two links that rest on each other
+constexpr double kLeastMargin_m = -0.005;  // the balance can take this much
+constexpr double kTouch_m = 1e-3;          // depth to which resting links may touch
 
-/// The conditions of a frame come true, as its author says they do.
+/// Makes the frame's condition come true.
 void fulfil(Condition condition, PlayerIn& in) {
   constexpr float kQuarter = 1.5707963F;
   const bool lies = condition >= Condition::kLiesFront && condition <= Condition::kLiesRight;
@@ -128,7 +128,7 @@ class Checker {
   }
 
   void look_at_weight(const PlayerOut& out) {
-    if (out.stance == Stance::kNone) return;  // what the ground bears then nobody knows
+    if (out.stance == Stance::kNone) return;  // the ground forces are unknown then
     const Torques torques = support_.torques(out);
     FrameCheck& now = result_.frames.back();
     for (int j = 0; j < params_.joint_count; ++j) {
@@ -144,7 +144,7 @@ class Checker {
 
   void look_at_zmp(const PlayerOut& out) {
     const bool carried = out.stance != Stance::kNone;
-    // Of one standing foot: accelerations across a change of the reference mean nothing.
+    // Accelerations are valid only while the same foot is the reference.
     const int reference = out.carry[0] >= 0.5F ? 0 : 1;
     if (!carried || reference != reference_) com_m_.clear();
     reference_ = reference;

@@ -13,12 +13,12 @@
 namespace verp::action {
 namespace {
 
-/// All actions of a robot, on their way to one image.
+/// Compiles all actions of a robot into one image.
 class Maker {
  public:
   Maker(const Params& params, std::vector<Document> documents)
       : params_(params), poser_(params), documents_(std::move(documents)) {
-    // Of a motion file's page without steps there is nothing to play.
+    // A motion file's page without steps has nothing to play.
     std::erase_if(documents_,
                   [](const Document& each) { return each.frames.empty() && !each.mirror; });
     std::sort(documents_.begin(), documents_.end(),
@@ -96,7 +96,7 @@ class Maker {
     }
   }
 
-  /// Whose frames the action has: its own, or those it mirrors.
+  /// The document that holds the action's frames: itself, or the one that it mirrors.
   const Document& source(std::size_t index) const {
     const Document& document = documents_[index];
     return document.mirror ? documents_[find(document, *document.mirror)] : document;
@@ -129,7 +129,7 @@ class Maker {
                                    : kToStand;
       if (text.exit) exit = text.exit;
       if (exit) frame.exit = resolve(index, *exit, false);
-      // One that is on its way out goes on.
+      // A frame on the exit path continues to its next frame.
       const std::size_t at = first_[index] + i;
       if (frame.exit <= at && frame.exit >= first_[index]) frame.exit = frame.next;
       if (text.wait && text.wait->otherwise) {
@@ -164,10 +164,10 @@ class Maker {
     return drafts_[i].frames[global - first_[i]];
   }
 
-  /// Repeats end by their count; other ways must not come back.
+  /// Repeats end by their count; other links must not form a loop.
   void refuse_endless() {
     for (std::size_t i = 0; i < documents_.size(); ++i) {
-      std::map<std::uint16_t, int> seen;  // 1: on the way from here, 2: ends
+      std::map<std::uint16_t, int> seen;  // 1: on the current path, 2: ends
       if (ends(static_cast<std::uint16_t>(first_[i]), seen)) continue;
       const Document& document = source(i);
       const int line = document.link ? document.link->line : document.line;
@@ -187,7 +187,8 @@ class Maker {
     return good;
   }
 
-  /// A joint that goes on passes its key frames; one that turns back, holds or waits rests there.
+  /// A joint that keeps its direction passes its key frames; one that turns back, holds or waits
+  /// rests there.
   void set_speeds(std::size_t index) {
     Draft& own = drafts_[index];
     for (std::size_t i = 0; i < own.frames.size(); ++i) {
@@ -205,7 +206,7 @@ class Maker {
         const double in = (goal(now) - before) / (1e-3 * now.time_ms);
         const double out = (goal(next) - goal(now)) / (1e-3 * next.time_ms);
         if (in * out <= 0) continue;
-        // Harmonic mean: never beyond twice the slower side, so that nothing overshoots.
+        // The harmonic mean is below twice the slower side, which prevents overshoot.
         const double speed = 2 * in * out / (in + out);
         now.speed_mrad_s[j] =
             static_cast<std::int16_t>(std::clamp(std::lround(1e3 * speed), -32767L, 32767L));
@@ -249,7 +250,7 @@ class Maker {
   Poser poser_;
   std::vector<Document> documents_;
   std::vector<Draft> drafts_;
-  std::vector<std::size_t> first_;  ///< frame of each action
+  std::vector<std::size_t> first_;  ///< first frame of each action
 };
 
 }  // namespace

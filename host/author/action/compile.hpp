@@ -8,17 +8,17 @@
 
 namespace verp::action {
 
-/// Actions made for a robot: the image that its controller reads, and where each frame comes from.
+/// A robot's compiled actions: the image for its controller, and the source of each frame.
 struct Made {
   std::vector<std::uint32_t> words;  ///< the image, aligned
-  std::vector<Document> documents;   ///< of action 1, 2, ...: by name
-  std::vector<int> line;             ///< of each frame
+  std::vector<Document> documents;   ///< of action 1, 2, ...: sorted by name
+  std::vector<int> line;             ///< one per frame
 
-  /// Valid while `words` are.
+  /// Valid as long as `words`.
   Library library() const { return {words.data(), 4 * words.size()}; }
-  /// Number of the action; 0: there is none of that name.
+  /// The action's number; 0: no action has that name.
   int number(const std::string& name) const;
-  /// Throws LoadError with the names there are.
+  /// Throws LoadError that lists the names.
   int require(const std::string& name, const std::string& place) const;
 };
 

@@ -9,10 +9,10 @@
 #include "common/action/library.hpp"
 #include "host/robot/model/load_error.hpp"
 
-/// An action as its file has it (host/guide/actions.md), before it is made for a robot.
+/// An action as its file has it (host/guide/actions.md), before it is compiled for a robot.
 namespace verp::action {
 
-/// A displacement from the stand: of the body, or of a sole, both over the ground.
+/// Displacement of the body or a sole from the stand, relative to the ground.
 struct Offset {
   std::array<double, 3> move_m{};
   std::array<double, 3> turn_rad{};  ///< roll, pitch, yaw
@@ -20,18 +20,18 @@ struct Offset {
 
 struct JointGoal {
   std::string joint;
-  bool from_stand = false;  ///< `angle_rad` is added to where the joint stands
+  bool from_stand = false;  ///< `angle_rad` is relative to the joint's stand angle
   double angle_rad = 0;
   int line = 0;
 };
 
 struct Stiffness {
-  std::vector<std::string> joints;  ///< none: all
+  std::vector<std::string> joints;  ///< empty: all
   int percent = 100;
   int line = 0;
 };
 
-/// Where else a player goes: a frame of this action by its label, another action, or the stand.
+/// Where a player may go: a frame of this action by its label, another action, or the stand.
 struct Target {
   std::string name;
   int line = 0;
@@ -48,14 +48,15 @@ struct Repeat {
   Target from;
 };
 
-/// What a frame does not say it has from the frame before.
+/// Members that are not set keep the previous frame's values.
 struct FrameText {
   int line = 0;
   std::string label;
   double time_s = 0, hold_s = 0;
   std::optional<bool> smooth, balance;
   std::optional<Stance> stance;
-  std::optional<double> over_left;  ///< the centre of mass: 1 over the left sole, 0 over the right
+  std::optional<double> over_left;  ///< position of the centre of mass: 1 over the left sole, 0
+                                    ///< over the right
   int over_line = 0;
   std::optional<Offset> body, foot[kFeet];
   std::vector<JointGoal> goals;
@@ -65,7 +66,7 @@ struct FrameText {
   std::optional<Repeat> repeat;
 };
 
-/// A page of a ROBOTIS motion file (robotis.hpp): what frames cannot say of it.
+/// A page of a ROBOTIS motion file (robotis.hpp), for the parts that frames cannot express.
 struct PageText {
   int number = 0;
   std::vector<std::uint8_t> bytes;
@@ -73,22 +74,23 @@ struct PageText {
 
 struct Document {
   std::filesystem::path file;
-  int line = 0;  ///< of its name
+  int line = 0;  ///< line of its name
   std::string name, note;
-  std::optional<Target> mirror;  ///< of this action, which then has no frames of its own
+  std::optional<Target> mirror;  ///< the action that this one mirrors; it then has no frames of its
+                                 ///< own
   std::vector<FrameText> frames;
-  std::optional<PageText> page;  ///< with one, there need be no frames
-  std::optional<Target> link;    ///< what follows the last frame; none: the stand
+  std::optional<PageText> page;  ///< with a page, `frames` may be empty
+  std::optional<Target> link;    ///< follows the last frame; empty: the stand
 };
 
 /// Throws LoadError with file and line.
 Document read_document(const std::filesystem::path& file);
 Document parse_document(const std::filesystem::path& file, const std::string& text);
 
-/// The text that parse_document() reads back as the same.
+/// Text that parse_document() reads back as the same document.
 std::string text_of(const Document& document);
 
-/// Of a condition, as in files: "left_foot".
+/// A condition's name in files: "left_foot".
 const char* name_of(Condition condition);
 
 }  // namespace verp::action

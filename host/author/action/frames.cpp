@@ -17,7 +17,7 @@ int joint_of(const Params& params, const Document& document, int line, const std
   return joint_named(params, name, document.file, line);
 }
 
-/// What frames hand on to the next.
+/// State that one frame hands to the next.
 struct Held {
   bool smooth = true, balance = true;
   Stance stance = Stance::kBoth;
@@ -66,8 +66,8 @@ void take(const Params& params, const Poser& poser, const Document& document, co
   }
 }
 
-/// One motor turns a follower and its driver: refuses a frame that wants them apart, and takes
-/// followers to where drivers take them.
+/// One motor turns a follower and its driver. Refuses a frame that separates them, and sets
+/// followers from their drivers.
 void couple(const Params& params, const Document& document, const FrameText& text,
             Angles& angle_rad) {
   constexpr float kApart_rad = 0.01F, kDegrees = 57.29578F;
@@ -143,7 +143,7 @@ std::uint32_t leg_joints(const Params& params) {
   return joints;
 }
 
-/// Joints that the action moves in any of its frames: before they are told where, they stand.
+/// Joints that the action moves in any frame; they stand until a frame gives them a goal.
 std::uint32_t joints_of(const Params& params, const Document& document) {
   std::uint32_t joints = 0;
   for (const FrameText& text : document.frames) {
@@ -173,7 +173,7 @@ std::string other_side(std::string name) {
   return name;
 }
 
-/// Reflected at the plane y = 0, a turn about (x, y, z) is one about (-x, y, -z).
+/// Reflection at y = 0 turns a rotation about (x, y, z) into one about (-x, y, -z).
 float sign_of(const JointParams& joint, const JointParams& other) {
   const float along =
       -joint.axis.x * other.axis.x + joint.axis.y * other.axis.y - joint.axis.z * other.axis.z;

@@ -5,21 +5,21 @@
 
 namespace verp::action {
 
-/// Key frames of one action; ways within it count from 0, others are set later.
+/// Key frames of one action. Links inside it count from 0; links to others are set later.
 struct Draft {
   std::vector<Frame> frames;
   std::vector<int> line;
-  std::vector<Angles> angle_rad;  ///< as exact as known
+  std::vector<Angles> angle_rad;  ///< not rounded
 };
 
-/// Throws LoadError with the joints that there are.
+/// Throws LoadError that lists the joints.
 int joint_named(const Params& params, const std::string& name, const std::filesystem::path& file,
                 int line);
 
-/// Poses of an action that is no mirror image. Throws LoadError.
+/// Poses of an action that mirrors no other. Throws LoadError.
 Draft draft(const Params& params, const Poser& poser, const Document& document);
 
-/// The same with left and right exchanged. Throws LoadError for a robot that is not symmetric.
+/// Exchanges left and right. Throws LoadError for a robot that is not symmetric.
 Draft mirrored(const Params& params, const Draft& draft, const Document& document);
 
 }  // namespace verp::action

@@ -7,7 +7,7 @@
 
 namespace verp::action {
 
-/// The library as a board keeps it in its flash: with the mark of its robot.
+/// The library in the form of a board's flash, with its robot's mark.
 std::vector<std::uint8_t> kept_image(const Made& made, const Params& params);
 
 }  // namespace verp::action

@@ -6,7 +6,7 @@ namespace verp::action {
 namespace {
 
 constexpr double kSettle_s = 0.5;
-constexpr std::uint32_t kFrameTicks = 10;  // as any operator's
+constexpr std::uint32_t kFrameTicks = 10;  // as in every operator's radio
 
 bool is_in(const Outputs& outputs, safety::Mode mode) {
   return outputs.mode == static_cast<std::uint8_t>(mode);
@@ -31,7 +31,7 @@ void PlayOperator::observe(const State& state, const Outputs& outputs) {
   stood_s_ = is_in(outputs, safety::Mode::kStanding) ? stood_s_ + period_s_ : 0;
   if (state.action.number != 0) played_s_ += period_s_;
   if (!asked_) {
-    // The bias of the gyro is known by then.
+    // The gyro's bias is known by then.
     if (stood_s_ >= kSettle_s && state.attitude.still_s >= balance::kCalibrated_s) {
       asked_ = changed_ = true;
       stood_s_ = waited_s_ = 0;

@@ -7,11 +7,11 @@
 
 namespace verp::action {
 
-/// The person who asks for an action: has the robot stand, asks once it stands quietly, and sees it
-/// stand again.
+/// An operator that lets the robot stand, requests an action once it stands quietly, and waits
+/// until it stands again.
 class PlayOperator {
  public:
-  /// That it waits for the stand, or for the action to begin; that an action may take.
+  /// Time limits for the stand or the action's begin, and for the action.
   static constexpr double kStandUp_s = 15, kMostAction_s = 300;
 
   PlayOperator(int number, double period_s) : number_(number), period_s_(period_s) {}
@@ -22,7 +22,7 @@ class PlayOperator {
   bool done() const { return done_; }
   /// Seconds of the action so far.
   double played_s() const { return played_s_; }
-  /// Empty unless the robot would not do what it is asked.
+  /// The reason if the robot did not do as requested, else empty.
   const char* failed() const { return failed_; }
 
  private:

@@ -10,7 +10,7 @@ namespace verp::action {
 
 using Angles = std::array<float, kMaxJoints>;
 
-/// How a robot stands, and its legs' angles where body and soles are moved from there.
+/// The robot's stand, and leg angles for a moved body or soles.
 class Poser {
  public:
   explicit Poser(const Params& params);
@@ -20,9 +20,10 @@ class Poser {
 
   struct Legs {
     Offset body, foot[kFeet];
-    std::optional<double> over_left;  ///< the body moves until the centre of mass is there
+    std::optional<double> over_left;  ///< moves the body until the centre of mass is there
   };
-  /// Sets the leg joints in `angle_rad`, whose others stay. Empty, or why it cannot be done.
+  /// Sets only the leg joints of `angle_rad`. Returns the reason if it cannot, else an empty
+  /// string.
   std::string bend(const Legs& legs, Angles& angle_rad) const;
 
  private:

@@ -22,7 +22,7 @@ int sum_of(const Page& page) {
   return std::accumulate(page.begin(), page.end(), 0) & 0xFF;
 }
 
-/// A word that a file may have for a name, and that is not taken yet.
+/// A name that is valid in a file and not taken yet.
 std::string name_of_page(const Page& page, std::size_t number, std::set<std::string>& taken) {
   std::string name;
   for (std::size_t i = kName; i < kNameBytes && page[i] != 0; ++i) {
@@ -45,7 +45,7 @@ Document document_of(const Params& params, const Page& page) {
   return document;
 }
 
-/// Empty: the page may be read.
+/// The fault of a page, or empty.
 std::string wrong_with(const Page& page) {
   if (sum_of(page) != 0xFF) return fmt::format("a wrong checksum (byte {})", kChecksum);
   if (page[kStepCount] > kSteps)
@@ -69,9 +69,9 @@ FrameText frame_of_page(const Params& params, const Page& page, std::size_t step
   const std::size_t at = step_at(step);
   frame.time_s = std::max(1e-3 * kLeastFrame_ms, page[at + kTime] * unit_s(page));
   frame.hold_s = page[at + kPause] * unit_s(page);
-  if (step == 0) frame.balance = false;  // its goals are of servos, whatever bears on them
+  if (step == 0) frame.balance = false;  // its goals are servo angles under load
   Stiffness off{{}, 0, 0}, on{{}, 100, 0};
-  bool was_off = false;  // what has no torque stays so until a frame says otherwise
+  bool was_off = false;  // a joint without torque stays so until a frame gives it torque
   for (int j = 0; j < params.joint_count; ++j) {
     const JointParams& joint = params.joint[j];
     if (joint.servo_id >= kPageServos) continue;

@@ -5,21 +5,21 @@
 
 #include "host/author/action/robotis.hpp"
 
-/// Where what stands in a page of 512 bytes, for robotis.cpp that reads them and robotis_write.cpp
-/// that writes them. Source: ROBOTIS' framework, op3_action_module's action_file_define.h.
+/// Byte layout of a page of 512 bytes, for robotis.cpp and robotis_write.cpp. Source: ROBOTIS'
+/// framework, op3_action_module's action_file_define.h.
 namespace verp::action {
 
 namespace page {
 
-// Of a page's header.
+// In a page's header.
 inline constexpr std::size_t kName = 0, kNameBytes = 14, kRepeat = 15, kSchedule = 16,
                              kStepCount = 20, kSpeed = 22, kAccel = 24, kNext = 25, kExit = 26,
                              kChecksum = 31, kGain = 32;
-// Of a step.
+// In a step.
 inline constexpr std::size_t kStepBytes = 64, kPause = 62, kTime = 63;
 inline constexpr std::uint16_t kInvalid = 0x4000, kTorqueOff = 0x2000, kCount = 0x0FFF;
 inline constexpr std::uint16_t kUnused = 0x9000;
-inline constexpr double kUnit_s = 0.0078;  // of times
+inline constexpr double kUnit_s = 0.0078;  // unit of times
 inline constexpr int kNormalSpeed = 32;
 
 inline std::size_t step_at(std::size_t step) {
@@ -40,7 +40,7 @@ inline double unit_s(const Page& page) {
 
 }  // namespace page
 
-/// What a step of a page says, as an action's frame.
+/// A page's step as an action's frame.
 FrameText frame_of_page(const Params& params, const Page& page, std::size_t step);
 
 }  // namespace verp::action

@@ -8,7 +8,7 @@
 #include "common/model/counts.hpp"
 #include "host/author/action/robotis_page.hpp"
 
-// Actions onto pages: what was changed is written, what a page would not keep is refused.
+// Writes the changes of actions to pages and refuses what a page cannot hold.
 namespace verp::action {
 namespace {
 
@@ -33,9 +33,9 @@ const JointGoal* goal_in(const FrameText& frame, const char* joint) {
   return found == frame.goals.end() ? nullptr : &*found;
 }
 
-using Percents = std::map<std::string, int>;  // of joints that are not stiff
+using Percents = std::map<std::string, int>;  // of joints with less than full stiffness
 
-/// What a frame's words make of what the frame before left.
+/// Stiffness after a frame, from that after the frame before.
 Percents stiffness_after(const Params& params, const FrameText& frame, Percents slack) {
   for (const Stiffness& each : frame.stiffness) {
     if (each.joints.empty()) {
@@ -57,7 +57,7 @@ int torque_bit(const Document& document, const FrameText& frame, const Percents&
          "give 0 or 100");
 }
 
-/// Writes what the frame has otherwise than the page.
+/// Writes the values that differ between the frame and the page.
 void put_frame(const Params& params, const Document& document, const FrameText& frame,
                const Percents& slack, std::size_t step, Page& page) {
   constexpr double kSame_s = 1e-5, kSame_rad = 1e-5;
@@ -117,7 +117,7 @@ void refuse_unknown_joints(const Params& params, const Document& document) {
   }
 }
 
-using Numbers = std::map<std::string, int>;  // of actions' pages, by their names
+using Numbers = std::map<std::string, int>;  // pages by action name
 
 /// The page that a target is on; 0: there is none.
 int page_of(const Document& document, const std::optional<Target>& target, const Numbers& numbers) {
@@ -163,7 +163,7 @@ void put_way(const Way& now, const Way& before, Page& page) {
   if (now.repeat != before.repeat) page[kRepeat] = static_cast<std::uint8_t>(now.repeat);
 }
 
-/// Of each frame, which joints are not stiff.
+/// One per frame.
 std::vector<Percents> stiffness_of(const Params& params, const Document& document) {
   std::vector<Percents> all;
   for (const FrameText& frame : document.frames) {
@@ -172,7 +172,7 @@ std::vector<Percents> stiffness_of(const Params& params, const Document& documen
   return all;
 }
 
-/// What the page does not keep is refused: it would be lost without a word.
+/// Refuses what the page does not keep, which would be lost silently.
 void refuse_what_is_lost(const Params& params, const Document& document, const Document& kept) {
   if (document.page && document.name != kept.name) {
     refuse(document, document.line,
@@ -208,7 +208,7 @@ void put_document(const Params& params, const Document& document, Page& page) {
   }
 }
 
-/// What is read back of a motion.
+/// A motion, read back.
 class Kept {
  public:
   Kept(const Params& params, const Motion& motion) {
@@ -231,7 +231,7 @@ class Kept {
 
 using Placed = std::vector<std::pair<int, const Document*>>;
 
-/// Links, exits and repeats that are not what the page has already.
+/// Writes links, exits and repeats that differ from the page's.
 void put_ways(const Params& params, const Placed& placed, const Numbers& numbers, Motion& motion) {
   const Kept before(params, motion);
   for (const auto& [number, document] : placed) {

@@ -70,7 +70,7 @@ void require_ready(ActionPort& port, const SendOptions& options) {
   fail(port, why + "; it keeps those that it has");
 }
 
-/// Offers until there is a place for them. A chip that erases one is deaf.
+/// Offers until the controller has a place. A chip does not answer while it erases.
 Offer offer_until(ActionPort& port, std::span<const std::uint8_t> image,
                   const SendOptions& options) {
   const Clock::time_point end = in(options.place_s);
@@ -89,7 +89,7 @@ Offer offer_until(ActionPort& port, std::span<const std::uint8_t> image,
   }
 }
 
-/// It is silent while it writes.
+/// The controller does not answer while it writes.
 bool has_started_anew(ActionPort& port) {
   try {
     return static_cast<WindowState>(port.number("window_state")) != WindowState::kAccepted;

@@ -8,17 +8,16 @@ namespace verp::action {
 
 using Torques = std::array<double, kMaxJoints>;
 
-/// What bears a robot that plays an action, taken to stand level on the soles that carry.
+/// Support of a robot in an action; its carrying soles are taken to stand level.
 class Support {
  public:
   explicit Support(const Params& params) : params_(params) {}
 
-  /// That the joints hold against weight alone, N m.
+  /// Joint torques against weight alone, N m.
   Torques torques(const PlayerOut& now) const;
-  /// The centre of mass over one standing sole: x and y in its frame, z above it.
+  /// The centre of mass relative to a standing sole: x and y in its frame, z above it.
   Vec3 com_over(const PlayerOut& now, int side) const;
-  /// How far inside the soles that carry a point of the ground is, in that sole's frame; outside it
-  /// is negative.
+  /// Distance of a ground point, in that sole's frame, inside the carrying soles; negative outside.
   double margin_m(const PlayerOut& now, int side, const Vec2& point_m) const;
 
  private:

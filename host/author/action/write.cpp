@@ -65,7 +65,7 @@ std::string text_of(const FrameText& frame) {
   return text + "\n";
 }
 
-/// Lines of 32 bytes, but for those that are as on a blank page.
+/// Lines of 32 bytes, without those that equal a blank page's.
 std::string text_of(const PageText& page) {
   constexpr std::size_t kLine = 32;
   const Page blank = blank_page();

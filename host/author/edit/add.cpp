@@ -57,7 +57,7 @@ std::string indented(const std::string& block) {
   return out;
 }
 
-/// One new part: its words, each read where it is needed.
+/// One new part; each word is read where it is needed.
 class Adder {
  public:
   Adder(const Document& document, const KindWords& kind, const Words& words)
@@ -104,7 +104,7 @@ class Adder {
   }
   std::string xml(const std::string& name) const { return escaped(word(name)); }
 
-  /// Numbers, with blanks or commas between them, as they are typed.
+  /// Numbers, separated by blanks or commas.
   std::string row(const std::string& name, std::size_t count,
                   const std::string& fallback = "") const {
     std::string text = fallback.empty() ? word(name) : word(name, fallback);
@@ -152,7 +152,7 @@ class Adder {
     return word_ == "z" ? "0 0 1" : row("axis", 3);
   }
 
-  /// With a mass, its link too.
+  /// With a mass, adds its link too.
   Edit joint() const {
     new_name(Kind::kJoint);
     const std::string type = word("type", "revolute"), name = word("name"),
@@ -192,7 +192,7 @@ class Adder {
     });
   }
 
-  /// Behind the last of its kind.
+  /// Behind the last element of its kind.
   Edit last(const std::string& block, int parent = -1) const {
     if (parent < 0) parent = document_.model();
     const std::string tag = block.substr(1, block.find_first_of(" >/", 1) - 1);

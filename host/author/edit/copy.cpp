@@ -25,7 +25,7 @@ bool is_within(const Document& document, int inner, int outer) {
   return a.begin >= b.begin && a.end <= b.end;
 }
 
-/// Elements once more beside their originals, with other names, ids and numbers.
+/// Copies elements beside their originals with other names, ids and numbers.
 class Copier {
  public:
   Copier(const Document& document, int element, Rename renamed, bool mirrored)
@@ -44,7 +44,7 @@ class Copier {
 
   Edit copies(const std::string& what) {
     std::map<int, std::pair<int, std::string>>
-        of_parent;  // the last original; what comes behind it
+        of_parent;  // the last original; the text that comes behind it
     for (const int each : sources_) {
       const Element& element = document_.markup()[each];
       auto& [last, text] = of_parent[element.parent];
@@ -73,7 +73,7 @@ class Copier {
     for (const Mention& each : mentions(document_, kind)) {
       if (!each.defines || !is_source(each.element)) continue;
       const std::string name = renamed_(each.name);
-      // A sensor without a side stays so: it is its link that tells it from others.
+      // A sensor without a side keeps its name: its link distinguishes it.
       if (name.empty() && kind == Kind::kSensor) continue;
       if (name.empty()) {
         throw model::LoadError(document_.file().string(), document_.markup()[each.element].line,
@@ -88,7 +88,7 @@ class Copier {
     }
   }
 
-  /// The line break and indentation in front of an element, or nothing if it follows on its line.
+  /// The line break and indentation in front of an element; empty if it follows on its line.
   std::string lead(int element) const {
     const std::string& text = document_.text();
     const std::size_t at = document_.markup()[element].whole.begin;
@@ -111,7 +111,7 @@ class Copier {
     std::string out;
     std::size_t from = whole.begin;
     for (const Splice& each : changes) {
-      if (each.at < from) continue;  // a name that two kinds know
+      if (each.at < from) continue;  // a name of two kinds
       out += text.substr(from, each.at - from) + each.after;
       from = each.at + each.before.size();
     }
@@ -128,8 +128,7 @@ class Copier {
     }
   }
 
-  /// Of limbs, shapes and whatever else has a name of its own; and where a contact sensor names a
-  /// shape.
+  /// Names of limbs, shapes and others, and shape names in contact sensors.
   void plain_names(int element, std::vector<Splice>& changes) const {
     const auto& all = document_.markup().elements();
     const auto put = [&](Range at, const std::string& name) {
@@ -147,7 +146,8 @@ class Copier {
       const Attribute* name = all[i].attribute("name");
       const bool known = all[i].name == "verp:joint" || kind_of(document_, int(i)) != Kind::kNone;
       if (name == nullptr || known) continue;
-      const bool alone = all[i].parent == document_.model();  // a limb: among others of the robot
+      const bool alone = all[i].parent == document_.model();  // a limb, a child of the robot's
+                                                              // model
       put(name->value_at, mirrored_ || alone ? renamed_(name->value) : "");
     }
   }
@@ -195,7 +195,7 @@ std::string free_name(const Document& document, const std::string& name) {
 std::string other_side(const std::string& name) {
   struct Pair {
     std::string_view from, to;
-    bool word;  ///< holds wherever letters of one case end, not only between others
+    bool word;  ///< counts only where letters of one case end, not between others
   };
   constexpr std::array<Pair, 10> kSides = {{{"left", "right", true},
                                             {"right", "left", true},
@@ -240,7 +240,7 @@ Edit duplicate(const Document& document, int element, const std::string& name) {
   const std::string what = "duplicate " + document.path(element);
   Edit edit = Copier(document, element, renamed, false).copies(what);
   if (!servo) return edit;
-  // It has no name: it is another joint's.
+  // A servo has no name; its joint attribute changes.
   return together(document, what, [&](Document& copy) {
     copy.apply(edit);
     const auto& siblings = copy.markup()[copy.markup()[element].parent].children;
@@ -259,7 +259,7 @@ Edit mirror(const Document& document, int element) {
   const std::string what = "mirror " + document.path(element);
   Edit edit = Copier(document, element, other_side, true).copies(what);
   if (kind_of(document, element) != Kind::kNone) return edit;
-  // A servo or a sensor's place alone: what it is about has the other side's name.
+  // For a servo or a sensor's place, the name that it refers to changes side.
   return together(document, what, [&](Document& copy) {
     copy.apply(edit);
     const auto& siblings = copy.markup()[copy.markup()[element].parent].children;

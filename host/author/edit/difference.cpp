@@ -9,8 +9,9 @@
 namespace verp::edit {
 namespace {
 
-constexpr std::size_t kAround = 3;              // lines shown before and after a change
-constexpr std::size_t kMostCells = 20'000'000;  // of the table; beyond, it is one change
+constexpr std::size_t kAround = 3;              // context lines before and after a change
+constexpr std::size_t kMostCells = 20'000'000;  // of the table; above this, all lines are one
+                                                // change
 
 using Lines = std::vector<std::string_view>;
 
@@ -29,7 +30,7 @@ struct Row {
   std::string_view line;
 };
 
-/// The lines of both that the ends have not in common, by their longest common subsequence.
+/// Rows for the lines between the common ends, by longest common subsequence.
 std::vector<Row> rows_of(const Lines& from, const Lines& to) {
   std::vector<Row> rows;
   const std::size_t n = from.size(), m = to.size();

@@ -10,7 +10,7 @@ namespace verp::edit {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\n";
-constexpr std::size_t kDeepest = 200;  // of elements in elements; a robot has ten
+constexpr std::size_t kDeepest = 200;  // nesting depth; a robot has ten
 constexpr std::array<std::pair<std::string_view, char>, 5> kNamed = {
     {{"&lt;", '<'}, {"&gt;", '>'}, {"&amp;", '&'}, {"&quot;", '"'}, {"&apos;", '\''}}};
 
@@ -26,7 +26,7 @@ std::string unescaped(std::string_view text) {
   return out;
 }
 
-/// One pass over the text; a stack instead of recursion, since depth is the file's to choose.
+/// One pass over the text, with a stack: recursion would let the file choose its depth.
 class Scanner {
  public:
   Scanner(std::string_view text, const std::string& file, std::vector<Element>& out)

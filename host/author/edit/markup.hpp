@@ -4,17 +4,17 @@
 #include <string_view>
 #include <vector>
 
-/// Where in the text of an XML file each element and attribute stands. tinyxml2 knows lines only,
-/// and writes a file in its own way; an editor that leaves all else as it was needs the bytes.
+/// Byte ranges of each element and attribute in an XML text. tinyxml2 knows only lines and
+/// reformats a file; an editor that keeps the rest unchanged needs bytes.
 namespace verp::edit {
 
 struct Range {
-  std::size_t begin = 0, end = 0;  ///< bytes; end is the first beyond
+  std::size_t begin = 0, end = 0;  ///< bytes; end is exclusive
   std::size_t size() const { return end - begin; }
 };
 
 struct Attribute {
-  std::string name, value;  ///< the value as a reader sees it: &lt; is <
+  std::string name, value;  ///< unescaped: &lt; is <
   Range at;                 ///< from the name to behind the closing quote
   Range value_at;           ///< inside the quotes
 };
@@ -23,34 +23,34 @@ struct Element {
   std::string name;
   std::vector<Attribute> attributes;
   Range whole;                  ///< from < to behind the last >
-  Range content;                ///< between the tags; of <a/> empty and behind it
+  Range content;                ///< between the tags; empty and behind it for <a/>
   bool closed_at_once = false;  ///< <a/>
   int line = 1;
   int parent = -1;            ///< index; -1: the root
-  std::vector<int> children;  ///< indices, in the order of the text
+  std::vector<int> children;  ///< indices, in text order
 
   const Attribute* attribute(std::string_view wanted) const;
 };
 
 class Markup {
  public:
-  /// Throws model::LoadError, in the name of that file, where the text is not well-formed.
+  /// Throws model::LoadError that names `file` if the text is not well-formed.
   Markup(const std::string& text, const std::string& file);
 
   const std::vector<Element>& elements() const { return elements_; }
   const Element& operator[](int index) const { return elements_[std::size_t(index)]; }
   int root() const { return 0; }
-  /// Where an element's own text stands, without spaces around it and comments beside it; empty
-  /// and at its content's end if there is none. `of`: the text that was scanned.
+  /// Range of an element's own text without surrounding spaces and comments. If there is none, an
+  /// empty range at its content's end. `of` is the scanned text.
   Range text_at(int index, std::string_view of) const;
-  /// That text as a reader sees it.
+  /// That text, unescaped.
   std::string text(int index, std::string_view of) const;
 
  private:
   std::vector<Element> elements_;
 };
 
-/// As it has to stand in an attribute or between tags.
+/// Escapes text for an attribute or between tags.
 std::string escaped(std::string_view value);
 int line_at(std::string_view text, std::size_t byte);
 

@@ -9,7 +9,7 @@
 namespace verp::edit {
 namespace {
 
-/// As it was written, with the other sign.
+/// Changes the sign and keeps the notation.
 std::string negated(const std::string& number) {
   const auto value = model::parse_number(number);
   if (value && *value == 0) return number;
@@ -17,7 +17,7 @@ std::string negated(const std::string& number) {
   return "-" + number.substr(number.starts_with('+') ? 1 : 0);
 }
 
-/// Some of the numbers in a row negated; blanks between them stay.
+/// Negates some numbers of a row; blanks between them stay.
 std::string negated(const std::string& row, const std::vector<std::size_t>& which) {
   std::string out;
   std::size_t number = 0;
@@ -33,7 +33,7 @@ std::string negated(const std::string& row, const std::vector<std::size_t>& whic
   return out;
 }
 
-/// The axis of a joint: SDF's <axis><xyz>, URDF's <axis xyz>; x where URDF says nothing.
+/// A joint's axis: SDF's <axis><xyz> or URDF's <axis xyz>; x if URDF gives none.
 std::vector<double> axis_of(const Document& document, int joint) {
   const int axis = document.child(joint, "axis");
   std::string text;
@@ -79,7 +79,7 @@ class Mirror {
     return changes_sign_ ? std::vector<std::size_t>{1} : std::vector<std::size_t>{0, 2};
   }
 
-  /// Lower is what upper was, negated.
+  /// Lower becomes the negated upper and the reverse.
   void swap(const Element& element, const char* low, const char* high) {
     const Attribute *lower = element.attribute(low), *upper = element.attribute(high);
     if (lower == nullptr && upper == nullptr) return;
@@ -105,7 +105,7 @@ class Mirror {
     }
   }
 
-  /// A servo that is built in as a mirror image has its horn on the other side.
+  /// A mirrored servo has its horn on the other side.
   void turn(const Element& servo) {
     if (const Attribute* there = servo.attribute("direction")) {
       return put(there->value_at, there->value == "-1" ? "1" : "-1");
@@ -136,7 +136,7 @@ class Mirror {
       put(at, negated(document_.text().substr(at.begin, at.size()), which));
     };
     if (element.name == "pose") {
-      put_text({1, 3, 5});  // y, roll and yaw; of a quaternion y, qx and qz
+      put_text({1, 3, 5});  // y, roll and yaw; for a quaternion y, qx and qz
     } else if (element.name == "xyz") {
       put_text(axis_signs());
     } else if (element.name == "ixy" || element.name == "iyz") {

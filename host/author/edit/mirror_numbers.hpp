@@ -6,12 +6,12 @@
 
 namespace verp::edit {
 
-/// How a joint's mirror image turns. Its axis points as before where it lies in the mirror plane
-/// (roll, yaw), and its angles change sign; a pitch axis stands across, and its angles stay.
+/// Whether a joint's angles change sign in its mirror image. An axis in the mirror plane (roll,
+/// yaw) keeps its direction, so they do; a pitch axis is normal to it, so they do not.
 bool angle_changes_sign(const Document& document, int joint);
 
-/// The places in an element and all in it where a number is another behind the mirror y -> -y.
-/// `sign_changes`: names of joints whose angles change sign; `joints`: all that are mirrored.
+/// Splices for all numbers in an element that the mirror y -> -y changes. `sign_changes` names the
+/// joints whose angles change sign, `joints` all that are mirrored.
 std::vector<Splice> mirrored_numbers(const Document& document, int element,
                                      const std::set<std::string>& sign_changes,
                                      const std::set<std::string>& joints);

@@ -5,29 +5,30 @@
 
 #include "host/author/edit/document.hpp"
 
-/// What parts of a robot are called, and where one names another.
+/// Names of a robot's parts, and the places where one names another.
 namespace verp::edit {
 
-/// Without "verp:", which nobody needs to type.
+/// The name without the prefix "verp:".
 std::string short_name(std::string_view element);
-/// What tells an element from others alike: its name, else the joint, link, ... that it is about.
+/// Distinguishes an element from similar ones: its name, else the joint, link, ... that it refers
+/// to.
 std::string key_of(const Element& element);
 
-/// Parts that others name. SDF has one set of names for links, joints and frames; URDF two.
+/// Parts that others name. SDF has one set of names for links, joints and frames; URDF has two.
 enum class Kind { kNone, kLink, kJoint, kFrame, kSensor };
 Kind kind_of(const Document& document, int element);
 
-/// A place where a name stands: `is` what of.
+/// A place that gives or mentions a name.
 struct Mention {
   int element;
   Range at;  ///< the name's own bytes
   std::string name;
   bool defines = false;
 };
-/// Each place, in the order of the text, that gives a name to a part of that kind or mentions one.
+/// All places, in text order, that name or mention a part of that kind.
 std::vector<Mention> mentions(const Document& document, Kind kind);
 
-/// Whether something of that name is there that a part of that kind may not be named too.
+/// True if the name is taken for a part of that kind.
 bool is_taken(const Document& document, Kind kind, const std::string& name);
 
 }  // namespace verp::edit

@@ -13,16 +13,16 @@ namespace verp::edit {
 using model::Mat3;
 using model::Vec3;
 
-/// A solid as SDF and URDF have it.
+/// A primitive shape of SDF and URDF.
 struct Solid {
   enum class Kind { kBox, kSphere, kCapsule, kCylinder } kind = Kind::kBox;
   Vec3 centre_m = Vec3::Zero(), rpy_rad = Vec3::Zero();
   Vec3 size_m = Vec3::Zero();  ///< box: edges; sphere: x radius; else x radius, z length
 };
-/// Throws std::invalid_argument that lists those there are.
+/// Throws std::invalid_argument that lists the kinds.
 Solid::Kind solid_kind(const std::string& name);
 double volume_m3(const Solid& solid);
-/// About its own centre and axes, of even density.
+/// About its own centre and axes, at uniform density.
 Mat3 inertia_kg_m2(const Solid& solid, double mass_kg);
 
 struct Mesh {
@@ -34,19 +34,19 @@ struct Body {
   double mass_kg = 0;
   Vec3 com_m = Vec3::Zero();
   Mat3 inertia_kg_m2 = Mat3::Zero();  ///< about the centre of mass
-  std::optional<Solid> solid;         ///< collides; drawn unless there is a mesh
+  std::optional<Solid> solid;         ///< collision shape; drawn if there is no mesh
   std::optional<Mesh> mesh;           ///< drawn
 };
 Body body_of(const Solid& solid, double mass_kg);
 
-/// What stands in a <link>, a line each; `name`: of the shapes.
+/// Lines of a <link>'s content; `name` is for the shapes.
 std::string link_content(const Document& document, const std::string& name, const Body& body);
-/// A link that lies on that joint or frame (SDF; empty: on the model).
+/// A link on that joint or frame (SDF; empty: on the model).
 Edit add_link(const Document& document, const std::string& name, const Body& body,
               const std::string& on);
 
-/// A part in words, as a person types it: kind "link", "joint", "servo", ...; words are name=value.
-/// Throws model::LoadError that says what is missing or unknown.
+/// Adds a part from a kind ("link", "joint", "servo", ...) and name=value words, as a user types
+/// them. Throws model::LoadError that says what is missing or unknown.
 using Words = std::map<std::string, std::string>;
 Edit add(const Document& document, const std::string& kind, const Words& words);
 std::vector<std::string> kinds();

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Empty, or why the text is not in that file, which is then not there.
+/// Returns why the text was not written, else empty. Removes the file on an error.
 std::string write(const fs::path& file, const std::string& text) {
   errno = 0;
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
@@ -27,7 +27,7 @@ std::string write(const fs::path& file, const std::string& text) {
   return why;
 }
 
-/// Puts a text that cannot go where it should into a file of its own, and says into which.
+/// Writes a text that cannot be saved into a new file and returns a sentence that names it.
 std::string keep(const fs::path& file, const std::string& text) {
   const char* temporary = std::getenv("TMPDIR");
   for (const fs::path& folder : {file.parent_path(), fs::path(temporary ? temporary : "/tmp")}) {
@@ -47,7 +47,7 @@ std::string keep(const fs::path& file, const std::string& text) {
   throw model::LoadError(file.string(), 0, "not saved: " + why, keep(file, text));
 }
 
-/// Nobody may write it. The superuser could all the same: its owner said no.
+/// True if no user has write permission, even for the superuser, who could write it.
 bool is_read_only(const fs::path& file) {
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0) return false;
@@ -62,7 +62,7 @@ std::string Document::put_aside() const {
 
 void Document::save() {
   std::error_code error;
-  const fs::path link = fs::weakly_canonical(file_, error);  // a link stays one
+  const fs::path link = fs::weakly_canonical(file_, error);  // a symbolic link stays one
   const fs::path file = error ? file_ : link;
   const bool exists = fs::exists(file, error);
   if (exists) {

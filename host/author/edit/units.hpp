@@ -3,8 +3,8 @@
 
 namespace verp::edit {
 
-/// The unit of what a path names, from its last part: "kg" of link:trunk/inertial/mass, "rad" of
-/// servo:l_knee@lower_rad. Empty: it has none, or nobody knows.
+/// Unit of a path's value, from its last part: "kg" for link:trunk/inertial/mass, "rad" for
+/// servo:l_knee@lower_rad. Empty: no unit, or unknown.
 std::string unit_of(const std::string& path);
 
 }  // namespace verp::edit

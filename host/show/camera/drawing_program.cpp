@@ -89,8 +89,8 @@ DrawingProgram::~DrawingProgram() {
 
 void DrawingProgram::step_back() {
   constexpr int kLastOfAll = 19;
-  // The group: of a process only its first thread would be meant, and OpenGL has its own by now.
-  // It cannot be refused: everybody may step back.
+  // Lowers the whole group: for one process id only its first thread would count, and OpenGL has
+  // threads of its own. Every user may lower a priority, so the call cannot fail.
   ::setpriority(PRIO_PGRP, static_cast<id_t>(process()), kLastOfAll);
 }
 

@@ -10,28 +10,28 @@
 
 namespace verp::camera {
 
-/// The program that draws is not there, finds no OpenGL or a file that it cannot read, or has
-/// ended: one line for people.
+/// The drawing program is missing, finds no OpenGL, cannot read a file, or has ended; the message
+/// is one line.
 class CameraError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Where it is: as VERP_CAMERA_PROGRAM says; else in libexec/verp of the folder that this program
-/// or library is installed in; else in the build tree.
+/// Path of the drawing program: VERP_CAMERA_PROGRAM if set; else libexec/verp where this program or
+/// library is installed; else the build tree.
 std::filesystem::path find_program();
 
-/// The program that draws, ready to, and this end of the socket to it. OpenGL is in there alone, so
-/// that whoever asks for pictures needs none, and outlives a driver's crash.
+/// The drawing program, ready, with this end of its socket. Only that program uses OpenGL, so the
+/// caller needs none and survives a driver's crash.
 class DrawingProgram {
  public:
   enum class Life {
-    kOfThread,  ///< it ends with the thread that started it: make it on the main one
-    kOfSocket   ///< it ends once nobody has the socket's end: for any thread
+    kOfThread,  ///< ends with the thread that started it: create it on the main thread
+    kOfSocket   ///< ends when the socket closes: for any thread
   };
   using Seconds = std::chrono::seconds;
-  /// Starts it and waits until it can draw. Throws CameraError. The socket waits so long for it; 0:
-  /// for ever.
+  /// Starts it and waits until it can draw. Throws CameraError. `patience` is the socket's time
+  /// limit; 0: no limit.
   DrawingProgram(const std::filesystem::path& program, const Stage& stage,
                  Life life = Life::kOfThread, Seconds patience = Seconds(0));
   ~DrawingProgram();
@@ -39,12 +39,12 @@ class DrawingProgram {
   DrawingProgram& operator=(const DrawingProgram&) = delete;
 
   int socket() const { return socket_; }
-  /// From now on whoever else wants a core comes first: a run that keeps real time must not wait
-  /// for one on which its pictures are drawn.
+  /// Gives the program the lowest priority, so that a run in real time never waits for a core that
+  /// draws its pictures.
   void step_back();
   pid_t process() const { return child_->id(); }
-  /// Nothing came from the socket, as errno has it: ends the program if it still runs, and says
-  /// which of both it was.
+  /// Call it when the socket gave nothing and errno says why. Ends the program if it still runs,
+  /// and returns whether it hung or had ended.
   std::string end();
 
  private:

@@ -9,26 +9,25 @@
 
 namespace verp::camera {
 
-/// Has a moment drawn when it is asked to, and waits for the picture: for whoever looks into a run
-/// now and then. (A run that keeps all its pictures has a Rig, which draws while it goes on.) Works
-/// on any thread, one at a time.
+/// Draws a moment on request and waits for the picture, for callers that look into a run now and
+/// then. Works on any thread, one call at a time. A run that keeps all its pictures uses a Rig,
+/// which draws while the run goes on.
 class Painter {
  public:
   using Seconds = DrawingProgram::Seconds;
 
-  /// Starts `program` and waits until it can draw. Throws CameraError. The patience only ends what
-  /// hangs: a PC that does much else may need minutes for a picture.
+  /// Starts `program` and waits until it can draw. Throws CameraError. `patience` only ends a
+  /// program that hangs: a busy PC may need minutes for a picture.
   Painter(const std::filesystem::path& program, const Stage& stage, Seconds patience = Seconds(600))
       : program_(std::make_unique<DrawingProgram>(program, stage, DrawingProgram::Life::kOfSocket,
                                                   patience)) {}
 
-  /// What the cameras of moment.robot see that look in it: of each one picture, of colour with
-  /// depth two. Throws CameraError once the program has ended, or does not answer: it then is of no
-  /// further use.
+  /// One picture, with depth two, from each camera of moment.robot that looks in this moment.
+  /// Throws CameraError if the program has ended or does not answer; the painter is then useless.
   std::vector<Picture> look(const Moment& moment);
-  /// From outside, rgb8. Besides throws std::invalid_argument: there is no such view.
+  /// A picture from outside, rgb8. Also throws std::invalid_argument if there is no such view.
   Picture look(const Moment& moment, const Outside& from);
-  /// It can be asked again.
+  /// True while the painter can be asked again.
   bool works() const { return program_ != nullptr; }
 
  private:

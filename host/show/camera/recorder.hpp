@@ -8,19 +8,19 @@
 
 namespace verp::camera {
 
-/// What the robot's cameras see, into its trace: of each picture the image on
-/// /NAME/image/compressed (colour), /NAME/depth or /NAME/labels, and its lens on /NAME/camera_info,
-/// in the frame NAME_optical, which /tf_static hangs on its link. In the file a picture stands a
-/// little later than the ticks of its time.
+/// Writes what the robot's cameras see into its trace. Images go to /NAME/image/compressed
+/// (colour), /NAME/depth or /NAME/labels, the lens to /NAME/camera_info. Their frame is
+/// NAME_optical, which /tf_static attaches to the camera's link. In the file a picture comes a
+/// little after the ticks of its time.
 class Recorder {
  public:
-  /// All of it must outlive the recorder.
+  /// All arguments must outlive the recorder.
   Recorder(Rig& rig, const model::Entity& entity, const Params& params, record::TraceWriter& trace);
 
-  /// For session::Hooks::exposed. Never throws: what goes wrong ends the pictures, not the run, and
-  /// is failure().
+  /// For session::Hooks::exposed. Never throws: an error ends the pictures, not the run, and is in
+  /// failure().
   void exposed(const sim::Exposure& exposure, std::uint64_t stamp_ns);
-  /// Waits for what is still being drawn; before the trace is closed.
+  /// Waits for pictures in progress; call it before the trace is closed.
   void finish();
 
   std::uint64_t pictures() const { return pictures_; }
@@ -35,7 +35,7 @@ class Recorder {
   const model::Entity& entity_;
   const Params& params_;
   record::TraceWriter& trace_;
-  std::deque<std::uint64_t> stamps_ns_;  ///< of the moments that are on their way
+  std::deque<std::uint64_t> stamps_ns_;  ///< of the moments in progress
   std::uint64_t pictures_ = 0;
   std::string failure_;
 };

@@ -12,35 +12,35 @@
 
 namespace verp::camera {
 
-/// A run's cameras: a program beside it draws what they see, on another core, while the run goes
-/// on. Moments go to it, pictures come back in the order of moments.
+/// A run's cameras. A separate program draws on another core while the run goes on. Pictures return
+/// in the order of moments.
 class Rig {
  public:
   enum class Pace {
-    kEveryPicture,  ///< a run that is too fast for the pictures waits for them
-    kNeverWaits     ///< it drops them
+    kEveryPicture,  ///< the run waits for the pictures
+    kNeverWaits     ///< the rig drops pictures
   };
-  /// Starts `program` and waits until it can draw. Throws CameraError. On the main thread
+  /// Starts `program` and waits until it can draw. Throws CameraError. Call it on the main thread
   /// (DrawingProgram).
   Rig(const std::filesystem::path& program, const Stage& stage, Pace pace);
   ~Rig();
   Rig(const Rig&) = delete;
   Rig& operator=(const Rig&) = delete;
 
-  /// Throws CameraError once the program has ended.
+  /// Throws CameraError if the program has ended.
   void expose(const Moment& moment);
-  /// The pictures of the next moment of which they are due: with kEveryPicture the one kAhead
-  /// before the last, else any that is done. Empty: none is.
+  /// The pictures of the next moment that is due, else empty. With kEveryPicture the moment kAhead
+  /// before the last is due, otherwise any that is done.
   std::vector<Picture> take();
-  /// Those of the next moment, however long it takes; empty: there are no more.
+  /// Waits for the pictures of the next moment; empty after the last.
   std::vector<Picture> take_last();
 
-  std::uint64_t moments() const { return sent_; }     ///< that were drawn or will be
-  std::uint64_t dropped() const { return dropped_; }  ///< that were not
-  double processor_s() const;                         ///< of the program so far
+  std::uint64_t moments() const { return sent_; }     ///< drawn or in progress
+  std::uint64_t dropped() const { return dropped_; }  ///< not drawn
+  double processor_s() const;                         ///< used by the program so far
 
-  /// So many moments may be on their way: fixed, so that which pictures a run gets when does not
-  /// hang on how fast they are drawn.
+  /// Moments in progress at most. Fixed, so that drawing speed does not decide which pictures a run
+  /// gets when.
   static constexpr std::uint64_t kAhead = 8;
 
  private:
@@ -53,7 +53,7 @@ class Rig {
   std::uint64_t sent_ = 0, taken_ = 0, dropped_ = 0;
   mutable std::mutex mutex_;
   std::condition_variable came_;
-  std::deque<std::vector<Picture>> done_;  ///< of each moment that is drawn and was not taken
+  std::deque<std::vector<Picture>> done_;  ///< one per moment that is drawn but not taken
   std::uint64_t processor_us_ = 0;
   bool ended_ = false;
   std::thread listener_;

@@ -3,11 +3,10 @@
 
 namespace verp::render {
 
-/// Stairs along edges become slopes: what a picture that was drawn without antialiasing has of it
-/// afterwards. An edge is where brightness jumps; how much of a pixel lies behind it follows from
-/// how far away along the edge the next steps of the stairs are, up to 12 pixels. It knows no
-/// shapes: what is thinner than a pixel stays broken, and a texture's edges are smoothed too. What
-/// it costs and gains beside samples: `verp bench --only frames`.
+/// Antialiases a finished picture. An edge is a jump in brightness; its coverage of a pixel follows
+/// from the distance to the next steps along the edge, up to 12 pixels. It knows no shapes: details
+/// thinner than a pixel stay broken, and edges in textures are smoothed too. `verp bench --only
+/// frames` measures its cost and gain against multisampling.
 void smooth_edges(Image& image);
 
 }  // namespace verp::render

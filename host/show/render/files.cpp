@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostMeshBytes = 200u << 20;  // a printer's file of a whole robot is 50 MB
+constexpr std::uintmax_t kMostMeshBytes = 200u << 20;  // an STL of a whole robot for printing is 50
+                                                       // MB
 constexpr int kMostTexture = 8192;
 
 [[noreturn]] void refuse(const std::string& file, const std::string& what, const std::string& fix) {
@@ -27,11 +28,11 @@ void require_file(const std::string& file) {
 }
 
 bool is_sound(const aiVector3D& point) {
-  constexpr float kFar = 1e7F;  // 10 km of millimetres
+  constexpr float kFar = 1e7F;  // 10 km in millimetres
   return std::abs(point.x) < kFar && std::abs(point.y) < kFar && std::abs(point.z) < kFar;
 }
 
-/// False: a corner is no finite number, or far off.
+/// Returns false if a point is not finite or too far off.
 bool add_part(scene::Triangles& out, const aiMesh& part, const aiMatrix4x4& pose) {
   const auto first = static_cast<std::uint32_t>(out.points.size());
   const aiMatrix3x3 turn(pose);
@@ -115,7 +116,7 @@ scene::Triangles read_mesh(const std::string& file) {
 
 namespace {
 
-/// Of a PNG whose head has been read.
+/// Reads the pixels of a PNG whose header has been read.
 Image finish_reading(const std::string& name, Png& png) {
   if (png.image.width > kMostTexture || png.image.height > kMostTexture) {
     refuse(name,
@@ -192,7 +193,7 @@ void write_depth_png(const std::string& file, const Measured& measured) {
     const float value = depth * 1000;
     mm.push_back(value < 65535.5F ? static_cast<std::uint16_t>(std::lround(value)) : 0);
   }
-  // libpng's 16 bits of grey are linear: stored as they are.
+  // libpng stores 16-bit grey as linear values, unchanged.
   write(file, measured.size, PNG_FORMAT_LINEAR_Y, mm.data());
 }
 

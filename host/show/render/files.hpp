@@ -7,22 +7,22 @@
 
 namespace verp::render {
 
-/// A mesh in any format that assimp reads (STL, OBJ, DAE, glTF), in its own units. Throws
-/// RenderError: file, what is wrong, what to do.
+/// Reads a mesh in any format of assimp (STL, OBJ, DAE, glTF), in the file's units. Throws
+/// RenderError that names the file, the fault and the remedy.
 scene::Triangles read_mesh(const std::string& file);
 
-/// A PNG as a texture. Throws RenderError.
+/// Reads a PNG as a texture. Throws RenderError.
 Texture read_texture(const std::string& file);
 
-/// The picture as a PNG file; whole or not at all. Throws RenderError.
+/// Writes the whole PNG file or nothing. Throws RenderError.
 void write_png(const std::string& file, const Image& image);
 
-/// The same in memory, made quickly: larger than write_png()'s file by half.
+/// PNG in memory, compressed quickly: half as large again as write_png()'s file.
 std::string png_of(const Image& image);
-/// And read from there. Throws RenderError; `name` is for its words.
+/// Reads a PNG from memory. Throws RenderError that names `name`.
 Image read_png(const std::string& name, std::string_view bytes);
 
-/// Depth as 16 bit grey, 1 mm a step, 0: nothing within 65.5 m.
+/// Depth as 16-bit grey, 1 mm a step; 0: nothing within 65.5 m.
 void write_depth_png(const std::string& file, const Measured& measured);
 
 Image read_png(const std::string& file);

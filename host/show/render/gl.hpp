@@ -7,12 +7,12 @@
 
 #include "host/show/scene/scene.hpp"
 
-/// OpenGL's names as values that clean up behind themselves. Private to this folder.
+/// Owning handles for OpenGL objects. Private to this folder.
 namespace verp::render {
 
 using Mat4 = Eigen::Matrix4f;
 
-/// One name in the driver; Delete gives it back.
+/// One OpenGL object; Delete frees it.
 template <void (*Delete)(GLuint)>
 class GlName {
  public:
@@ -50,7 +50,7 @@ Texture new_texture();
 FrameBuffer new_frame();
 RenderBuffer new_renderbuffer();
 
-/// A linked program and where its uniforms are.
+/// A linked program and the locations of its uniforms.
 class Program {
  public:
   /// Throws RenderError with the compiler's first line.
@@ -68,7 +68,7 @@ class Program {
   std::map<std::string, GLint> at_;
 };
 
-/// Triangles in the driver.
+/// Triangles in the driver's memory.
 class GpuMesh {
  public:
   GpuMesh() = default;
@@ -84,12 +84,12 @@ class GpuMesh {
   Eigen::AlignedBox3f around_;
 };
 
-/// What is drawn to and read back: colour, and depth.
+/// A render target that can be read back: colour and depth.
 class Canvas {
  public:
   Canvas() = default;
-  /// `format` is the colour's; samples 0: none. Throws RenderError when the driver refuses the
-  /// size.
+  /// `format` is the colour's; samples 0: no multisampling. Throws RenderError if the driver
+  /// refuses the size.
   Canvas(int width, int height, GLenum format, int samples);
   bool fits(int width, int height, int samples) const {
     return frame_.id() != 0 && width == width_ && height == height_ && samples == samples_;
@@ -102,7 +102,7 @@ class Canvas {
   int width_ = 0, height_ = 0, samples_ = 0;
 };
 
-/// Throws RenderError for a picture that the driver cannot hold.
+/// Throws RenderError for a size that the driver cannot hold.
 void require_size(int width, int height);
 
 }  // namespace verp::render

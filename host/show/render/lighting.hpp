@@ -7,22 +7,21 @@
 #include "host/show/render/projection.hpp"
 #include "host/show/render/shaders.hpp"
 
-/// What lights a scene's things: shaders of its lights, and the sun's shadows. Private to this
-/// folder.
+/// Shaders for a scene's lights, and the sun's shadows. Private to this folder.
 namespace verp::render {
 
-/// As shaders compute with it.
+/// Linear colour, as the shaders use it.
 Eigen::Vector3f linear(const scene::Colour& colour);
 
 class Lighting {
  public:
   Lighting() { make_shadow_map(kShadowTexels); }
 
-  /// Which of the scene's lights casts shadows; -1: none.
+  /// Index of the light that casts shadows, or -1.
   static int shadow_light(const scene::Scene& scene, const Effects& effects);
-  /// Of what is solid, seen by the sun.
+  /// Draws the solid items as the sun sees them.
   void draw_shadows(const std::vector<Placed>& placed, const Mat4& sun, const Effects& effects);
-  /// The shader of a thing, in use and with all set that a picture's things have in common.
+  /// The shader for an item, in use and with the uniforms that all items of a picture share.
   Program& program(const scene::Scene& scene, const View& view, const Effects& effects,
                    bool of_floor, bool textured);
 
@@ -33,7 +32,7 @@ class Lighting {
 
   static constexpr int kShadowTexels = 2048, kQuickShadowTexels = 1024;
 
-  std::map<std::string, Program> lit_;  ///< by their headers
+  std::map<std::string, Program> lit_;  ///< by header
   Program shade_{kShadowVertex, kShadowFragment};
   Texture shadow_ = new_texture();
   int shadow_texels_ = 0;

@@ -6,20 +6,20 @@
 #include "host/show/render/shapes.hpp"
 #include "host/show/render/stage.hpp"
 
-/// What is in each pixel, and how far away. Private to this folder.
+/// Depth and item of each pixel. Private to this folder.
 namespace verp::render {
 
-/// Sets what every pass begins with.
+/// Sets the OpenGL state with which every pass begins.
 void begin_pass();
 
 class Meter {
  public:
   enum class Names {
-    kLabels,  ///< scene::label_of; of the floor 0
-    kItems    ///< indices into Scene::items; of the floor -1
+    kLabels,  ///< scene::label_of; floor: 0
+    kItems    ///< indices into Scene::items; floor: -1
   };
   /// Four floats a pixel, rows from the bottom: depth along the camera's axis (infinity: nothing
-  /// there), name, two without meaning.
+  /// there), name, two unused.
   std::vector<float> measure(const Stage& stage, const scene::Snapshot& now,
                              const scene::Camera& camera, Size size, const Effects& effects,
                              Names names);

@@ -22,7 +22,7 @@ bool can_be_loaded(const char* library) {
   return handle != nullptr;
 }
 
-/// libepoxy ends the program at the first call whose library is not there.
+/// libepoxy ends the program at the first call into a missing library.
 void require_libraries() {
   if (!can_be_loaded("libEGL.so.1")) no_driver("libEGL.so.1 is not there");
   if (!can_be_loaded("libOpenGL.so.0") && !can_be_loaded("libGL.so.1"))
@@ -32,7 +32,7 @@ void require_libraries() {
 }  // namespace
 
 OffscreenContext::OffscreenContext() {
-  ::setenv("EGL_LOG_LEVEL", "fatal", 0);  // libEGL's own lines: what they mean is told once, by us
+  ::setenv("EGL_LOG_LEVEL", "fatal", 0);  // we report the cause of libEGL's lines ourselves
   require_libraries();
   if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
     no_driver("EGL has no surfaceless platform here");

@@ -2,11 +2,11 @@
 
 namespace verp::render {
 
-/// An OpenGL context without a window or display: EGL's surfaceless platform, current in this
-/// thread from the constructor on.
+/// An OpenGL context without a window or display (EGL's surfaceless platform). The constructor
+/// makes it current in its thread.
 class OffscreenContext {
  public:
-  /// Throws RenderError when there is no driver for it.
+  /// Throws RenderError if no driver supports it.
   OffscreenContext();
   ~OffscreenContext();
   OffscreenContext(const OffscreenContext&) = delete;

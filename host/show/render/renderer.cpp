@@ -41,7 +41,7 @@ scene::Snapshot at_goals(const scene::Scene& scene, const scene::Snapshot& now) 
 
 struct Renderer::Impl {
   Lighting lighting;
-  Program *plain = nullptr, *painted = nullptr;  ///< of the picture that is being drawn
+  Program *plain = nullptr, *painted = nullptr;  ///< of the current picture
   Program backdrop{kSkyVertex, kSkyFragment};
   Meter meter;
   Program mark{kMarkVertex, kMarkFragment};
@@ -85,8 +85,8 @@ struct Renderer::Impl {
     View unshaded = view;
     unshaded.shadow_light = -1;
     if (view.shadow_light < 0) return draw_floor_part(unshaded, effects, all);
-    // Most of it lies outside of what the shadow map covers, and needs no look at it. The parts
-    // overlap a little where neither has a shadow, so that no crack is between them.
+    // Shades only the part that the shadow map covers; most of the floor lies outside. The parts
+    // overlap by a shadowless margin, so that no crack shows between them.
     constexpr double kOverlap_m = 0.001;
     const Area in = view.shaded.intersection(all);
     if (in.isEmpty()) return draw_floor_part(unshaded, effects, all);
@@ -121,7 +121,7 @@ struct Renderer::Impl {
     solid.set("glow", linear(material.glow));
     solid.set("roughness", material.roughness);
     solid.set("metallic", material.metallic);
-    // Of a closed shape, the far side is never seen. Files' meshes may be open, or wind either way.
+    // The far side of a closed shape is hidden. Meshes from files may be open or wind either way.
     const bool closed = placed.item->shape < scene::Shape::kPlane;
     (closed ? glEnable : glDisable)(GL_CULL_FACE);
     glActiveTexture(GL_TEXTURE1);
@@ -139,7 +139,7 @@ struct Renderer::Impl {
     }
   }
 
-  /// What one sees through, the farthest first; behind everything that is solid.
+  /// Transparent items, farthest first, after all solid ones.
   void draw_clear(const std::vector<Placed>& placed, const Effects& effects, const Vec3& eye_m,
                   float opacity) {
     std::vector<const Placed*> clear;
@@ -167,7 +167,7 @@ struct Renderer::Impl {
                  marks.vertices.data(), GL_STREAM_DRAW);
     const auto count = static_cast<GLsizei>(marks.vertices.size());
     glDepthMask(GL_FALSE);
-    glDepthFunc(GL_GREATER);  // behind something: faint
+    glDepthFunc(GL_GREATER);  // marks behind something are faint
     mark.set("opacity", 0.3F);
     glDrawArrays(GL_TRIANGLES, 0, count);
     glDepthMask(GL_TRUE);
@@ -176,8 +176,7 @@ struct Renderer::Impl {
     glDrawArrays(GL_TRIANGLES, 0, count);
   }
 
-  /// Solid things first, then what they leave of the floor and the sky: a hidden pixel costs
-  /// little.
+  /// Solid items come first, then floor and sky: a hidden pixel costs little.
   void draw_all(const scene::Snapshot& now, const scene::Camera& camera, Size size,
                 const Effects& effects, GLuint target) {
     const std::vector<Placed> placed = stage.place(now, effects);
@@ -209,7 +208,7 @@ struct Renderer::Impl {
     glBindVertexArray(0);
   }
 
-  /// Into the canvas, antialiased if asked for; with what the scene's file leaves on.
+  /// Draws into the canvas, limited to what the scene's file leaves on.
   void draw_canvas(const scene::Snapshot& now, const scene::Camera& camera, Size size,
                    Effects effects) {
     effects.antialias &= stage.scene().antialias;

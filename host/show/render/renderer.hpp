@@ -9,21 +9,21 @@
 #include "host/show/scene/camera.hpp"
 #include "host/show/scene/snapshot.hpp"
 
-/// Snapshots to pixels. OpenGL 3.3 core through libepoxy, in whatever context is current: a
-/// window's or an OffscreenContext.
+/// Renders snapshots with OpenGL 3.3 core through libepoxy, in the current context: a window's or
+/// an OffscreenContext.
 namespace verp::render {
 
-/// No driver, no context, or a file that cannot be drawn: one line for people.
+/// No driver, no context, or a file that cannot be drawn; the message is one line.
 class RenderError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What is drawn besides plain shapes. All can change from one picture to the next.
+/// Options of a picture. All can change from one picture to the next.
 struct Effects {
   bool antialias = true;
   bool shadows = true;
-  bool quick = false;  ///< coarser shadows: for a window whose driver is this PC's processor
+  bool quick = false;  ///< coarser shadows, for a window that the PC's processor draws
   bool fog = true;
   bool textures = true;
   bool transparency = true;
@@ -31,12 +31,12 @@ struct Effects {
   bool ground = true;
   bool ground_grid = true;
   bool visuals = true;
-  bool collisions = false;  ///< shapes of physics, over the visuals
+  bool collisions = false;  ///< collision shapes, over the visuals
   // Marks of what cannot be seen:
   bool axes = false;  ///< of each link
   bool com = false, zmp = false, support = false, contacts = false, footsteps = false;
   bool trails = false, rays = false;
-  bool goals = false;  ///< the robot as its joints' goals have it, see-through
+  bool goals = false;  ///< the robot at its joint goals, transparent
 
   /// All marks that explain a walk.
   static Effects explained();
@@ -58,29 +58,28 @@ struct Measured {
   std::vector<std::uint16_t> label;  ///< scene::label_of
 };
 
-/// Everything that it holds in the driver belongs to the context that was current when it was made,
-/// and must be when it goes. Never throws for what a snapshot holds: numbers that aren't finite are
-/// not drawn.
+/// Its OpenGL objects belong to the context that is current in the constructor; the same context
+/// must be current in the destructor. A snapshot never makes it throw: it skips items whose numbers
+/// are not finite.
 class Renderer {
  public:
-  /// Throws RenderError: no context, or one below OpenGL 3.3.
+  /// Throws RenderError without a context of OpenGL 3.3 or later.
   Renderer();
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// The driver draws with this PC's processor: pictures cost it time.
+  /// True if the PC's processor draws: pictures cost its time.
   bool on_processor() const;
 
-  /// Uploads shapes, meshes and textures; lights, fog, sky, ground and materials may be changed
-  /// without by look(). A mesh or texture that cannot be read is left out: notes() has a line of
-  /// each.
+  /// Uploads shapes, meshes and textures. Leaves out files that it cannot read; notes() has a line
+  /// for each.
   void set_scene(const scene::Scene& scene);
-  /// The same items with other materials, lights, fog, sky or ground.
+  /// Sets other materials, lights, fog, sky or ground for the same items, without an upload.
   void set_looks(const scene::Scene& scene);
   const std::vector<std::string>& notes() const;
 
-  /// Into `framebuffer` (a window's is QOpenGLWidget::defaultFramebufferObject()).
+  /// Draws into `framebuffer` (in a window, QOpenGLWidget::defaultFramebufferObject()).
   void draw(const scene::Snapshot& now, const scene::Camera& camera, Size size,
             const Effects& effects, unsigned framebuffer = 0);
 
@@ -89,8 +88,8 @@ class Renderer {
   Measured measure(const scene::Snapshot& now, const scene::Camera& camera, Size size,
                    const Effects& effects = {});
 
-  /// What lies under a pixel (from the top left) of a picture so made: an index into Scene::items,
-  /// or -1; and where.
+  /// Finds the item at a pixel (from the top left): an index into Scene::items, or -1, and the
+  /// point.
   struct Hit {
     int item = -1;
     scene::Vec3 point_world_m = scene::Vec3::Zero();

@@ -3,18 +3,18 @@
 
 namespace verp::render {
 
-/// Triangles of the plain shapes, in the item's frame at its true size, winding outward.
+/// Triangles of the plain shapes in the item's frame at true size, winding outward.
 scene::Triangles box(const scene::Vec3& edges_m, double round_m);
 scene::Triangles sphere(double radius_m, int around = 24);
 scene::Triangles capsule(double radius_m, double length_m, int around = 20);
 scene::Triangles cylinder(double radius_m, double length_m, double round_m, int around = 24);
 scene::Triangles plane(double x_m, double y_m);
 
-/// A closed profile (radius, height) turned about z; `normals` along.
+/// Turns a closed profile (radius, height) and its normals about z.
 scene::Triangles turned(const std::vector<Eigen::Vector2f>& profile,
                         const std::vector<Eigen::Vector2f>& normals, int around);
 
-/// One normal a face, for meshes that have none.
+/// One normal a face, for meshes without normals.
 void add_flat_normals(scene::Triangles& mesh);
 
 }  // namespace verp::render

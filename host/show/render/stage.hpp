@@ -10,7 +10,7 @@ namespace verp::render {
 struct Placed {
   const scene::Item* item;
   const GpuMesh* mesh;
-  const GpuMesh* sharp;  ///< the same without its rounded edges, or null
+  const GpuMesh* sharp;  ///< the same without rounded edges, or null
   GLuint texture = 0;
   int index = 0;  ///< in Scene::items
   Mat4 world = Mat4::Identity();
@@ -19,17 +19,17 @@ struct Placed {
 
 class Stage {
  public:
-  /// Uploads all shapes. Never throws for files: notes() says which are left out.
+  /// Uploads all shapes. Bad files do not throw; notes() lists those left out.
   void fill(const scene::Scene& scene);
   void set_looks(const scene::Scene& scene);
   const scene::Scene& scene() const { return scene_; }
   const std::vector<std::string>& notes() const { return notes_; }
 
-  /// What is drawn of an instant, where. Items of robots or bodies that the snapshot lacks, and
-  /// those whose pose is not finite, are not.
+  /// The items to draw at an instant. Skips items of robots or bodies that the snapshot lacks, and
+  /// poses that are not finite.
   std::vector<Placed> place(const scene::Snapshot& now, const Effects& effects) const;
 
-  /// What the sun's shadows must cover: a ball.
+  /// The sphere that the sun's shadows must cover.
   struct Ball {
     scene::Vec3 centre_m = scene::Vec3::Zero();
     double radius_m = 1;
@@ -42,10 +42,10 @@ class Stage {
   GLuint texture_of_file(const std::string& file);
 
   scene::Scene scene_;
-  std::vector<GpuMesh> own_;          ///< of each item; empty: of a file
-  std::vector<GpuMesh> sharp_;        ///< of each item with rounded edges, without them
-  std::vector<const GpuMesh*> mesh_;  ///< of each item
-  std::vector<GLuint> texture_;       ///< of each item; 0: none
+  std::vector<GpuMesh> own_;          ///< one per item; empty if the mesh is from a file
+  std::vector<GpuMesh> sharp_;        ///< one per item with rounded edges, without them
+  std::vector<const GpuMesh*> mesh_;  ///< one per item
+  std::vector<GLuint> texture_;       ///< one per item; 0: no texture
   std::map<std::string, GpuMesh> files_;
   std::map<std::string, Texture> pictures_;
   std::vector<std::string> notes_;

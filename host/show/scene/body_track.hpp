@@ -18,16 +18,16 @@ class TickPoses {
 };
 
 Transform to_transform(const record::ros::BodyPose& pose);
-/// A part of the way from one pose to another.
+/// Interpolates between two poses; `part` runs from 0 to 1.
 Transform between(const Transform& from, const Transform& to, double part);
 
-/// Where the body was, tick by tick: as the trace's twin knew, between its poses in a straight
-/// line; else by the controller's own estimate of tilt and heading, and by the lower sole, which
-/// stays where it stands.
+/// The body's pose tick by tick. Interpolates the trace's true poses if it has any. Otherwise takes
+/// tilt and heading from the controller's estimate and position from the lower sole, which does not
+/// slide.
 class BodyTrack {
  public:
   BodyTrack(const record::Trace& trace, const TickPoses& poses) : trace_(trace), poses_(poses) {}
-  /// Of one tick after the other; state and outputs are of after it.
+  /// Call it for one tick after the other; state and outputs are those after the tick.
   Transform at(std::size_t index, const State& state, const Outputs& outputs);
 
  private:
@@ -36,8 +36,8 @@ class BodyTrack {
 
   const record::Trace& trace_;
   const TickPoses& poses_;
-  std::size_t next_ = 0;  ///< of Trace::bodies: the first after the tick
-  int standing_ = -1;     ///< the foot that stood last
+  std::size_t next_ = 0;  ///< index into Trace::bodies: the first after the tick
+  int standing_ = -1;     ///< the foot that carried last
   Vec2 stands_m_ = Vec2::Zero();
 };
 

@@ -19,7 +19,7 @@ Vec3 extent(Shape shape, const Vec3& size_m) {
     case Shape::kCylinder:
       return {2 * size_m.x(), 2 * size_m.x(), size_m.z()};
     case Shape::kMesh:
-      return Vec3::Constant(0.2);  // not a servo
+      return Vec3::Constant(0.2);  // keeps the box smaller than a servo
     default:
       return size_m;
   }
@@ -56,7 +56,7 @@ class RobotBuilder {
     return meshes_ == Meshes::kFromFiles && !visual.mesh.empty();
   }
 
-  /// One line, however many: a third party's robot comes often without its meshes.
+  /// One note a robot: a third party's robot often comes without its meshes.
   void note_missing() {
     std::size_t count = 0;
     std::string first;
@@ -124,7 +124,7 @@ class RobotBuilder {
     if (node.collisions.empty()) add_body_of_inertia(index);
   }
 
-  /// Neither looks nor shapes: the box of even density that has the link's mass and inertia.
+  /// For a link without visuals and shapes: the uniform box with its mass and inertia.
   void add_body_of_inertia(int index) {
     const model::Node& node = e_.nodes[static_cast<std::size_t>(index)];
     if (node.mass_kg <= 0) return;
@@ -136,7 +136,7 @@ class RobotBuilder {
     add(index, node.name, Shape::kBox, edges_m, pose);
   }
 
-  /// The file's camera, and a lens where it sits.
+  /// Adds the file's camera and draws a lens where it sits.
   void add_camera(const model::CameraSensor& sensor) {
     scene_.cameras.push_back({sensor.name, robot_, sensor.node, sensor.pose,
                               sensor.horizontal_fov_rad(), sensor.width_px, sensor.height_px,
@@ -152,7 +152,7 @@ class RobotBuilder {
         .colour = {0.03F, 0.05F, 0.09F, 1}, .roughness = 0.08F};
   }
 
-  /// Between links that their file gives no colour: an axle, or their boxes hang in the air.
+  /// Draws an axle between links whose file gives no colour; else their boxes hang in the air.
   void add_hub(const model::Joint& joint) {
     const int node = static_cast<int>(&joint - e_.joints.data()) + 1;
     double least_m = 1;

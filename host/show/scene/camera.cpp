@@ -24,7 +24,7 @@ Vec3 around(double azimuth_rad, double elevation_rad) {
           std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad)};
 }
 
-/// Of a link's x axis; of one that looks up or down, of its z axis.
+/// Direction of a link's x axis, or of its z axis if x points steeply up or down.
 double heading_rad(const Transform& body) {
   const Vec3 ahead = body.linear().col(0);
   return std::atan2(ahead.y(), ahead.x());
@@ -37,7 +37,7 @@ Camera through(const Mount& mount, const Snapshot& now, double aspect) {
     pose = robot.link_world[static_cast<std::size_t>(mount.node)] * mount.pose;
   }
   Camera camera;
-  // Ahead of its own glass and rim.
+  // The eye is ahead of the drawn lens and its rim.
   camera.eye_m = pose * Vec3(0.008, 0, 0);
   camera.target_m = pose * Vec3(1, 0, 0);
   camera.up = pose.linear().col(2);

@@ -19,7 +19,8 @@
 namespace verp::scene {
 namespace {
 
-constexpr std::size_t kEvery = 125;  // ticks between kept States: at most so many are run anew
+constexpr std::size_t kEvery = 125;  // ticks between stored States: a seek recomputes at most this
+                                     // many
 
 bool is_same_robot(const Entity& entity, const Params& params) {
   if (entity.joints.size() != params.joint_count) return false;
@@ -63,7 +64,7 @@ struct TracePlayer::Film {
       try {
         entity = model::load_robot_on_any_bus(model::find_model(file), "");
         if (is_same_robot(entity, trace.params)) return;
-      } catch (const model::LoadError&) {  // the next one, or the one below
+      } catch (const model::LoadError&) {  // try the next file
       }
     }
     note = trace.file.string() + ": there is no robot file with the joints of '" + name +

@@ -8,18 +8,18 @@
 
 namespace verp::scene {
 
-/// A trace as something to look at: at any time. The controller is run over the recorded Inputs
-/// once more, so what it wanted is there too, whether the trace kept its State or not.
+/// Shows a trace at any time. Runs the controller again over the recorded Inputs, so its goals are
+/// known even if the trace holds no State.
 class TracePlayer {
  public:
-  /// Throws TraceError. A trace whose robot file is gone, or is another robot now, shows a robot
-  /// made of its Params: note() says so.
+  /// Throws TraceError. If the robot's file is gone or has other joints now, shows a robot made of
+  /// the trace's Params and says so in note().
   explicit TracePlayer(const std::filesystem::path& file);
   ~TracePlayer();
 
   const record::Trace& trace() const;
   const Entity& entity() const;
-  /// Where it was; null: on a level floor.
+  /// The trace's world; null: a level floor.
   const model::World* world() const;
   const std::string& note() const;
   double begin_s() const;

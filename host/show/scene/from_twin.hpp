@@ -5,8 +5,8 @@
 
 namespace verp::scene {
 
-/// What a tick of a session shows of its robot: for session::Hooks::ticked. Reads, never takes: the
-/// run has the same bits with and without it.
+/// The view of a robot at a session's tick, for session::Hooks::ticked. Only reads: the run has the
+/// same bits with and without it.
 RobotView look(const session::Tick& tick, const Entity& entity, const Params& params);
 
 /// Snapshot of one robot's run.

@@ -3,10 +3,10 @@
 
 namespace verp::scene {
 
-/// A visual whose file says nothing of its colour: by what it is of a robot.
+/// A material for a visual without a colour, chosen by its place in the robot.
 Material default_material(const Entity& entity, int node, const Vec3& extent_m);
 
-/// How much the edges of a box or cylinder are rounded: things are made so, and light shows them.
+/// Edge radius of a box or cylinder, so that light shows the edges.
 double rounding_m(Shape shape, const Vec3& size_m);
 
 }  // namespace verp::scene

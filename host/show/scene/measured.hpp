@@ -6,19 +6,19 @@
 #include "host/show/scene/snapshot.hpp"
 #include "host/twin/sim/truth.hpp"
 
-/// What a robot's own sensors say of it, where nobody knows the truth.
+/// A view from a robot's own sensors, where the true state is unknown.
 namespace verp::scene {
 
-/// A name of Params.
+/// Text of a name in Params.
 std::string text_of(const char (&name)[kNameLength]);
 
 std::vector<double> measured_rad(const Inputs& inputs, const Params& params);
 
-/// Soles, CoM, support and the feet's forces, of a view that has its links' poses.
+/// Adds soles, CoM, support and foot forces to a view whose link poses are set.
 void add_measured(RobotView& view, const Entity& entity, const Params& params,
                   const Inputs& inputs);
 
-/// The feet of such a view as the twin would tell of them.
+/// The feet of such a view in the form of the twin's truth.
 sim::Truth soles_of(const RobotView& view, const Entity& entity);
 
 }  // namespace verp::scene

@@ -5,8 +5,8 @@
 
 namespace verp::scene {
 
-/// Where the things of a world were that can move, by what a trace kept of them: between two
-/// instants of it in a straight line. What it does not name stands where it began.
+/// Poses of a world's moving objects, interpolated between the poses in a trace. An object that the
+/// trace does not name stays where it began.
 class ObjectTrack {
  public:
   ObjectTrack(const record::Trace& trace, const model::World& world);

@@ -4,7 +4,7 @@
 
 namespace verp::scene {
 
-/// A robot to look at, made of the controller's numbers alone: its tree and soles, bones for looks.
+/// A robot made of the controller's Params alone: tree and soles, with bones to draw.
 Entity entity_of(const Params& params);
 
 }  // namespace verp::scene

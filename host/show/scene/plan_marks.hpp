@@ -4,7 +4,7 @@
 #include "common/model/params.hpp"
 #include "host/show/scene/snapshot.hpp"
 
-/// What a controller's own numbers say of a picture.
+/// Adds the controller's own numbers to a view.
 namespace verp::scene {
 
 /// Goals, mode, phase, state, stance and faults.
@@ -13,7 +13,7 @@ void add_outputs(RobotView& view, const Outputs& outputs, const Params& params);
 /// Gyro and accelerometer in body axes.
 void add_imu(RobotView& view, const Inputs& inputs, const Params& params);
 
-/// The footholds ahead, placed by the foot that carries: the plan lives in the gait's own frame.
+/// The planned footholds, placed relative to the stance foot: the plan is in the gait's own frame.
 std::vector<Footstep> footsteps(const gait::GaitState& gait, const Transform& left_sole_world,
                                 const Transform& right_sole_world);
 

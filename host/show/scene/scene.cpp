@@ -3,7 +3,7 @@
 namespace verp::scene {
 namespace {
 
-/// Links of all robots before this one.
+/// Number of links of all robots before this one.
 int links_before(const Scene& scene, int robot) {
   int links = 0;
   for (int r = 0; r < robot; ++r) {

@@ -6,9 +6,8 @@
 
 #include "host/robot/model/entity.hpp"
 
-/// What there is to see: shapes, materials and lights once (Scene), and one instant of it
-/// (snapshot.hpp). Everything that shows something takes these two and nothing else, and nothing
-/// here reaches back into physics or a controller.
+/// Shapes, materials and lights (Scene) and one instant of them (snapshot.hpp). All displays take
+/// these two and nothing else. Nothing here touches physics or a controller.
 namespace verp::scene {
 
 using model::Entity;
@@ -26,14 +25,14 @@ struct Material {
   float roughness = 0.55F;
   float metallic = 0;
   Colour glow{0, 0, 0, 1};
-  std::string texture = {};  ///< image file, multiplied with the colour; empty: none
+  std::string texture = {};  ///< image file, multiplied with the colour; may be empty
 };
 
-/// Triangles in the item's frame, metres. Normals may be empty: then faces are flat.
+/// Triangles in the item's frame, metres. Without normals the faces are flat.
 struct Triangles {
   std::vector<Eigen::Vector3f> points, normals;
   std::vector<Eigen::Vector2f> texture_at;  ///< empty: no texture
-  std::vector<std::uint32_t> indices;       ///< three a triangle
+  std::vector<std::uint32_t> indices;       ///< three per triangle
 };
 
 enum class Shape {
@@ -41,7 +40,7 @@ enum class Shape {
   kSphere,    ///< size.x: radius
   kCapsule,   ///< size.x: radius, size.z: length between the caps' centres, along z
   kCylinder,  ///< size.x: radius, size.z: length
-  kPlane,     ///< size.x, size.y: edges, facing z; without thickness
+  kPlane,     ///< size.x, size.y: edges; faces z; no thickness
   kMesh,      ///< of mesh_file; size: scale of each axis
   kTriangles  ///< of `triangles`
 };
@@ -51,58 +50,58 @@ inline constexpr int kWorld = -1;
 /// One shape with one material, on a robot's link or in the world.
 struct Item {
   std::string name;
-  int robot = kWorld;  ///< of Scene::robots
-  /// Of a robot: its link. Of the world: its moving body in Snapshot::body_world, or kWorld: it
-  /// stands still.
+  int robot = kWorld;  ///< index into Scene::robots
+  /// The robot's link; for the world, the index into Snapshot::body_world, or kWorld if it is
+  /// fixed.
   int node = 0;
-  Transform pose = Transform::Identity();  ///< in that frame
+  Transform pose = Transform::Identity();  ///< in the frame of `node`
   Shape shape = Shape::kBox;
   Vec3 size_m = Vec3::Zero();
-  double round_m = 0;  ///< radius of a box's or cylinder's edges
+  double round_m = 0;  ///< edge radius of a box or cylinder
   Material material;
   std::string mesh_file;
   std::shared_ptr<const Triangles> triangles;
-  bool collision = false;  ///< a shape of physics: drawn only where Effects::collisions asks for it
+  bool collision = false;  ///< a collision shape, drawn only if Effects::collisions is set
 };
 
 struct Light {
   enum class Kind { kSun, kPoint, kSpot } kind = Kind::kSun;
   Vec3 position_m = Vec3::Zero();
-  Vec3 direction = Vec3(-0.4, 0.3, -1);  ///< in which it shines
+  Vec3 direction = Vec3(-0.4, 0.3, -1);  ///< direction of the light's rays
   Colour colour;
   float strength = 1;
   double range_m = 10;  ///< point, spot
-  /// Of those, at distance d: strength / (x + y d + z d^2), less toward the end of the range.
+  /// Point and spot at distance d: strength / (x + y d + z d^2), reduced near the end of the range.
   Vec3 fading = Vec3(0.01, 0, 1);
   double inner_rad = 0.4, outer_rad = 0.6;
-  bool shadows = false;  ///< one sun casts them: the first that has this
+  bool shadows = false;  ///< only the first sun with this flag casts them
 };
 
 struct Fog {
   bool on = false;
   Colour colour{0.8F, 0.83F, 0.87F, 1};
-  double begin_m = 4, end_m = 30;  ///< it thickens evenly between
-  double density_1_m = 0;  ///< above 0 instead: what is left at distance d is e^-(density d)
+  double begin_m = 4, end_m = 30;  ///< linear between the two
+  double density_1_m = 0;  ///< if above 0, used instead: e^-(density d) remains at distance d
   bool squared = false;    ///< e^-(density d)^2
 };
 
-/// The backdrop: a soft gradient, also what smooth things mirror.
+/// The backdrop, a soft gradient; smooth surfaces mirror it.
 struct Sky {
   Colour zenith{0.62F, 0.72F, 0.84F, 1};
   Colour horizon{0.93F, 0.945F, 0.96F, 1};
 };
 
-/// The floor z = 0 as far as one can see; it fades into the horizon.
+/// The floor z = 0; it fades into the horizon.
 struct Ground {
   bool on = true;
   Colour light{0.80F, 0.815F, 0.835F, 1};
   Colour dark{0.775F, 0.79F, 0.812F, 1};
   Colour line{0.64F, 0.66F, 0.70F, 1};
   double tile_m = 0.1;
-  double fade_m = 6;  ///< at this distance half of it is horizon
+  double fade_m = 6;  ///< at this distance it is half horizon
 };
 
-/// A camera that a file declares on a robot, or for a world (robot: kWorld).
+/// A camera that a file declares on a robot or in the world (robot: kWorld).
 struct Mount {
   std::string name;
   int robot = 0, node = 0;
@@ -129,14 +128,14 @@ struct Scene {
   Ground ground;
   bool antialias = true, textures = true, transparency = true;  ///< what its file leaves on
   std::vector<Mount> cameras;
-  std::vector<std::string> notes;  ///< what a robot's file names and is not there, a line a robot
+  std::vector<std::string> notes;  ///< what a robot's file names but lacks, one line a robot
 };
 
-/// What a segmentation picture has where this item is: one number a link, from 1 on, in the order
-/// of robots and links; then one for each thing of the world, whose items have one name. 0:
-/// nothing, or the floor.
+/// An item's value in a segmentation picture. Links count from 1 in the order of robots and links,
+/// then the world's things, where consecutive items of one name share a value. 0: nothing or the
+/// floor.
 int label_of(const Scene& scene, const Item& item);
-/// The name behind such a number: ROBOT/LINK, or the item's.
+/// The name of such a value: ROBOT/LINK, or the item's.
 std::string label_name(const Scene& scene, int label);
 
 }  // namespace verp::scene

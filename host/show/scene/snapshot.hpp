@@ -23,9 +23,9 @@ struct Footstep {
   double yaw_rad = 0;
 };
 
-/// One robot at one instant. What its source does not know is empty.
+/// One robot at one instant. Members that the source does not know are empty.
 struct RobotView {
-  std::vector<Transform> link_world;  ///< of each node
+  std::vector<Transform> link_world;  ///< one per node
   std::vector<double> joint_rad, goal_rad, torque_use;
   std::vector<ContactForce> contacts;
   std::array<bool, 2> foot_contact{};
@@ -40,16 +40,16 @@ struct RobotView {
   std::uint8_t gait_state = 0;        ///< 0..15
   std::uint8_t stance = 2;            ///< foot that carries: 0 left, 1 right, 2 both
   bool held = false, fallen = false;
-  std::array<double, 3> gyro_rad_s{}, accel_m_s2{};  ///< of the IMU, body axes
+  std::array<double, 3> gyro_rad_s{}, accel_m_s2{};  ///< body axes
 };
 
-/// The way that something went, the latest point last.
+/// A path, its latest point last.
 struct Trail {
   Colour colour;
   std::vector<Vec3> points_world_m;
 };
 
-/// A ray of a range finder: from the sensor to what it hit.
+/// A range finder's ray from the sensor to the hit.
 struct Ray {
   Vec3 from_world_m = Vec3::Zero(), to_world_m = Vec3::Zero();
   bool hit = true;
@@ -57,11 +57,11 @@ struct Ray {
 
 /// One instant of a Scene.
 struct Snapshot {
-  double t_s = 0;  ///< simulated, or the trace's
+  double t_s = 0;  ///< simulated time, or the trace's
   std::uint32_t tick = 0;
-  std::vector<RobotView> robots;      ///< of each Scene::robots
-  std::vector<Transform> body_world;  ///< of the world's moving bodies
-  std::vector<Trail> trails;          ///< kept by whoever shows a run (trails.hpp)
+  std::vector<RobotView> robots;      ///< one per Scene::robots
+  std::vector<Transform> body_world;  ///< the world's moving bodies
+  std::vector<Trail> trails;          ///< kept by the display (trails.hpp)
   std::vector<Ray> rays;
 };
 

@@ -8,7 +8,8 @@ namespace {
 
 using Kind = model::Shape::Kind;
 
-constexpr double kMostRound_m = 0.004;  // what is seen must not differ from what is touched
+constexpr double kMostRound_m = 0.004;  // larger would show another shape than the one that physics
+                                        // touches
 
 Colour colour_of(const model::Color& c) {
   return {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2]),
@@ -26,7 +27,7 @@ Shape shape_of(Kind kind) {
   return kShapes[static_cast<int>(kind)];
 }
 
-/// A shiny thing has small highlights, a dull one none: SDF has their brightness only.
+/// SDF gives only the brightness of highlights: bright ones become a smooth surface.
 Material material_of(const model::Material& m) {
   const double shine = std::max({m.specular[0], m.specular[1], m.specular[2]});
   Material out;
@@ -91,7 +92,7 @@ Light light_of(const model::Light& light, bool shadows) {
   out.colour = colour_of(light.diffuse);
   out.range_m = light.range_m;
   out.fading = Vec3(light.constant, light.linear_1_m, light.quadratic_1_m2);
-  out.inner_rad = light.inner_rad / 2;  // SDF has the whole cone
+  out.inner_rad = light.inner_rad / 2;  // SDF gives the full cone angle
   out.outer_rad = std::max(light.outer_rad / 2, out.inner_rad + 1e-3);
   out.shadows = light.casts_shadows && shadows;
   return out;
@@ -157,7 +158,7 @@ class WorldBuilder {
     item.round_m = std::min(rounding_m(item.shape, item.size_m), kMostRound_m);
     if (shape.mesh && !shape.mesh->triangle.empty()) {
       item.triangles = triangles_of(*shape.mesh);
-    } else if (shape.mesh) {  // to be seen: any format, and who draws reads it
+    } else if (shape.mesh) {  // for display only: any format, read by the renderer
       item.shape = Shape::kMesh;
       item.mesh_file = shape.mesh->file;
     }
@@ -170,7 +171,7 @@ class WorldBuilder {
     add(object, visual.shape, visual.pose).material = material_of(visual.material);
   }
 
-  /// A level plane at height 0 has no end to walk off: nor has its picture.
+  /// A level plane at height 0 is drawn without an end, as physics treats it.
   bool is_floor(const model::WorldVisual& visual) const {
     const Transform pose = frame_ * visual.pose;
     return visual.shape.kind == Kind::kPlane && visual.material.texture.empty() &&

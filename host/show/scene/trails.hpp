@@ -3,10 +3,10 @@
 
 namespace verp::scene {
 
-/// The ways that the centre of mass and the soles of one robot went, up to now.
+/// Paths of one robot's centre of mass and soles so far.
 class Trails {
  public:
-  /// Adds this instant, and gives the snapshot its trails.
+  /// Adds this instant and writes the trails into the snapshot.
   void follow(Snapshot& now, const Entity& entity);
 
  private:

@@ -2,18 +2,18 @@
 #include <filesystem>
 #include <string>
 
-/// A run to turn and to scrub, in any browser, without a server: all is in the page.
+/// A run to turn and scrub in any browser. The page holds all data and needs no server.
 namespace verp::web {
 
 struct Replay {
-  std::string html;  ///< a section of a page, with its style and scripts; empty: there is none
-  std::string note;  ///< one line for people, of what is missing; empty: nothing
+  std::string html;  ///< a section with its style and scripts; may be empty
+  std::string note;  ///< one line that says what is missing; may be empty
 };
 
-/// Of a trace. Throws TraceError. Without three.js on this PC there is a note instead.
+/// The replay of a trace. Throws TraceError. Returns a note if three.js is not installed.
 Replay replay_of(const std::filesystem::path& trace);
 
-/// A whole page around a section.
+/// Wraps a section into a whole page.
 std::string page_of(const std::string& title, const std::string& html);
 
 }  // namespace verp::web

@@ -57,7 +57,7 @@ Json rgb(const scene::Colour& c) {
   return {c.r, c.g, c.b};
 }
 
-/// What stands around the robot; of the studio viewer.js has its own.
+/// The world around the robot; viewer.js has its own studio.
 Json air_json(const scene::Scene& scene) {
   Json lights = Json::array();
   for (const scene::Light& light : scene.lights) {
@@ -74,7 +74,7 @@ Json air_json(const scene::Scene& scene) {
           {"lights", lights}};
 }
 
-/// One frame: what viewer.js calls its columns.
+/// One frame: one row of viewer.js's columns.
 class Row {
  public:
   explicit Row(std::vector<float>& out) : out_(out) {}
@@ -85,7 +85,7 @@ class Row {
   void add(const Eigen::Quaterniond& q) {  // x y z w
     for (const double value : q.coeffs()) add(value);
   }
-  /// What is not known is NaN.
+  /// Unknown values are NaN.
   template <class Vector>
   void add(const std::optional<Vector>& v) {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();

@@ -6,9 +6,9 @@
 
 namespace verp::web {
 
-/// The first robot of a scene and what it did, as viewer.js reads it: the tree, its shapes, and for
-/// each snapshot the body's pose, the joint angles and what explains them, as float32 in base64.
-/// With `with_air` also the scene's own floor, sky and lights, in place of the page's.
+/// The first robot of a scene and its motion, as viewer.js reads them: its tree, its shapes, and
+/// the frames as float32 in base64. A frame holds the body's pose, the joint angles and the marks.
+/// `with_air` adds the scene's own floor, sky and lights in place of the page's.
 std::string scene_json(const scene::Scene& scene, const std::vector<scene::Snapshot>& frames,
                        bool with_air);
 

@@ -1,4 +1,4 @@
-// What a replay page runs: draws the run that stands beside it, lets a person turn, play and scrub it.
+// Draws the run that is embedded in the page; the user can turn, play and scrub it.
 (function () {
   'use strict';
   const section = document.getElementById('replay');
@@ -7,7 +7,9 @@
   const run = JSON.parse(section.querySelector('script.run').textContent);
   const bytes = Uint8Array.from(atob(run.frames), (c) => c.charCodeAt(0));
   const data = new Float32Array(bytes.buffer);
-  const joints = run.joints.length, columns = 25 + joints + 7 * run.bodies;  // as scene_json's add_frame has them
+  const joints = run.joints.length, columns = 25 + joints + 7 * run.bodies;  // the order of
+                                                                             // add_frame in
+                                                                             // scene_json.cpp
   const kPhases = ['stands', 'starts', 'walks', 'ends'];
 
   let renderer;
@@ -78,14 +80,14 @@
     }
   }
 
-  // A box with round edges: points of a grid on the box, pulled onto balls around an inner box.
+  // A box with round edges: grid points on the box, projected onto spheres around an inner box.
   function roundBox(size, round) {
     const geometry = new THREE.BoxBufferGeometry(size[0], size[1], size[2], 8, 8, 8);
     const at = geometry.attributes.position, normal = geometry.attributes.normal;
     const half = size.map((s) => s / 2), r = Math.min(round, 0.98 * Math.min(...half));
     if (!(r > 0)) return geometry;
     const p = new THREE.Vector3(), inner = new THREE.Vector3();
-    const spread = (v, h) => {  // the grid's lines lie in the corners' arcs
+    const spread = (v, h) => {  // puts the grid lines into the corners' arcs
       const k = Math.round(4 * v / h);
       if (Math.abs(k) === 4) return v;
       return Math.sign(k) * (h - r * (1 - Math.tan(Math.PI / 4 * Math.abs(k) / 4)));
@@ -237,7 +239,7 @@
     const flat = turn.distance * Math.cos(turn.elevation);
     camera.position.set(target.x + flat * Math.cos(turn.azimuth), target.y + flat * Math.sin(turn.azimuth), target.z + turn.distance * Math.sin(turn.elevation));
     camera.lookAt(target);
-    // The floor goes along by whole tiles, so that it has no end.
+    // The floor follows in whole tiles, so it seems endless.
     floor.position.set(Math.round(body.x / 0.2) * 0.2, Math.round(body.y / 0.2) * 0.2, 0);
     sun.target.position.copy(body);
     sun.position.copy(body).addScaledVector(sunward, 3 * reach);
@@ -299,7 +301,7 @@
     if (dirty) draw();
     requestAnimationFrame(frame);
   }
-  // Somebody's script may look at it too.
+  // For a user's own scripts.
   window.verpReplay = { begin: begin, end: end, seek: (t) => { setPlaying(false); seek(t); draw(); }, time: () => time, turn: turn, draw: draw };
   draw();
   requestAnimationFrame(frame);

@@ -16,28 +16,28 @@ struct Point {
   double t_s = 0, value = 0;
 };
 
-/// What there is to show of one robot over time: a run as it goes on, or a trace.
+/// One robot over time: a live run or a trace.
 class Film {
  public:
   virtual ~Film() = default;
   virtual const scene::Entity& entity() const = 0;
   virtual std::vector<Signal> all_signals() const { return signals_of(entity()); }
-  /// Where a trace was recorded; null: on a level floor, or it is a run.
+  /// The trace's world; null for a level floor or a live run.
   virtual const model::World* world() const { return nullptr; }
   virtual double period_s() const = 0;
   virtual bool empty() const = 0;
   virtual double begin_s() const = 0;
   virtual double end_s() const = 0;
-  /// The instant at t_s or just before; null of an empty film.
+  /// The instant at t_s or just before; null if the film is empty.
   virtual Picture at(double t_s) const = 0;
-  /// Adds the points of that signal that are later.
+  /// Appends that signal's points after `after_s`.
   virtual void points(int signal, double after_s, std::vector<Point>& out) const = 0;
 };
 
-/// The last minutes of a run. One thread adds, any looks.
+/// The last minutes of a run. One thread adds, any thread reads.
 class LiveFilm final : public Film {
  public:
-  /// `beside`: the second robot of each snapshot is another one like the first, to compare with.
+  /// `beside`: the second robot of each snapshot is like the first, for comparison.
   LiveFilm(std::shared_ptr<const scene::Entity> entity, double period_s, bool beside = false);
 
   void add(scene::Snapshot now);
@@ -54,7 +54,7 @@ class LiveFilm final : public Film {
 
  private:
   struct Instant {
-    Picture picture;  ///< null: too long ago, only its values are kept
+    Picture picture;  ///< null: too old, only the values are kept
     double t_s;
     std::vector<float> values;
   };
@@ -65,7 +65,7 @@ class LiveFilm final : public Film {
   const bool beside_;
   mutable std::mutex mutex_;
   std::deque<Instant> instants_;
-  std::size_t pictures_ = 0;  ///< how many of the last have one
+  std::size_t pictures_ = 0;  ///< number of newest instants with a picture
 };
 
 }  // namespace verp::view

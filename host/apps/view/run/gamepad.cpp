@@ -12,9 +12,9 @@ namespace verp::view {
 namespace {
 
 constexpr double kMost = 32767;
-constexpr double kDead = 0.15;  // of a stick's way: worn ones do not come back to the middle
+constexpr double kDead = 0.15;  // of a stick's range: worn sticks do not return to the middle
 constexpr int kLookAgain = 30;  // polls
-// As the kernel's drivers number those of the common gamepads.
+// The numbers in the kernel's drivers for common gamepads.
 constexpr int kLeftX = 0, kLeftY = 1, kRightX = 3;
 constexpr int kStand = 0, kStop = 1;
 
@@ -55,7 +55,7 @@ Gamepad::News Gamepad::poll() {
     } else if (count < 0 && errno == EINTR) {
       continue;
     } else {
-      if (count >= 0 || errno != EAGAIN) close(news);  // the end, or ENODEV: it was unplugged
+      if (count >= 0 || errno != EAGAIN) close(news);  // end of file, or ENODEV: it was unplugged
       break;
     }
   }
@@ -63,7 +63,7 @@ Gamepad::News Gamepad::poll() {
 }
 
 void Gamepad::take(int type, int number, int value, News& news) {
-  const bool began = (type & JS_EVENT_INIT) != 0;  // as it stands, nobody has pressed it
+  const bool began = (type & JS_EVENT_INIT) != 0;  // the state at opening, not a press
   type &= ~JS_EVENT_INIT;
   if (type == JS_EVENT_BUTTON && value != 0 && !began) {
     news.stand = news.stand || number == kStand;

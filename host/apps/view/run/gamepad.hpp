@@ -3,26 +3,26 @@
 
 namespace verp::view {
 
-/// What the sticks of a gamepad ask, from -1 to 1; all 0 near the middle.
+/// Demands of a gamepad's sticks, from -1 to 1; 0 near the middle.
 struct Sticks {
   double ahead = 0, left = 0, turn = 0;
   bool operator==(const Sticks&) const = default;
 };
 
-/// A gamepad by the kernel's joystick interface (/dev/input/js0): the left stick walks, the right
-/// one turns, the first button stands, the second is the emergency stop. It may come and go: who is
-/// unplugged has let go of everything.
+/// A gamepad at the kernel's joystick interface (/dev/input/js0). The left stick walks, the right
+/// one turns, the first button stands, the second is the emergency stop. It may come and go;
+/// unplugging it releases all sticks.
 class Gamepad {
  public:
-  /// Opens it now or later, whenever it is there.
+  /// Opens it now, or later when it is there.
   explicit Gamepad(std::string device) : device_(std::move(device)) {}
   ~Gamepad();
   Gamepad(const Gamepad&) = delete;
   Gamepad& operator=(const Gamepad&) = delete;
 
-  /// What has changed since the last poll.
+  /// Changes since the last poll.
   struct News {
-    bool moved = false;  ///< sticks() are others
+    bool moved = false;  ///< sticks() has changed
     bool stand = false, stop = false;
     bool came = false, went = false;
   };
@@ -38,7 +38,7 @@ class Gamepad {
 
   const std::string device_;
   int descriptor_ = -1;
-  int wait_ = 0;  ///< polls until it is looked for again
+  int wait_ = 0;  ///< polls until the next attempt to open it
   bool present_ = false;
   Sticks sticks_;
 };

@@ -22,15 +22,15 @@ using namespace std::chrono_literals;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint32_t kTimeout_us = 50'000;
-constexpr auto kPause = 25ms;       // between two looks: as often as a picture is drawn
-constexpr auto kLostPause = 500ms;  // before a link that is silent is asked again
+constexpr auto kPause = 25ms;       // between two polls: as often as a picture is drawn
+constexpr auto kLostPause = 500ms;  // before a silent link is polled again
 constexpr double kApart_m = 0.45;
 constexpr double kTiltCount_rad = 1e-4;
 
 template <class Number>
 Number number_at(const Bytes& bytes, std::size_t offset = 0) {
   Number value{};
-  std::memcpy(&value, bytes.data() + offset, sizeof value);  // registers are little-endian, as a PC
+  std::memcpy(&value, bytes.data() + offset, sizeof value);  // little-endian, as on a PC
   return value;
 }
 
@@ -119,7 +119,7 @@ void Linked::loop() {
       now = look();
     } catch (const std::exception& error) {
       trouble = error.what();
-      known_ = false;  // what answers next may be another one
+      known_ = false;  // the next answer may come from another controller
     }
     lock.lock();
     if (trouble.empty()) {

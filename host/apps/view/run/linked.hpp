@@ -11,9 +11,8 @@
 
 namespace verp::view {
 
-/// A controller at the end of a link, as its registers tell of it: at its operator's port, or as
-/// the node of a CAN bus. Asked in a thread of its own, so a link that is silent or gone holds up
-/// nobody; it is asked again until it answers. Writes nothing.
+/// Reads a controller's registers over a link, at its operator's port or as a CAN node; writes
+/// nothing. Its own thread polls until the controller answers, so a dead link delays no one else.
 class Linked {
  public:
   /// Throws link::EndpointError, link::LinkError.
@@ -24,17 +23,17 @@ class Linked {
   Linked& operator=(const Linked&) = delete;
 
   struct Told {
-    bool lost = false;    ///< it was there, and is not now
-    std::string trouble;  ///< why it tells nothing now; empty: it does
+    bool lost = false;    ///< it answered once, but not now
+    std::string trouble;  ///< why there is no answer now; empty: there is one
     std::uint64_t looks = 0, digest = 0;
     std::uint32_t tick = 0;
     double roll_rad = 0, pitch_rad = 0;
-    scene::RobotView robot;  ///< as told last, without poses; no joints: never
+    scene::RobotView robot;  ///< from the last answer, without poses; no joints before the first
   };
   Told told() const;
 
-  /// That robot on its feet to the left of `own`, heading as it does. One that was never heard has
-  /// no links, and is not drawn.
+  /// That robot on its feet to the left of `own`, with its heading. Without links, and so not
+  /// drawn, before the first answer.
   scene::RobotView beside(const scene::RobotView& own) const;
 
  private:
@@ -49,7 +48,7 @@ class Linked {
   const std::shared_ptr<const scene::Entity> entity_;
   const Params params_;
   std::unique_ptr<Registers> registers_;
-  bool known_ = false;  ///< that it is such a robot; the thread's alone
+  bool known_ = false;  ///< the controller is of such a robot; used by the thread only
   mutable std::mutex mutex_;
   std::condition_variable woken_;
   Told told_;

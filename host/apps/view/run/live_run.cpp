@@ -19,7 +19,7 @@ struct LiveRun::Going {
 
   session::LiveOrders orders;
   RunRecord record;
-  std::vector<scene::RobotView> others;         ///< as they were at their last tick
+  std::vector<scene::RobotView> others;         ///< at their last ticks
   std::unique_ptr<record::TraceWriter> writer;  ///< outlives the session
   session::Session session;
 };
@@ -193,7 +193,7 @@ void LiveRun::loop() {
   }
 }
 
-/// One thing that is to be done, or a wait for the clock. False: there is nothing to do.
+/// Does one thing or waits for the clock. Returns false if there is nothing to do.
 bool LiveRun::work(std::unique_lock<std::mutex>& lock) {
   if (!touches_.empty()) {
     const auto touch = std::move(touches_.front());
@@ -244,7 +244,7 @@ void LiveRun::tick(std::unique_lock<std::mutex>& lock) {
   status_.simulated_s = simulated_s;
   status_.over = over || !failure.empty();
   status_.failure = failure;
-  if (status_.ticks == 1) pace_.begin(simulated_s, wall_s());  // bringing it up took its own time
+  if (status_.ticks == 1) pace_.begin(simulated_s, wall_s());  // bring-up took its own time
   pace_.ticked(simulated_s, wall_s());
   status_.real_time_factor = pace_.factor();
   status_.late_s = pace_.late_s();

@@ -20,18 +20,17 @@ namespace verp::view {
 
 struct RunSetup {
   session::WalkPlan plan;
-  std::vector<session::WalkPlan> others = {};  ///< robots of the same world, which are only watched
-  /// What stands beside the robot and is none of the world's: asked in the run's thread after each
-  /// tick, with the robot's own view.
+  std::vector<session::WalkPlan> others = {};  ///< robots of the same world that are only watched
+  /// A robot drawn beside ours that is not in the world. Called in the run's thread after each tick
+  /// with our robot's view.
   std::function<scene::RobotView(const scene::RobotView&)> beside = {};
   sim::WorldOptions world = {};
-  std::string record_file = {};  ///< gets the run as it goes on; empty: none
+  std::string record_file = {};  ///< records the run as it goes on; empty: none
   record::mcap::StringMap metadata = {};
 };
 
-/// A session that runs beside a window, in a thread of its own: paced, paused, touched, wound up
-/// anew. All that a person does reaches it between two ticks, so the window's own pace changes no
-/// bit of it.
+/// A session in a thread of its own, for a window. User actions reach it only between two ticks, so
+/// the window's speed changes no bit of the run.
 class LiveRun {
  public:
   /// Paused before the first tick.
@@ -43,29 +42,29 @@ class LiveRun {
   void play();
   void pause();
   void tick_once();
-  /// 1: as fast as the clock; 0: as fast as it can.
+  /// 1: real time; 0: as fast as it can.
   void set_speed(double factor);
-  /// The same run from its beginning, as it was played or paused; a record begins anew.
+  /// Restarts the run, played or paused as before; a record begins anew.
   void reset();
 
-  /// What can be touched between two ticks.
+  /// Handles for the user's actions between two ticks.
   struct Hands {
     session::Session& session;
     session::Robot& robot;
     session::LiveOrders& orders;
   };
-  /// Done in the run's thread before its next tick. What it throws is Status::complaint.
+  /// Calls `what` in the run's thread before its next tick. Status::complaint gets its exception.
   void touch(std::function<void(Hands&)> what);
 
-  /// A push, or a quantity set to a value, as `verp walk` does them: recorded, with its tick.
+  /// A push or a quantity set to a value, as in `verp walk`: recorded with its tick.
   void intervene(session::Intervention what);
 
-  /// Whenever it falls, it gets up without a word, if it has actions to get up by.
+  /// The robot gets up after each fall by itself, if it has actions for it.
   void let_get_up(bool by_itself);
 
-  /// Writes what has run so far as a trace. Empty, or why there is none.
+  /// Writes the run so far as a trace. Returns the reason if it cannot, else empty.
   std::string save(const std::filesystem::path& file);
-  /// The record's file is whole from here on, and the run over. Empty, or why it is not.
+  /// Ends the run and completes its record. Returns the reason if it cannot, else empty.
   std::string finish();
 
   struct Status {
@@ -74,11 +73,11 @@ class LiveRun {
     double speed = 1, real_time_factor = 0, simulated_s = 0;
     double late_s = 0;  ///< behind the clock
     std::uint64_t ticks = 0, digest = 0;
-    std::optional<Tuning> tuning = {};  ///< in force
-    std::string failure = {};           ///< of a run that is over
-    std::string complaint = {};         ///< of the last touch that went wrong
-    std::string happened = {};          ///< to a robot that falls or lies: the last, in words
-    int runs = 0;                       ///< it was begun so often
+    std::optional<Tuning> tuning = {};  ///< in effect
+    std::string failure = {};           ///< why the run is over
+    std::string complaint = {};         ///< error of the last touch that failed
+    std::string happened = {};          ///< last event of a robot that falls or lies, in words
+    int runs = 0;                       ///< number of starts
   };
   Status status() const;
 

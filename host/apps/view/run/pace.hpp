@@ -4,20 +4,20 @@
 
 namespace verp::view {
 
-/// How fast simulated time goes by beside the wall's. Knows no clock: is told the times.
+/// Paces simulated time against wall time. The caller passes both times; Pace reads no clock.
 class Pace {
  public:
-  /// 1: as the wall's; 0: as fast as it can.
+  /// 1: real time; 0: as fast as it can.
   void set_speed(double factor, double simulated_s, double wall_s);
   double speed() const { return speed_; }
-  /// From here on, as after a pause: what went by before is not caught up.
+  /// Restarts here, as after a pause: earlier delay is not made up.
   void begin(double simulated_s, double wall_s);
 
-  /// How long to wait with a tick that begins at that simulated time. One that is late by more than
-  /// kMostLate_s is not caught up either: a busy PC makes a run slow, never hasty.
+  /// Wait before a tick that begins at that simulated time. A delay above kMostLate_s is not made
+  /// up: a busy PC slows a run and never makes it hurry.
   double wait_s(double simulated_s, double wall_s);
 
-  /// How late the last tick was that was waited for; its delay counts though it is not caught up.
+  /// Delay of the last paced tick, even if it is not made up.
   double late_s() const { return late_s_; }
 
   /// Real-time factor over the last second.
@@ -28,13 +28,13 @@ class Pace {
 
  private:
   double speed_ = 1;
-  double simulated_s_ = 0, wall_s_ = 0;  ///< where it began
+  double simulated_s_ = 0, wall_s_ = 0;  ///< the start
   double late_s_ = 0;
   std::deque<std::pair<double, double>> last_;
 };
 
-/// Until the window's next picture. Drawing and the twin share the PC's cores, and the twin comes
-/// first: beside one that is late there are fewer pictures.
+/// Time to the window's next picture. Drawing shares the PC's cores with the twin, which comes
+/// first: a late run gets fewer pictures.
 int frame_ms(double late_s);
 
 }  // namespace verp::view

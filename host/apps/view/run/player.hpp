@@ -6,32 +6,32 @@
 
 namespace verp::view {
 
-/// What the window plays: a run or a trace, at the instant that is shown. A run that is wound back
-/// stands still; played on, it goes on where it was, not where it is shown.
+/// Plays a run or a trace at the instant that is shown. A rewound run is paused; play() continues
+/// it at its newest instant, not at the one shown.
 class Player {
  public:
   explicit Player(RunSetup setup);
   explicit Player(std::shared_ptr<const Film> trace);
 
-  /// Null of a trace.
+  /// Null for a trace.
   LiveRun* live() { return live_.get(); }
   std::shared_ptr<const Film> film() const;
 
   void play();
   void pause();
   bool playing() const;
-  /// Back and forth by so many ticks; a run at its newest instant goes on by one.
+  /// Moves by so many ticks; a run at its newest instant runs one tick.
   void step(int ticks);
   void seek(double t_s);
   void set_speed(double factor);
   double speed() const { return speed_; }
-  /// A run: from its beginning. A trace: to its beginning.
+  /// Restarts a run; moves a trace to its beginning.
   void reset();
 
-  /// The newest instant of a run is shown, whatever comes.
+  /// True while the newest instant of a run is shown.
   bool follows() const { return follows_; }
   double shown_s() const { return shown_s_; }
-  /// Once a picture, with the wall's time: what is to be shown. Null: nothing yet.
+  /// The picture to show. Call it once a frame with the wall time. Null: nothing yet.
   Picture now(double wall_s);
 
  private:

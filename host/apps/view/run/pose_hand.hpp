@@ -8,9 +8,9 @@
 
 namespace verp::view {
 
-/// A robot in the air, held by its body, whose joints, feet and other links a hand moves:
-/// kinematics, no physics. Feet go by the controller's own inverse kinematics, all other links by
-/// damped least squares of the joints between them and the body.
+/// A robot held in the air by its body, whose joints and links the user moves: kinematics, no
+/// physics. Feet use the controller's inverse kinematics; other links use damped least squares over
+/// the joints between them and the body.
 class PoseHand {
  public:
   PoseHand(const scene::Entity& entity, const Params& params);
@@ -19,20 +19,21 @@ class PoseHand {
   const std::vector<double>& joint_rad() const { return joint_rad_; }
   void stand();
 
-  /// 0 left, 1 right: the sole goes there, as near as the leg reaches, turned as it is.
+  /// Moves the sole (0 left, 1 right) there, as near as the leg reaches, and keeps its orientation.
   void move_foot(int side, const scene::Vec3& sole_body_m);
   scene::Vec3 sole_body_m(int side) const;
-  /// Whether that node is part of that foot: -1 of neither.
+  /// The foot that the node is part of, or -1.
   int foot_of(int node) const;
   bool has_leg(int side) const;
 
-  /// That point of a link goes there, as near as its joints reach; of the body itself nothing does.
+  /// Moves that point of a link there, as near as its joints reach; does nothing for the body
+  /// itself.
   void move_link(int node, const scene::Vec3& point_link_m, const scene::Vec3& to_body_m);
   scene::Vec3 point_body_m(int node, const scene::Vec3& point_link_m) const;
-  /// What the last move_link() had to give up, in words; "" if there was none since stand().
+  /// Result of the last move_link() in words; "" if there was none since stand().
   const std::string& link_reach() const { return link_reach_; }
 
-  /// What the last move had to give up, in words; "within reach" of one that gave up nothing.
+  /// Result of the last move in words, such as "within reach".
   std::string reach(int side) const;
   std::string solver(int side) const;
 
@@ -41,9 +42,9 @@ class PoseHand {
 
  private:
   kinematics::LegChain chain(int side) const;
-  /// The joints between the body and that link which have motors of their own.
+  /// The joints between the body and that link that have motors of their own.
   std::vector<std::size_t> joints_to(int node) const;
-  /// One step of move_link(): false if nothing moved any more.
+  /// One step of move_link(); returns false if nothing moved.
   bool step_to(const std::vector<std::size_t>& joints, int node, const scene::Vec3& point_link_m,
                const scene::Vec3& to_body_m);
 

@@ -11,17 +11,16 @@
 
 namespace verp::view {
 
-/// A run in memory, so that who has watched it can still keep it: what went into each tick, and
-/// where the body was and how hard its joints were driven. State is made again from that when it is
-/// saved.
+/// A run in memory that can be saved later: each tick's inputs, the body's pose and the joint
+/// efforts. save() computes State again from these.
 class RunRecord {
  public:
   void add(const session::Tick& tick);
-  /// What was done to the twin after the last tick.
+  /// An action on the twin after the last tick.
   void note(const std::string& what);
   std::size_t ticks() const { return ticks_.size(); }
 
-  /// `actions`: image of the library that the controller had. Throws record::TraceError.
+  /// `actions` is the image of the controller's library. Throws record::TraceError.
   void save(const std::filesystem::path& file, const Params& params,
             const record::mcap::StringMap& metadata,
             const std::vector<std::uint32_t>& actions = {}) const;

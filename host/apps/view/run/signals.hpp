@@ -15,15 +15,15 @@ struct Signal {
   std::string label() const { return group + " " + name; }
 };
 
-/// All signals of such a robot, group by group; a signal's number is its place here. `beside`:
-/// and of another one that is compared with it, joint by joint.
+/// All signals of a robot, group by group; a signal's number is its index. `beside` adds those of a
+/// second robot that is compared joint by joint.
 std::vector<Signal> signals_of(const scene::Entity& entity, bool beside = false);
 
-/// Their values in one instant. What the source does not know is NaN.
+/// Values of all signals at one instant. Unknown values are NaN.
 std::vector<float> values_of(const scene::RobotView& robot, const scene::Entity& entity,
                              const scene::RobotView* beside = nullptr);
 
-/// -1: none of that label.
+/// -1: no signal has that label.
 int signal_number(const std::vector<Signal>& all, const std::string& label);
 
 }  // namespace verp::view

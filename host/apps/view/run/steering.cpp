@@ -10,7 +10,7 @@ constexpr double kQuarters = 4;
 
 }  // namespace
 
-// A sideways step or a turn is of one foot only in a cycle's two.
+// In a cycle of two steps only one foot steps sideways or turns.
 Steering::Steering(const Params& params)
     : ahead_m_s_(2.0 * static_cast<double>(params.tuning.gait.max_step_m) /
                  static_cast<double>(params.tuning.gait.cycle_s) / kQuarters),

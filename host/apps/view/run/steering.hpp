@@ -4,8 +4,8 @@
 
 namespace verp::view {
 
-/// Keys into a walk: each press is a quarter of what the robot's longest steps allow more that way,
-/// and it goes on until stop.
+/// Turns keys into a walk. Each press adds a quarter of the robot's limit in that direction, until
+/// stop().
 class Steering {
  public:
   explicit Steering(const Params& params);
@@ -21,7 +21,7 @@ class Steering {
  private:
   void ask();
 
-  double ahead_m_s_, left_m_s_, turn_rad_s_;  ///< a quarter of the most
+  double ahead_m_s_, left_m_s_, turn_rad_s_;  ///< a quarter of the limit
   double ahead_ = 0, left_ = 0, turn_ = 0;    ///< quarters
   Command command_;
 };

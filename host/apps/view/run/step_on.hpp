@@ -8,17 +8,17 @@
 
 namespace verp::view {
 
-/// A controller that goes on by itself from one tick of a trace, in the shadow of the Inputs that
-/// were recorded. As long as nobody changes a number it does what it did; once somebody does, State
-/// and Outputs show what that would have meant for what the robot felt.
+/// A controller that continues from a tick of a trace over the recorded Inputs. Without changes it
+/// repeats the record. After a change, State and Outputs show its effect for what the robot
+/// measured.
 class StepOn {
  public:
-  /// After that tick. `player` outlives it.
+  /// The controller after that tick. `player` must outlive it.
   StepOn(const scene::TracePlayer& player, std::size_t index);
 
-  /// As many ticks as the trace still has.
+  /// Runs so many ticks, or to the trace's end.
   void on(int ticks);
-  /// A number of the tuning, as an operator would write it: one a tick, beginning with the next.
+  /// Writes a tuning number as an operator would: one a tick, from the next tick on.
   void write(int id, float value) { writes_.emplace_back(id, value); }
 
   std::size_t index() const { return index_; }
@@ -26,7 +26,7 @@ class StepOn {
   const Inputs& inputs() const { return player_.trace().ticks[index_].inputs; }
   const State& state() const { return state_; }
   const Outputs& outputs() const { return outputs_; }
-  /// The whole run up to here has the digest that was recorded.
+  /// True if the run up to here has the recorded digest.
   bool same_bits() const;
 
  private:

@@ -7,7 +7,7 @@
 
 namespace verp::view {
 
-/// A trace, from its first tick to its last.
+/// A trace from its first tick to its last.
 class TraceFilm final : public Film {
  public:
   /// Throws record::TraceError.
@@ -31,7 +31,7 @@ class TraceFilm final : public Film {
   const std::vector<Row>& rows() const;
 
   scene::TracePlayer player_;
-  mutable std::vector<Row> rows_;  ///< made when the first curve is asked for
+  mutable std::vector<Row> rows_;  ///< computed for the first curve
 };
 
 }  // namespace verp::view

@@ -7,9 +7,9 @@
 namespace verp::edit {
 namespace {
 
-constexpr double kThin_m = 1e-3;  // a sheet has no thickness, a solid some
+constexpr double kThin_m = 1e-3;  // a sheet has no thickness, a solid needs some
 
-/// Turns that may fit: none, and along the points' principal axes.
+/// Candidate rotations: none, and along the points' principal axes.
 std::vector<Mat3> turns(const Triangles& mesh) {
   Vec3 mean = Vec3::Zero();
   for (const Vec3& p : mesh.points_m) mean += p / double(mesh.points_m.size());
@@ -19,14 +19,15 @@ std::vector<Mat3> turns(const Triangles& mesh) {
   if (axes.determinant() < 0) axes.col(0) *= -1;
   std::vector<Mat3> all;
   for (const Mat3& base : {Mat3(Mat3::Identity()), axes}) {
-    // Each of its axes once as z, along which capsules and cylinders lie.
+    // Each axis once as z, the axis of capsules and cylinders.
     for (int z = 0; z < 3; ++z) {
       Mat3 turn;
       turn << base.col((z + 1) % 3), base.col((z + 2) % 3), base.col(z);
       all.push_back(turn);
     }
   }
-  std::rotate(all.begin(), all.begin() + 2, all.begin() + 3);  // unturned first: ties stay simple
+  std::rotate(all.begin(), all.begin() + 2, all.begin() + 3);  // unrotated first, so that it wins
+                                                               // ties
   return all;
 }
 
@@ -68,7 +69,7 @@ Solid fitted(const Triangles& mesh, Solid::Kind kind) {
   for (const Mat3& turn : turns(mesh)) {
     const Solid solid = around(mesh, kind, turn);
     const double volume = volume_m3(solid);
-    if (least >= 0 && volume > 0.98 * least) continue;  // a turn has to be worth it
+    if (least >= 0 && volume > 0.98 * least) continue;  // a rotation must save 2 %
     best = solid;
     least = volume;
   }

@@ -44,7 +44,7 @@ std::string in_words(const Solid& solid) {
   }
 }
 
-/// About the link's axes.
+/// In the link's axes.
 Mat3 turned_inertia(const Solid& solid, double mass_kg) {
   const Mat3 turn = model::rotation_rpy(solid.rpy_rad);
   return turn * inertia_kg_m2(solid, mass_kg) * turn.transpose();

@@ -14,9 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostBytes = 200u << 20;  // a printer's file of a whole robot is 50 MB
+constexpr std::uintmax_t kMostBytes = 200u << 20;  // an STL of a whole robot for printing is 50 MB
 constexpr std::size_t kMostTriangles = 2'000'000;
-constexpr double kMost_m = 10;  // of a link; a robot is 2 m
+constexpr double kMost_m = 10;  // size of a link; a robot is 2 m
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what, const std::string& fix) {
   throw model::LoadError(file.string(), 0, what, fix);
@@ -50,7 +50,7 @@ void add(Triangles& out, const fs::path& file, const aiScene& scene, const aiNod
     add(out, file, scene, *node.mChildren[i], pose, unit_m);
 }
 
-/// Points at one place are one, whatever part they are of.
+/// Merges equal points, also of different parts.
 void weld(Triangles& mesh) {
   std::map<std::array<double, 3>, std::uint32_t> index;
   std::vector<std::uint32_t> where;
@@ -69,7 +69,7 @@ void weld(Triangles& mesh) {
 }
 
 bool is_closed(const Triangles& mesh) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;  // there and back cancel
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;  // opposite directions cancel
   for (const auto& c : mesh.corners) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto a = c[k], b = c[(k + 1) % 3];
@@ -87,7 +87,7 @@ Triangles read_triangles(const fs::path& file, double unit_m) {
   if (fs::file_size(file, error) > kMostBytes)
     refuse(file, "a mesh of more than 200 MB", "simplify it");
   Assimp::Importer importer;
-  // As ROS and the simulators read them: axes as they are in the file.
+  // Keep the file's axes, as ROS and the simulators do.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene =
       importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_SortByPType);
@@ -113,7 +113,7 @@ Triangles read_triangles(const fs::path& file, double unit_m) {
 Filling filling(const Triangles& mesh) {
   Filling out;
   out.closed = is_closed(mesh);
-  // Tetrahedra over the triangles, from a point among them: sums of signed volumes.
+  // Sums signed volumes of tetrahedra from one point to each triangle.
   const Vec3 from = mesh.points_m.front();
   double volume = 0;
   Vec3 first = Vec3::Zero();
@@ -128,7 +128,8 @@ Filling filling(const Triangles& mesh) {
     second += six / 120 *
               (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
   }
-  out.volume_m3 = std::abs(volume);  // triangles that face inwards have no other inside
+  out.volume_m3 = std::abs(volume);  // negative if the triangles face inward; the inside is the
+                                     // same
   if (out.volume_m3 < 1e-15) return out.closed = false, out;
   const Vec3 centre = first / volume;
   const Mat3 spread = second / volume - centre * centre.transpose();

@@ -13,18 +13,18 @@ struct Triangles {
   std::vector<std::array<std::uint32_t, 3>> corners;
 };
 
-/// All of a mesh file's surfaces. Throws model::LoadError.
+/// All surfaces of a mesh file. Throws model::LoadError.
 Triangles read_triangles(const std::filesystem::path& file, double unit_m);
 
 struct Filling {
-  bool closed = false;  ///< each edge between two triangles: it has an inside
+  bool closed = false;  ///< each edge joins two triangles, so the mesh has an inside
   double volume_m3 = 0;
   Vec3 centre_m = Vec3::Zero();
   Mat3 inertia_per_kg = Mat3::Zero();  ///< about the centre, m2
 };
 Filling filling(const Triangles& mesh);
 
-/// The solid of that kind around all points, turned as it is smallest.
+/// The solid of that kind around all points, in the rotation where it is smallest.
 Solid fitted(const Triangles& mesh, Solid::Kind kind);
 
 }  // namespace verp::edit

@@ -15,9 +15,8 @@
 namespace verp::camera {
 namespace {
 
-/// As a camera has it: no marks. No shadows and one sample a pixel, which cost most of a picture
-/// where the PC's processor draws, 30 times a second. Instead of samples, edges are smoothed
-/// afterwards.
+/// No marks, as in a camera. Shadows and multisampling are off: they cost most of a picture where
+/// the PC's processor draws 30 a second. smooth_edges() takes the place of samples.
 render::Effects effects() {
   render::Effects effects;
   effects.quick = true;
@@ -26,8 +25,9 @@ render::Effects effects() {
   return effects;
 }
 
-/// Noise in parts of white, onto 8 bits: what a sensor's chip does last. A sum of four uniform
-/// numbers, which one draw of 64 bits has, is as good as a bell here: 230,000 are drawn a picture.
+/// Adds noise, as a fraction of white, to the 8-bit values, as a sensor's chip does last. A sum of
+/// four uniform numbers from one 64-bit draw approximates a normal well enough: a picture needs
+/// 230,000.
 void add_noise(const model::CameraSensor& camera, sim::Random& random, render::Image& image) {
   if (camera.noise_stddev == 0 && camera.noise_mean == 0) return;
   constexpr float kMean = 4 * 0.5F * 65535, kStddev = 37836.6F;  // 65536 * sqrt(4 / 12)
@@ -47,7 +47,7 @@ std::string bytes_of(const std::vector<std::uint16_t>& values) {
   return {reinterpret_cast<const char*>(values.data()), 2 * values.size()};
 }
 
-/// 16UC1: millimetres, 0 where nothing is between the camera's planes.
+/// 16UC1: millimetres; 0 where nothing is between the camera's planes.
 std::string depth_mm(const model::CameraSensor& camera, sim::Random& random,
                      const std::vector<float>& depth_m) {
   std::vector<std::uint16_t> out;
@@ -55,7 +55,7 @@ std::string depth_mm(const model::CameraSensor& camera, sim::Random& random,
   const bool noisy = camera.noise_stddev != 0 || camera.noise_mean != 0;
   for (const float depth : depth_m) {
     const auto true_m = static_cast<double>(depth);
-    // Drawn whether there is something or not: what one pixel sees changes no other.
+    // Always draw a number, so that one pixel does not change the noise of others.
     const double noise_m = noisy ? camera.noise_mean + camera.noise_stddev * random.normal() : 0;
     const double mm = 1000 * (true_m + noise_m);
     const bool there = true_m >= camera.near_m && true_m <= camera.far_m && mm >= 0.5;
@@ -65,7 +65,7 @@ std::string depth_mm(const model::CameraSensor& camera, sim::Random& random,
   return bytes_of(out);
 }
 
-/// A robot's own lens, which the scene shows, is behind the point from which it sees.
+/// Removes the drawn lenses, which are around the cameras' eyes.
 scene::Scene without_lenses(scene::Scene scene, int robot,
                             const std::vector<model::CameraSensor>& cameras) {
   std::erase_if(scene.items, [&](const scene::Item& item) {
@@ -91,7 +91,7 @@ scene::Camera standing_at(const Outside& from) {
     throw std::invalid_argument("the eye is where it looks at");
   camera.eye_m = from.eye_m;
   camera.target_m = from.target_m;
-  // Straight up or down, x is up in the picture, as in a map whose north it is.
+  // Looking straight up or down, x is up in the picture.
   constexpr double kSteep = 0.9999;
   if (std::abs(way.z()) > kSteep * distance_m) camera.up = model::Vec3::UnitX();
   camera.vertical_fov_rad = from.vertical_fov_rad;

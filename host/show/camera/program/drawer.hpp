@@ -10,22 +10,22 @@
 
 namespace verp::camera {
 
-/// A stage's scene, the robots' cameras in it, and a renderer for each robot whose cameras look.
+/// A stage's scene, its robots' cameras, and a renderer for each robot whose cameras look.
 class Drawer {
  public:
   /// Throws LoadError and RenderError.
   explicit Drawer(const Stage& stage);
 
-  /// What that camera of moment.robot sees: one picture, of colour with depth two. The same
-  /// whatever else was drawn: noise hangs on the robot's seed, the camera and the time. Throws
-  /// std::invalid_argument: the stage has no such robot, or link.
+  /// One picture, with depth two, from that camera of moment.robot. It does not depend on other
+  /// pictures: noise depends on the robot's seed, the camera and the time. Throws
+  /// std::invalid_argument if the stage lacks the robot or link.
   std::vector<Picture> draw(const Moment& moment, std::uint32_t camera);
-  /// What somebody beside the robots sees. Throws std::invalid_argument: there is no such view.
+  /// A picture from outside the robots. Throws std::invalid_argument if there is no such view.
   Picture draw(const Moment& moment, const Outside& from);
 
  private:
   struct Eyes {
-    std::uint64_t seed = 1;  ///< of their noise
+    std::uint64_t seed = 1;  ///< for noise
     std::vector<model::CameraSensor> cameras;
     std::vector<View> views;
   };
@@ -38,11 +38,11 @@ class Drawer {
   Picture measured(const scene::Snapshot& now, const scene::Camera& from, const Moment& moment,
                    std::uint32_t camera, sim::Random& random);
 
-  std::vector<Eyes> eyes_;  ///< of each robot
+  std::vector<Eyes> eyes_;  ///< one per robot
   scene::Scene scene_;
-  std::vector<std::string> names_;  ///< of its labels, once somebody looks for them
+  std::vector<std::string> names_;  ///< of the labels, computed on first use
   render::OffscreenContext context_;
-  std::map<int, render::Renderer> renderers_;  ///< of a robot that looks; of kWorld: from outside
+  std::map<int, render::Renderer> renderers_;  ///< by the robot that looks; kWorld: from outside
 };
 
 }  // namespace verp::camera

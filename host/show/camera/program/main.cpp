@@ -67,10 +67,10 @@ void serve() {
 
 }  // namespace
 
-/// The program beside a run that draws what its cameras see (camera::Rig): a stage in, then moments
-/// in and pictures out, on its standard input, which is a socket.
+/// Draws what a run's cameras see (camera::Rig). Reads a stage and then moments from standard
+/// input, which is a socket, and answers with pictures.
 int main() {
-  // One picture after the other on one core: the run has the other one, and goes first.
+  // Uses one core and a lower priority: the run has the other core and goes first.
   ::setenv("LP_NUM_THREADS", "0", 0);
   ::setpriority(PRIO_PROCESS, 0, 5);
   try {
