@@ -11,7 +11,7 @@
 namespace verp::demos {
 namespace {
 
-constexpr double kPost_m = 0.7;  // from the goal's middle, as common/worlds/pitch has it
+constexpr double kPost_m = 0.7;  // from the goal's middle, as in common/worlds/pitch
 
 std::vector<brain::Pose> on_the_pitch(int robots) {
   std::vector<brain::Pose> places = {{{-0.5, 0.5}, 0}, {{-0.9, -0.6}, 0}};
@@ -19,7 +19,7 @@ std::vector<brain::Pose> on_the_pitch(int robots) {
   return places;
 }
 
-/// Where the ball crossed the goal's line first; none: it did not.
+/// Where the ball first crossed the goal line; empty if it did not.
 std::optional<double> crossed_m(const ThingTrack& ball) {
   const double line_m = brain::kGoalMiddle.x;
   for (std::size_t i = 1; i < ball.at_m.size(); ++i) {

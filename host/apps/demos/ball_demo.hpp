@@ -3,7 +3,7 @@
 
 namespace verp::demos {
 
-/// Two bring a ball into a goal.
+/// Two robots bring a ball into a goal.
 Demo ball_demo();
 
 }  // namespace verp::demos

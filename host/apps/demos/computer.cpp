@@ -8,9 +8,9 @@
 namespace verp::demos {
 namespace {
 
-constexpr double kRemembers_s = 0.6;       // of the past: what sensors measured is at most so old
-constexpr std::uint32_t kOrderTicks = 10;  // as session::WalkOperator's: inside command_hold_s
-constexpr double kApart_s = 0.01;          // nobody has switched all on at one moment
+constexpr double kRemembers_s = 0.6;       // history; measurements are at most this old
+constexpr std::uint32_t kOrderTicks = 10;  // as in session::WalkOperator: inside command_hold_s
+constexpr double kApart_s = 0.01;          // between power-on of two robots
 constexpr double kTenth_mm = 1e4, kMilli = 1e3;
 
 std::int16_t in_steps(double value, double steps) {
@@ -90,7 +90,7 @@ void Computer::pictured(int width_px, int height_px, std::string rgb, std::uint6
   senses_.picture->rgb = std::move(rgb);
 }
 
-/// The last tick before that time, or the oldest that is remembered.
+/// The last tick at or before that time, or the oldest one kept.
 const Computer::Past& Computer::at(double time_s) const {
   constexpr double kRounding_s = 1e-9;
   const auto later = std::find_if(past_.begin(), past_.end(), [&](const Past& each) {

@@ -16,33 +16,33 @@
 
 namespace verp::demos {
 
-/// The computer on a robot's back, at which its brain runs: between the controller's operator link,
-/// the laser, the camera and the radio on one side, and the brain on the other. It is handed what
-/// those measured and told, never the twin or its truth.
+/// The computer on a robot's back that runs the brain. It connects the brain with the operator
+/// link, the laser, the camera and the radio. It receives only what they report, never the twin or
+/// its ground truth.
 class Computer {
  public:
-  /// Entity and parameters must outlive it. The laser, if there is one, is on the trunk.
+  /// The caller keeps `entity` and `params` alive. A laser must be on the trunk.
   Computer(const model::Entity& entity, const Params& params, brain::About about,
            std::unique_ptr<brain::Brain> (*make)(const brain::About&));
 
-  /// The controller's tick, as its registers and its image of State have it.
+  /// A controller tick, from its registers and its State image.
   void ticked(const TickRecord& tick, const State& state, const Outputs& outputs);
-  /// What the laser measured, from its first angle on.
+  /// Laser ranges from the first angle on.
   void scanned(std::vector<float> range_m, std::uint64_t stamp_ns);
-  /// Likewise a picture of the camera: rgb, rows from the top.
+  /// A camera picture: rgb, rows from the top.
   void pictured(int width_px, int height_px, std::string rgb, std::uint64_t stamp_ns);
   void heard(int from, std::string data) { senses_.heard.push_back({from, std::move(data)}); }
 
-  /// A brain thinks this often.
+  /// The brain's period.
   static constexpr double kThink_s = 0.05;
   bool due() const { return senses_.now_s >= next_s_; }
-  /// Has it think, after `spy` has looked at what it is told; the orders are standing from now on.
+  /// Runs the brain; `spy` sees its inputs first. The new orders stand until the next call.
   const brain::Orders& think(const std::function<void(const brain::Senses&)>& spy = {});
   const brain::Orders& orders() const { return orders_; }
-  /// What the operator link says next.
+  /// The next order on the operator link.
   app::OperatorOrder order(std::uint32_t tick);
 
-  /// As far as the robot knows.
+  /// As the robot estimates it.
   const brain::Pose& odometry() const { return odometry_.pose(); }
   const brain::Brain& brain() const { return *brain_; }
 

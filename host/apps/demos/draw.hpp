@@ -4,8 +4,8 @@
 
 namespace verp::demos {
 
-/// From above: where each robot walked (and, thin, where it thought that it was), where it ended
-/// and which way it then looked, what stood in its way, and what moved.
+/// Top view: each robot's path, its own estimate of it (thin line), final poses, obstacles, and
+/// paths of moved objects.
 report::Plot plot_of(const Run& run);
 
 }  // namespace verp::demos

@@ -7,13 +7,13 @@
 
 namespace verp::demos {
 
-/// What robots' cameras see, drawn by a program beside this one at the moment at which they look.
+/// Pictures of the robots' cameras, drawn by another program at the time of exposure.
 class Eyes {
  public:
-  /// Throws camera::CameraError: it is not built, or there is no OpenGL.
+  /// Throws camera::CameraError if that program is not built or there is no OpenGL.
   Eyes(const std::vector<const session::WalkPlan*>& plans, const sim::WorldOptions& world);
 
-  /// What the first camera of the robot that looked saw then; nothing: it was not that one.
+  /// Picture of the robot's first camera; empty if another camera was exposed.
   std::optional<camera::Picture> look(const sim::Exposure& exposure);
 
  private:

@@ -8,7 +8,7 @@
 namespace verp::demos {
 namespace {
 
-constexpr brain::Point kGoal{3.0, 0.9};  // from where it starts, which is the world's origin
+constexpr brain::Point kGoal{3.0, 0.9};  // from the start, which is the world's origin
 
 Verdict judge_goal(const Run& run) {
   constexpr double kThere_m = 0.25;

@@ -3,7 +3,7 @@
 
 namespace verp::demos {
 
-/// One finds its way through rooms that it does not know.
+/// One robot finds its way through unknown rooms.
 Demo goal_demo();
 
 }  // namespace verp::demos

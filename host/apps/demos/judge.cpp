@@ -6,7 +6,7 @@
 namespace verp::demos {
 
 std::vector<brain::Point> smooth(const Track& track) {
-  constexpr double kHalf_s = 0.45;  // a cycle of the gait on each side
+  constexpr double kHalf_s = 0.45;  // a gait cycle on each side
   std::vector<brain::Point> out;
   const auto& moments = track.moments;
   std::size_t first = 0, beyond = 0;
@@ -31,7 +31,7 @@ brain::Pose Line::at(double along_m) const {
   const auto index = std::clamp<std::ptrdiff_t>(after - along_m_.begin(), 1,
                                                 static_cast<std::ptrdiff_t>(points_.size()) - 1);
   const auto i = static_cast<std::size_t>(index);
-  // Over a foot's length: what is left of the sway is no direction.
+  // Direction over a foot's length, because the remaining sway is no direction.
   constexpr double kAround_m = 0.1;
   std::size_t low = i - 1, high = i;
   while (low > 0 && along_m_[i] - along_m_[low] < kAround_m) --low;

@@ -7,7 +7,7 @@ namespace verp::demos {
 namespace {
 
 constexpr double kLow_m = 0.03;
-constexpr int kCorners = 16;  // of something round
+constexpr int kCorners = 16;  // of a round shape
 
 using Kind = model::Shape::Kind;
 

@@ -6,7 +6,7 @@
 
 namespace verp::demos {
 
-/// What never moves and is higher than a sole is thick, from above.
+/// Outlines, from above, of static objects that reach above 3 cm, a sole's thickness.
 std::vector<Outline> outlines_of(const model::World& world);
 
 }  // namespace verp::demos

@@ -16,7 +16,7 @@
 namespace verp::demos {
 namespace {
 
-constexpr double kAfterFall_s = 0.5;  // a picture should show how it ended
+constexpr double kAfterFall_s = 0.5;  // shows the outcome in a picture
 constexpr double kAfterDone_s = 1.5;
 constexpr std::uint32_t kWatchTicks = 5;
 
@@ -99,7 +99,7 @@ class Stage {
     return done || now_s() >= for_s();
   }
 
-  /// That robot has done a tick: its radio, its brain, and, with the first, the referee.
+  /// After a robot's tick: radio and brain; after the first robot's tick, also the referee.
   void ticked(int number) {
     Member& member = crew_[static_cast<std::size_t>(number)];
     radio_.advance(session_.now_us(), antennas());
@@ -163,7 +163,7 @@ class Stage {
     return std::move(run_);
   }
 
-  /// Whatever a demo is about, nobody may fall.
+  /// In every demo, a fall is a failure.
   Verdict judged() const {
     Verdict verdict = demo_.judge(run_);
     for (const Track& track : run_.robots) {
@@ -178,7 +178,7 @@ class Stage {
   std::deque<Member> crew_;
   session::Session session_;
   radio::Radio radio_;
-  std::unique_ptr<Eyes> eyes_;  ///< null: nobody looks
+  std::unique_ptr<Eyes> eyes_;  ///< null: no cameras
   Run run_;
 };
 

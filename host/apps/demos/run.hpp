@@ -16,7 +16,7 @@ namespace verp::demos {
 
 struct Run;
 
-/// A number that tells how well it went.
+/// A number in the verdict.
 struct Fact {
   std::string name;
   double value = 0;
@@ -24,43 +24,43 @@ struct Fact {
 };
 
 struct Verdict {
-  std::string failure;  ///< by what the demo failed its own criterion; empty: it did not
+  std::string failure;  ///< which criterion failed; empty: none
   std::vector<Fact> facts;
 };
 
-/// Robots in a world that do something together, or one alone.
+/// A task for one robot or several in a world.
 struct Demo {
   std::string name, what, criterion;
-  int fewest = 1, usual = 1, most = 1;             ///< robots
+  int fewest = 1, usual = 1, most = 1;             ///< number of robots
   double length_s = 60;                            ///< at most
-  std::string world{};                             ///< of common/worlds; empty: a level floor
-  bool cameras = false;                            ///< they see through their cameras
-  std::vector<brain::Pose> (*places)(int robots);  ///< where they are put down
+  std::string world{};                             ///< in common/worlds; empty: a level floor
+  bool cameras = false;                            ///< the robots use their cameras
+  std::vector<brain::Pose> (*places)(int robots);  ///< start poses
   std::unique_ptr<brain::Brain> (*brain)(const brain::About& about);
-  /// Knows what really happened, as a referee does.
+  /// Judges from the ground truth, as a referee does.
   Verdict (*judge)(const Run& run);
-  std::vector<brain::Point> marks{};  ///< to be seen in the picture, such as a goal
+  std::vector<brain::Point> marks{};  ///< drawn in the picture, such as a goal
 };
 
 const std::vector<Demo>& all_demos();
 
 struct Options {
   std::string model = "generic21";
-  int robots = 0;          ///< 0: as the demo has
-  double for_s = 0;        ///< likewise
-  std::uint64_t seed = 1;  ///< of the first robot; the others have the next ones. And of the radio
+  int robots = 0;          ///< 0: the demo's default
+  double for_s = 0;        ///< 0: the demo's default
+  std::uint64_t seed = 1;  ///< of the radio and of robot 0; robot i uses seed + i
   std::uint32_t physics_step_us = 2000;
   radio::Conditions radio = {};
-  std::string world;             ///< in place of the demo's
-  std::filesystem::path record;  ///< RUN.mcap: each robot's trace is RUN.NAME.mcap; empty: none
-  std::map<std::string, std::string> metadata;  ///< of the traces, besides
-  /// Sees what a robot's brain is told before it is; for tests.
+  std::string world;             ///< replaces the demo's world
+  std::filesystem::path record;  ///< RUN.mcap: robot traces are RUN.NAME.mcap; empty: no traces
+  std::map<std::string, std::string> metadata;  ///< additional, for the traces
+  /// Sees a brain's inputs before the brain does; for tests.
   std::function<void(int robot, const brain::Senses&)> spy;
   std::function<bool()> interrupted;
   std::function<void(double share)> went_on;
 };
 
-/// Where a robot was, and where it thought that it was by its odometry: both in the world.
+/// A robot's true pose and its pose by odometry, both in the world frame.
 struct Moment {
   double time_s = 0;
   brain::Pose real, believed;
@@ -69,20 +69,20 @@ struct Moment {
 struct Track {
   std::string name;
   std::vector<Moment> moments;
-  std::optional<double> fell_s, done_s;  ///< done: as the robot itself thought
-  int touches = 0;                       ///< times it began to touch another robot or a thing
+  std::optional<double> fell_s, done_s;  ///< done: by the robot's own judgement
+  int touches = 0;                       ///< new contacts with another robot or a thing
   std::uint64_t ticks = 0, digest = 0;
   std::filesystem::path trace;
   std::string trace_failure;
 };
 
-/// Where something that can move was at each moment.
+/// Positions of a movable object over time.
 struct ThingTrack {
   std::string name;
   std::vector<brain::Point> at_m;
 };
 
-/// What of the world stands still and is above the floor, seen from above.
+/// A static object above the floor, from above.
 struct Outline {
   std::vector<brain::Point> corners;
 };
@@ -103,9 +103,8 @@ struct Run {
   Verdict verdict;
 };
 
-/// Throws what loading a robot and a world and running a session throws, std::invalid_argument for
-/// a number of robots that the demo has no use for, camera::CameraError where pictures cannot be
-/// drawn.
+/// Throws what loading a robot or a world and running a session throw. Throws std::invalid_argument
+/// for an unsuitable number of robots and camera::CameraError if pictures cannot be drawn.
 Run run(const Demo& demo, const Options& options);
 
 }  // namespace verp::demos

@@ -3,9 +3,9 @@
 
 namespace verp::demos {
 
-/// One leads, the others follow.
+/// One robot leads, the others follow.
 Demo follow_demo();
-/// A column two abreast, which walks and wheels.
+/// A column, two abreast, walks and wheels.
 Demo column_demo();
 
 }  // namespace verp::demos

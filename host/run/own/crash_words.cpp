@@ -13,7 +13,7 @@ namespace {
 thread_local const char* volatile inside_folder = nullptr;
 thread_local volatile std::uint32_t inside_tick = 0;
 
-const char* before_line = "";  ///< on a terminal a progress bar may stand there
+const char* before_line = "";  ///< on a terminal a progress bar may precede it
 
 constexpr int kSignals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
@@ -31,7 +31,7 @@ const char* words_of(int signal) {
   }
 }
 
-/// Only what a signal handler may do.
+/// Async-signal-safe output.
 class Line {
  public:
   void add(const char* text) {
@@ -74,7 +74,7 @@ extern "C" void crashed(int signal) {
   ::_exit(kRunFailed);
 }
 
-/// A stack that has run out has no room for a handler.
+/// After a stack overflow, the signal handler needs a stack of its own.
 void give_thread_a_second_stack() {
   constexpr std::size_t kBytes = 1 << 16;
   thread_local std::unique_ptr<char[]> memory;

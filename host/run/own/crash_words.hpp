@@ -3,11 +3,11 @@
 
 namespace verp::own {
 
-/// From now on a crash inside somebody's controller is told in one line, and ends this process with
-/// status 1. Any other crash is what it was.
+/// From now on, a crash inside a user's controller prints one line and ends this process with
+/// status 1. Other crashes keep their default effect.
 void name_crashes();
 
-/// The thread is inside the controller of that folder for as long as this lives.
+/// While this object lives, the thread is inside the controller of that folder.
 class Inside {
  public:
   Inside(const char* folder, std::uint32_t tick);

@@ -8,23 +8,24 @@
 
 namespace verp::own {
 
-/// A controller that cannot be loaded, or put out what no joint can do: which, where, why.
+/// A controller that cannot be loaded or that commanded an impossible goal. Says which, where and
+/// why.
 class OwnError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A controller of somebody's own, in this process. What it says of itself is its folder.
+/// A user's controller, loaded into this process. Messages name it by its folder.
 class Loaded {
  public:
-  /// `file`: its controller.so. Throws OwnError.
+  /// `file`: the folder's controller.so. Throws OwnError.
   Loaded(const std::filesystem::path& folder, const std::filesystem::path& file);
   ~Loaded();
   Loaded(const Loaded&) = delete;
   Loaded& operator=(const Loaded&) = delete;
 
-  /// One for one run, which lives on with what is returned. Its call throws OwnError for a goal
-  /// that was refused; one that crashes ends this process, in one line and with status 1.
+  /// A controller instance for one run; it keeps `loaded` alive. Calling it throws OwnError for a
+  /// refused goal. A crash in it prints one line and ends this process with status 1.
   static session::Decide controller(const std::shared_ptr<const Loaded>& loaded);
 
   const std::string& folder() const { return folder_; }

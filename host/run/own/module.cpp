@@ -1,5 +1,5 @@
-// Compiled with a controller of somebody's own into its controller.so
-// (toolchains/own_controller.cmake), never into verp.
+// Compiled with a user's controller into its controller.so (toolchains/own_controller.cmake), never
+// into verp.
 #include "host/run/own/module.hpp"
 
 #include <new>

@@ -7,14 +7,14 @@
 
 namespace verp::own {
 
-/// What a controller.so hands out, as `verp_own_module`. Plain C calls: nothing is thrown across.
+/// What a controller.so exports as `verp_own_module`. Plain C calls; no exception crosses them.
 struct Module {
-  /// Of the structs it was compiled with.
+  /// sizeof each struct as compiled into the module
   std::uint32_t params_bytes, state_bytes, inputs_bytes, outputs_bytes;
-  /// A controller that remembers nothing yet; null: no memory.
+  /// A controller in its initial state; null: out of memory.
   void* (*make)();
   void (*unmake)(void* controller);
-  /// One tick. The first joint whose goal was refused, and that goal; -1: none.
+  /// Runs one tick. Returns the first joint whose goal was refused, and that goal; -1: none.
   int (*decide)(void* controller, const Params* params, State* state, const Inputs* inputs,
                 Outputs* outputs, std::int32_t* refused_count);
 };

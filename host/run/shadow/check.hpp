@@ -9,16 +9,16 @@
 
 namespace verp::shadow {
 
-/// A controller once more, beside one that runs: how far the two were compared, and what came of
-/// it, however the other one's ticks reach this PC.
+/// A shadow: this PC steps a second copy of a running controller and compares digests. This base
+/// class does not depend on how the controller's ticks reach the PC.
 class Check {
  public:
   enum class State {
-    kAsking,     ///< for the State to begin with
-    kFollowing,  ///< steps on with what the controller had
-    kReading,    ///< what differs
-    kDiffers,    ///< the end: divergence() says where
-    kRefused,    ///< the end: refusal() says why
+    kAsking,     ///< for the initial State
+    kFollowing,  ///< steps with the controller's Inputs
+    kReading,    ///< the controller's records, after a differing digest
+    kDiffers,    ///< final: see divergence()
+    kRefused,    ///< final: see refusal()
   };
 
   Check(const Check&) = delete;
@@ -27,46 +27,46 @@ class Check {
   State state() const { return state_; }
   bool over() const { return state_ == State::kDiffers || state_ == State::kRefused; }
   bool differs() const { return state_ == State::kDiffers; }
-  /// A digest was another one, and what the controller had is being read.
+  /// A digest differed, and the records are being read.
   bool suspects() const { return state_ == State::kReading; }
-  /// Ticks whose digest was this PC's.
+  /// Ticks with equal digests.
   std::uint64_t compared() const { return compared_; }
-  /// Digests that were others, and that the controller's ticks came too late to look into.
+  /// Differing digests whose records came too late to examine.
   std::uint64_t unsettled() const { return unsettled_; }
-  /// How often ticks did not come whole, and the State was asked for anew.
+  /// Times that ticks were incomplete and the State was requested again.
   std::uint64_t gaps() const { return gaps_; }
-  /// Controllers that began anew.
+  /// Restarts of the controller.
   std::uint64_t boots() const { return boots_; }
   /// The last tick compared.
   std::uint32_t tick() const { return shadow_.admit.tick; }
   std::uint64_t digest() const { return shadow_.digest.chain; }
-  /// When the last tick was heard, or an answer came; 0: never.
+  /// Time of the last tick or answer; 0: never.
   std::uint64_t heard_us() const { return heard_us_; }
   const record::Divergence& divergence() const { return divergence_; }
   const std::string& refusal() const { return refusal_; }
-  /// Why the last gap was one, in words.
+  /// Why the last gap occurred, for the user.
   const std::string& gap() const { return gap_; }
 
  protected:
-  /// `own`: this robot's actions, as this PC has them.
+  /// `own`: this robot's actions on this PC.
   Check(const Params& params, const action::Library& own) : params_(params), own_(own) {}
   ~Check() = default;
 
-  /// The controller has so many actions. It plays one by itself when it falls, so they must be
-  /// these.
+  /// Checks the controller's number of actions against this PC's. The controller plays an action by
+  /// itself after a fall, so both must have the same ones.
   bool take_actions(int count);
-  /// Goes on by a tick with these Inputs; false, and nothing happened: its digest is another one.
+  /// Steps with these Inputs. False, with no change, if the digest differs.
   bool step_on(const Inputs& inputs, std::uint64_t digest);
-  /// On what the controller had by its testimony. `misheard`: why the State is asked for anew if
-  /// this PC only took something else for that.
+  /// Judges `suspicion` with the controller's testimony. `misheard`: why the State is requested
+  /// again if only this PC's Inputs were wrong.
   void conclude(const Suspicion& suspicion, const char* misheard);
-  /// Asks for the State anew.
+  /// Requests the State again.
   virtual void lose(const std::string& why);
   void refuse(const std::string& why);
 
   const Params& params_;
   const action::Library own_;
-  action::Library actions_;  ///< that the controller has
+  action::Library actions_;  ///< the controller's
   State state_ = State::kAsking;
   verp::State shadow_;
   Testimony testimony_;

@@ -11,35 +11,35 @@
 
 namespace verp::shadow {
 
-/// What this PC had before the tick that differs, and what it took for that tick's Inputs.
+/// This PC's State before the differing tick, and the Inputs that it assumed for that tick.
 struct Suspicion {
   State before;
   Inputs inputs;
-  std::uint64_t digest = 0;  ///< that the controller was heard to tell
+  std::uint64_t digest = 0;  ///< as received from the controller
 };
 
-/// What the controller had: the last tick that it holds, and those before it.
+/// The controller's records: the last tick that it holds, and those before it.
 struct Testimony {
   app::HeldTick held;
-  std::vector<TickRecord> ticks;  ///< the oldest first; up to the one that is held
+  std::vector<TickRecord> ticks;  ///< oldest first, up to the held one
 };
 
-/// Those of an image of ImageKind::kTicks that led to the tick held.
+/// The TickRecords of an ImageKind::kTicks image that lead up to the held tick.
 std::vector<TickRecord> ticks_of(const std::uint8_t* image, std::size_t size,
                                  const app::HeldTick& held);
 
 enum class Verdict {
-  kDifference,  ///< not the same bits; the divergence names tick, stage and field
-  kMisheard,    ///< the same bits for what the controller had; this PC took something else
-  kTooLate,     ///< the controller no longer has the ticks in question
+  kDifference,  ///< different results; the divergence names tick, stage and field
+  kMisheard,    ///< equal results for the controller's Inputs; this PC assumed others
+  kTooLate,     ///< the controller no longer has those ticks
 };
 
 struct Judgement {
   Verdict verdict = Verdict::kMisheard;
-  record::Divergence divergence;  ///< of kMisheard: stage "inputs", and what was misheard
+  record::Divergence divergence;  ///< for kMisheard: stage "inputs", and the fields misheard
 };
 
-/// Compares on the controller's own word. Left is the controller, right this PC.
+/// Compares with the controller's own records. Left is the controller, right this PC.
 Judgement judge(const Params& params, const action::Library& actions, const Suspicion& suspicion,
                 const Testimony& testimony);
 

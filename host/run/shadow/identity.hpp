@@ -6,7 +6,8 @@
 
 namespace verp::shadow {
 
-/// Why a controller with these cannot be compared with `params` here, in one line; empty: it can.
+/// Why a controller with this identity cannot be compared with `params`, in one line; empty if it
+/// can.
 std::string why_another(const Params& params, std::uint32_t params_crc, std::uint32_t core_version);
 
 inline constexpr const char* kKeepsNoTicks =

@@ -51,7 +51,7 @@ void LiveCheck::take(const CanFrame& frame, std::uint64_t now_us) {
 
 bool LiveCheck::next(CanFrame& frame, std::uint64_t now_us) {
   if (over() || step_ == Step::kDone) return false;
-  if (heard_us_ == 0) return false;  // no controller tells of its ticks
+  if (heard_us_ == 0) return false;  // no controller reports ticks
   if (hold_is_late(now_us)) {
     client_.cancel();
     running_ = false;
@@ -66,7 +66,8 @@ bool LiveCheck::next(CanFrame& frame, std::uint64_t now_us) {
   return sends;
 }
 
-// The controller forgets ticks while an order to hold them is lost: sooner than SDO would give up.
+// A controller overwrites the ticks in question if a hold order is lost. Retries before SDO's own
+// timeout.
 bool LiveCheck::hold_is_late(std::uint64_t now_us) const {
   constexpr std::uint64_t kAllowance_us = 20'000;
   const bool holds = state_ == State::kReading && step_ == Step::kHold && running_;
@@ -152,8 +153,7 @@ void LiveCheck::end_step(std::uint64_t now_us) {
   }
 }
 
-// A controller that is not there yet, or has no tick yet, is asked again; one that has no such
-// object never will.
+// Retries if the controller does not answer or has no tick yet. Gives up if it lacks the object.
 void LiveCheck::fail_step(std::uint64_t now_us) {
   pause_until_us_ = now_us + kPause_us;
   if (step_ == Step::kHold && client_.reason() == Abort::kDeviceState) {
@@ -189,7 +189,7 @@ void LiveCheck::follow() {
 bool LiveCheck::is_past(const HeardTick& tick) const {
   return static_cast<std::int16_t>(tick.tick_low - static_cast<std::uint16_t>(inputs_.tick)) <= 0;
 }
-// Periods are skipped by an overrun only, and the controller says so.
+// Only an overrun skips periods, and the controller reports it.
 bool LiveCheck::follows(const HeardTick& tick) const {
   return tick.tick_low == static_cast<std::uint16_t>(inputs_.tick + 1) ||
          (tick.flags & kOverrun) != 0;

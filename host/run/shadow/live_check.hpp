@@ -11,28 +11,29 @@
 
 namespace verp::shadow {
 
-/// A controller once more, beside the one on a CAN bus. As soon as it hears of a tick, it asks once
-/// who that controller is, and for the State of one tick, which the controller holds for it while
-/// its loop goes on; from there on it only listens: it steps on with the Inputs that it hears, and
-/// compares each tick's digest. At the first that differs it has the controller hold its State and
-/// its last ticks, reads them, and names tick, stage and field.
+/// Shadow of a controller on a CAN bus. After the first tick heard, it asks once for the
+/// controller's identity and for the State of one tick, which the controller holds while its loop
+/// goes on. From then on it only listens: it steps with the Inputs that it hears and compares each
+/// tick's digest. At the first difference the controller holds its State and last ticks; this class
+/// reads them and names tick, stage and field.
 ///
-/// Ticks that pass while a State is read are compared afterwards, too late to ask for what differs
-/// in one of them: that is counted as unsettled.
+/// Ticks that pass during that reading are compared afterwards. A difference in one of them comes
+/// too late to examine and counts as unsettled.
 ///
-/// A tick that was not heard whole is no difference: it is counted, and the State asked for anew;
-/// likewise after the controller began anew. Frames in, frames out: it knows no interface and asks
+///  A tick that was not heard completely is not a difference: it counts as a gap, and the State is
+///  requested again, as after a restart of the controller. The class consumes and produces frames;
+///  it uses no interface and no clock. Times are monotonic microseconds.
 /// no clock. Times are microseconds that never go back.
 class LiveCheck final : public Check {
  public:
   explicit LiveCheck(const Params& params, const action::Library& own = {});
 
   void take(const CanFrame& frame, std::uint64_t now_us);
-  /// The next frame to send; none while it only listens.
+  /// The next frame to send; false while it only listens.
   bool next(CanFrame& frame, std::uint64_t now_us);
 
  private:
-  /// One SDO after the other; with each, what it is for.
+  /// What each SDO transfer is for, in order.
   enum class Step {
     kName,
     kCore,
@@ -44,11 +45,11 @@ class LiveCheck final : public Check {
     kReleaseLast,
     kDone,
   };
-  static constexpr int kMostHeard = 4096;  ///< ticks kept while a State is on its way
+  static constexpr int kMostHeard = 4096;  ///< ticks kept during the transfer of a State
   static constexpr std::size_t kMostReadings = 4096;
-  static constexpr std::uint64_t kPause_us = 200'000;  ///< before it asks once more
+  static constexpr std::uint64_t kPause_us = 200'000;  ///< before a retry
   static constexpr std::uint64_t kTurn_us =
-      50'000;  ///< with a release, a new tick is kept after so long
+      50'000;  ///< after a release, the controller records a new tick within this time
 
   void ask(Step step);
   bool hold_is_late(std::uint64_t now_us) const;
@@ -67,10 +68,10 @@ class LiveCheck final : public Check {
   Step step_ = Step::kName;
   bool running_ = false;  ///< the step's transfer has begun
   std::uint64_t step_began_us_ = 0, pause_until_us_ = 0;
-  std::uint8_t number_[4] = {};      ///< of a short transfer
-  std::vector<std::uint8_t> bytes_;  ///< of a long one
+  std::uint8_t number_[4] = {};      ///< data of a short transfer
+  std::vector<std::uint8_t> bytes_;  ///< data of a long transfer
   std::uint32_t crc_ = 0;            ///< of the controller's Params
-  bool begun_ = false;               ///< there is a State to go on from
+  bool begun_ = false;               ///< there is a State to step from
   Inputs inputs_;
   std::deque<HeardTick> heard_;
   std::unique_ptr<Suspicion> suspicion_;

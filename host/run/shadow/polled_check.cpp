@@ -10,7 +10,7 @@ using Answer = TickPort::Answer;
 using Log = app::TickLog<>;
 
 namespace {
-constexpr int kMostReads = 100;  // of the tick, until it is another
+constexpr int kMostReads = 100;  // of the tick register, until it changes
 }
 
 bool PolledCheck::turn(std::uint64_t now_us) {
@@ -38,7 +38,7 @@ bool PolledCheck::begin() {
   if (!good(port_.read(reg("action_count"), &actions, sizeof actions)) || !take_actions(actions)) {
     return false;
   }
-  // What was held before is of long ago.
+  // Releases an earlier hold, which is stale.
   if (!hold(Log::kNothing) || !good(port_.read(reg("tick"), &tick, sizeof tick))) return false;
   for (int reads = 0; reads < kMostReads && (reads == 0 || later == tick); ++reads) {
     if (!good(port_.read(reg("tick"), &later, sizeof later))) return false;
@@ -77,7 +77,7 @@ bool PolledCheck::follow() {
   const std::size_t place = next_ % kTicks * sizeof record;
   if (!good(port_.read(reg("tick"), &newest, sizeof newest))) return false;
   const std::uint32_t ahead = newest - next_;
-  if (ahead == ~0u) return false;  // it is the one before
+  if (ahead == ~0u) return false;  // `next_` does not exist yet
   if (ahead >= kTicks) {
     const bool back = ahead >= 1u << 31;
     boots_ += back ? 1 : 0;
@@ -100,7 +100,7 @@ bool PolledCheck::compare(const TickRecord& record) {
   return true;
 }
 
-// A record that was written while it was read is no difference either.
+// A record that changed while it was read is not a difference either.
 bool PolledCheck::settle(const TickRecord& record) {
   if (!hold(Log::kAll) || !read_state() || !read_ticks() || !hold(Log::kNothing)) {
     ++unsettled_;

@@ -6,18 +6,17 @@
 
 namespace verp::shadow {
 
-/// A controller once more, beside one at the end of a serial link that is not its servo bus. The
-/// controller keeps the records of its last ticks (firmware/app/tick_log.hpp); this PC fetches them
-/// at its own pace, one by one, steps on with their Inputs and compares. The controller never waits
-/// for it: ticks that it has dropped before they were fetched are counted as a gap, and its State
-/// is read anew.
+/// Shadow of a controller at the end of a serial link other than its servo bus. The controller
+/// keeps records of its last ticks (firmware/app/tick_log.hpp). This PC fetches them one by one at
+/// its own pace, steps with their Inputs and compares. The controller never waits. Ticks that it
+/// dropped before they were fetched count as a gap, and its State is read again.
 class PolledCheck final : public Check {
  public:
-  /// `params` and `port` outlive it.
+  /// The caller keeps `params` and `port` alive.
   PolledCheck(const Params& params, TickPort& port, const action::Library& own = {})
       : Check(params, own), port_(port) {}
 
-  /// One request, or a few; false if there is nothing new, or nobody answers.
+  /// Makes a few requests; false if there is nothing new or no answer.
   bool turn(std::uint64_t now_us);
 
  private:
@@ -33,7 +32,7 @@ class PolledCheck final : public Check {
   bool settle(const TickRecord& record);
 
   TickPort& port_;
-  std::uint32_t next_ = 0;  ///< tick
+  std::uint32_t next_ = 0;  ///< the next tick to fetch
   std::uint64_t now_us_ = 0;
 };
 

@@ -13,8 +13,8 @@
 
 namespace verp::shadow {
 
-/// Everything that a source said while a tick lasted, each value once, the last one first: which of
-/// several the controller took cannot be heard.
+/// The distinct values that a source sent during one tick, latest first. A listener cannot hear
+/// which of them the controller used.
 template <class Value>
 using Said = std::vector<Value>;
 
@@ -26,10 +26,10 @@ struct SlowTold {
   bool operator==(const SlowTold&) const = default;
 };
 
-/// One tick as it was heard on a CAN bus.
+/// One tick as heard on a CAN bus.
 struct HeardTick {
   std::uint16_t tick_low = 0;
-  std::uint16_t flags = 0;  ///< of Inputs, and canopen::published's
+  std::uint16_t flags = 0;  ///< of Inputs and of canopen::published
   std::uint32_t fresh = 0;
   std::uint64_t digest = 0;
   std::vector<canopen::published::Part> parts;
@@ -39,17 +39,17 @@ struct HeardTick {
   Said<SlowTold> slow;
 };
 
-/// Finds the ticks of a controller in the frames of its bus. It sends nothing.
+/// Reassembles a controller's ticks from the frames on its bus. It sends nothing.
 class TickListener {
  public:
   explicit TickListener(const Params& params);
 
   void take(const CanFrame& frame);
-  /// The next tick of which the controller has told all; false if there is none.
+  /// The next complete tick; false if there is none.
   bool next(HeardTick& tick);
-  /// Ticks of which a digest or a record was missed, until now.
+  /// Ticks whose digest or record was missed.
   std::uint64_t missed() const { return missed_; }
-  /// The controller booted since this was asked last.
+  /// The controller booted since the last call.
   bool take_boot();
 
  private:
@@ -59,7 +59,7 @@ class TickListener {
     bool has_record = false;
     std::size_t parts_due = 0;
   };
-  /// What a request for slow telemetry asked, and what has come of it.
+  /// The pending request for slow telemetry, and its result so far.
   struct Asked {
     int joint = -1;
     std::uint16_t index = 0;
@@ -76,10 +76,9 @@ class TickListener {
 
   const Params& params_;
   app::CanNodes nodes_;
-  std::deque<Round>
-      rounds_;  ///< of which the controller has not told all; the last one is under way
+  std::deque<Round> rounds_;  ///< incomplete ticks; the last one is under way
   std::deque<HeardTick> ticks_;
-  HeardTick early_;   ///< said when the round before had been told, and the next had not begun
+  HeardTick early_;   ///< heard after the last round was complete and before the next began
   bool told_ = true;  ///< of the newest round
   Asked asked_;
   Said<SlowTold> slow_;
@@ -87,8 +86,8 @@ class TickListener {
   bool booted_ = false;
 };
 
-/// All Inputs that the tick may have had after one with `before`, the likeliest first, at most
-/// `most`. None if something was not heard that the controller had: then `lacking` says what.
+/// All Inputs that the tick may have had after one with `before`, likeliest first, at most `most`.
+/// Empty if a value that the controller used was not heard; `lacking` then names it.
 std::vector<Inputs> readings(const HeardTick& tick, const Inputs& before, const Params& params,
                              std::size_t most, std::string& lacking);
 

@@ -14,10 +14,10 @@ using app::reg;
 
 constexpr int kAttempts = 3;
 constexpr std::uint64_t kPatience_ns =
-    100'000'000;  // of one attempt; a loop answers in its idle time
+    100'000'000;  // per attempt; the loop answers in its idle time
 constexpr std::uint32_t kSlice_us = 5'000;
 constexpr std::uint32_t kQuiet_us = 20'000;
-/// Blocks of an image in one go: what a board's port can hold of requests.
+/// Image blocks per exchange, limited by the requests that a board's port can buffer.
 constexpr int kBlocksAtOnce = 2;
 
 }  // namespace
@@ -30,7 +30,7 @@ void TickPort::add_read(std::uint16_t address, std::uint8_t* to, std::size_t siz
   asked_.push_back({to, size});
 }
 
-// A write to all gets no answer, and so costs none of the link's time.
+// A broadcast write gets no answer and so costs no waiting.
 void TickPort::add_write(std::uint8_t id, std::uint16_t address, const void* data,
                          std::size_t size) {
   std::uint8_t packet[32];
@@ -74,7 +74,7 @@ TickPort::Answer TickPort::read_image(app::ImageKind kind, std::size_t offset, v
 TickPort::Answer TickPort::exchange() {
   Answer answer = Answer::kSilent;
   for (int attempt = 0; attempt < kAttempts && answer == Answer::kSilent; ++attempt) {
-    if (attempt > 0) drain();  // an answer that is late is no answer to the next request
+    if (attempt > 0) drain();  // a late answer must not count for the next request
     link_.write(outbox_.data(), outbox_.size(), static_cast<std::uint32_t>(kPatience_ns / 1000));
     bool refused = false;
     if (collect(refused)) answer = refused ? Answer::kRefused : Answer::kGood;

@@ -9,14 +9,14 @@
 
 namespace verp::shadow {
 
-/// A controller at its operator's port (Dynamixel device 200): its registers, and its images
-/// through the block window, several requests in one go. What gets no answer is asked again.
+/// A controller at its operator port (Dynamixel device 200): its registers, and its images through
+/// the block window, several requests per exchange. Unanswered requests are repeated.
 class TickPort {
  public:
   enum class Answer {
     kGood,
-    kSilent,   ///< none came, however often it was asked
-    kRefused,  ///< error() says why
+    kSilent,   ///< no answer after all attempts
+    kRefused,  ///< see error()
   };
 
   /// Throws LinkError.
@@ -24,14 +24,14 @@ class TickPort {
 
   Answer read(std::uint16_t address, void* to, std::uint16_t size);
   Answer write(std::uint16_t address, std::uint8_t value);
-  /// Bytes of an image.
+  /// Reads bytes of an image.
   Answer read_image(app::ImageKind kind, std::size_t offset, void* to, std::size_t size);
 
   dxl::Error error() const { return error_; }
   bool connected() const { return link_.connected(); }
 
  private:
-  /// Where the data of an answer goes.
+  /// Destination of an answer's data.
   struct Request {
     std::uint8_t* to = nullptr;
     std::size_t size = 0;
@@ -48,7 +48,7 @@ class TickPort {
   dxl::Error error_ = dxl::Error::kNone;
   std::vector<std::uint8_t> outbox_;
   std::vector<Request> asked_;
-  app::ImageKind window_ = app::ImageKind::kNone;  ///< as far as we know
+  app::ImageKind window_ = app::ImageKind::kNone;  ///< as last set; kNone: unknown
 };
 
 }  // namespace verp::shadow

@@ -13,7 +13,7 @@ namespace {
 
 constexpr char kPlayer = 'B';
 constexpr double kPlayerTells_s = 0.2;
-constexpr double kOld_s = 1.5;  // what was seen before that is no news
+constexpr double kOld_s = 1.5;  // older sightings do not count
 constexpr double kMilli = 1e-3;
 
 struct Ball {
@@ -21,7 +21,7 @@ struct Ball {
   double seen_s = -1e9;
 };
 
-/// What the other one tells.
+/// The other robot's report.
 struct Mate {
   Pose at;
   Ball ball;
@@ -36,7 +36,7 @@ class Player final : public Brain {
   Orders think(const Senses& senses) override {
     Orders orders;
     me_ = out_of(about_.placed, senses.odometry);
-    // The trunk sways by as much as a foot is wide.
+    // Averages, because the trunk sways by the width of a foot.
     constexpr double kShare = 0.2;
     steady_m_ = begun_ ? steady_m_ + kShare * (me_.at_m - steady_m_) : me_.at_m;
     begun_ = true;
@@ -84,7 +84,7 @@ class Player final : public Brain {
     if (seen) ball_ = {out_of(about_.placed, *seen), picture.time_s};
   }
 
-  /// Its own sight, or, if it has none, what the other one sees.
+  /// The robot's own sighting; without one, the other robot's.
   std::optional<Point> known_ball(double now_s) const {
     if (now_s - ball_.seen_s < kOld_s) return ball_.at_m;
     if (now_s - mate_.heard_s < kOld_s && now_s - mate_.ball.seen_s < kOld_s)
@@ -105,7 +105,7 @@ class Player final : public Brain {
            kOfTurn_m_rad * std::abs(wrapped(direction_rad(to_goal(ball)) - me_.yaw_rad));
   }
 
-  /// Who has less far to go attacks; who does keeps at it unless it is much worse.
+  /// The robot with the shorter way attacks. The attacker keeps attacking unless it is much worse.
   void decide(double now_s, bool knows) {
     constexpr double kKeep_m = 0.4;
     const bool alone = now_s - mate_.heard_s > 2 * kOld_s;
@@ -119,7 +119,7 @@ class Player final : public Brain {
     attacks_ = mine_m < others_m || (mine_m == others_m && about_.number == 0);
   }
 
-  /// Turns to there and goes; sidesteps where it is near.
+  /// Turns towards `there` and walks; sidesteps when near.
   void go(Point there, double look_rad, Orders& orders) const {
     constexpr double kNear_m = 0.25, kSpeed_m_s = 0.15, kTurn_1_s = 0.55, kMost_rad_s = 0.4;
     const double far_m = distance(me_.at_m, there);
@@ -133,11 +133,11 @@ class Player final : public Brain {
 
   void attack(Point ball, Orders& orders) {
     constexpr double kBeside_m = 0.4, kLine_m = 0.03, kAligned_rad = 0.12, kPush_m_s = 0.16;
-    constexpr double kFoot_m = 0.036;  // a foot's middle is so far beside the trunk's
+    constexpr double kFoot_m = 0.036;  // a foot's middle is this far beside the trunk's
     const Point u = to_goal(ball);
     const double look_rad = direction_rad(u);
-    // x: ahead of the ball; y: beside where it is in front of the nearer foot. Hit by the inner
-    // edges of both it goes anywhere.
+    // x: ahead of the ball; y: offset from the line on which the nearer foot meets the ball. Hit by
+    // the inner edges of both feet, the ball may go anywhere.
     Point me = into({ball, look_rad}, steady_m_);
     const double foot_m = me.y < 0 ? -kFoot_m : kFoot_m;
     me.y -= foot_m;
@@ -150,7 +150,7 @@ class Player final : public Brain {
     };
     if (pushes_)
       return steer({steady_m_, me_.yaw_rad}, {on_line(me.x), look_rad}, kPush_m_s, 0, orders);
-    // Beside it or in front of it, it goes round first, on the side on which it is.
+    // Beside or in front of the ball, the robot first walks round it on its own side.
     if (me.x > -0.6 * kBehind_m && std::abs(me.y) < kBeside_m) {
       const double side = me.y < 0 ? -1 : 1;
       return go(out_of({ball, look_rad}, Point{-kBehind_m, side * kBeside_m}), look_rad, orders);
@@ -169,7 +169,7 @@ class Player final : public Brain {
 
   void search(double now_s, Orders& orders) {
     constexpr double kTurn_rad_s = 0.3, kWait_s = 6;
-    if (now_s - std::fmax(ball_.seen_s, 0) < kWait_s) return;  // the head alone looks, at first
+    if (now_s - std::fmax(ball_.seen_s, 0) < kWait_s) return;  // at first only the head searches
     orders.walk = true;
     orders.wz_rad_s = kTurn_rad_s;
   }
@@ -204,7 +204,7 @@ class Player final : public Brain {
 
   static constexpr double kBehind_m = 0.3;
   static constexpr double kSideLine_m = 2;  // beyond it a ball is out
-  static constexpr double kSurely_m = 0.4;  // behind the line: far balls are seen too far or near
+  static constexpr double kSurely_m = 0.4;  // beyond the line: distances of far balls are inexact
 
   const About about_;
   Pose me_;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kFewest = 8;  // pixels
 
-/// Bright or in shade, orange has much more red than green and more green than blue.
+/// Orange, bright or in shade, has much more red than green and more green than blue.
 bool is_orange(const unsigned char* pixel) {
   const int red = pixel[0], green = pixel[1], blue = pixel[2];
   return red > 70 && 10 * red > 14 * green && 10 * green > 15 * blue;
@@ -31,7 +31,7 @@ std::optional<Blob> orange_blob(const Picture& picture) {
     Blob blob;
     left[static_cast<std::size_t>(first)] = 0;
     open.assign(1, first);
-    while (!open.empty()) {  // all that hangs together with it
+    while (!open.empty()) {  // flood fill
       const int at = open.back();
       open.pop_back();
       const int u = at % width, v = at / width;
@@ -65,7 +65,7 @@ std::optional<Point> on_floor(const About& about, const Picture& picture, double
     for (int column = 0; column < 3; ++column)
       level[row] += picture.camera_axes[3 * row + column] * ray[column];
   }
-  constexpr double kFlattest = 0.02;  // a ray that is nearly level says nothing of how far
+  constexpr double kFlattest = 0.02;  // a nearly level ray gives no distance
   if (level[2] > -kFlattest) return std::nullopt;
   const double far = (picture.camera_m[2] - high_m) / -level[2];
   return out_of(picture.odometry,

@@ -13,25 +13,25 @@ namespace {
 
 constexpr char kGuide = 'G', kFile = 'C';
 constexpr double kTell_s = 0.25;
-constexpr double kOnItsWay_s = 0.01;  // what a message is old by when it comes, about
+constexpr double kOnItsWay_s = 0.01;  // approximate age of a message on arrival
 constexpr double kGetReady_s = 12;
 constexpr double kUnit = 1e-3;
 
-/// What the guide tells: how far it has come, where and how it then was.
+/// The guide's report: its progress, pose and speed.
 struct Told {
   double way_m = 0, speed_m_s = 0;
   Pose at;
   bool over = false;
 };
 
-/// The guide's way as far as it was told, by how far along it is.
+/// The guide's route as reported so far, by distance along it.
 struct Way {
   std::vector<Told> points;
 
   void add(const Told& told) {
     if (points.empty() || told.way_m > points.back().way_m + 0.02) points.push_back(told);
   }
-  /// Before its beginning and beyond its end it goes straight on.
+  /// Straight before its beginning and beyond its end.
   Pose at(double way_m) const {
     if (points.empty() || way_m <= 0) return {{way_m, 0}, 0};
     Told before;
@@ -76,7 +76,7 @@ class Guide final : public Brain {
     orders.done = walker_->over();
     if (senses.now_s < next_s_) return orders;
     next_s_ = senses.now_s + kTell_s;
-    // Where the way is, not where the trunk sways to and fro.
+    // Sends the point on the route, because the trunk sways.
     orders.say.push_back({Packet(kGuide)
                               .put(walker_->way_m(), kUnit)
                               .put(walker_->speed_m_s(), kUnit)
@@ -96,7 +96,7 @@ class Guide final : public Brain {
   double next_s_ = 0;
 };
 
-/// Another robot, as it told of itself.
+/// Another robot's report of itself.
 struct Other {
   Pose at;
   double speed_m_s = 0, within_m = 0, heard_s = -1e9;
@@ -152,7 +152,7 @@ class File final : public Brain {
     }
   }
 
-  /// Those before it have told where they are: what stands near there is one of them.
+  /// Each robot ahead reported its pose: a thing near one of those poses is that robot.
   void look(const Scan& scan, const Senses& senses) {
     constexpr double kFresh_s = 1, kSeen_m = 0.05, kNear_m = 0.3;
     for (const Thing& thing : things(about_, scan)) {
@@ -195,7 +195,7 @@ class File final : public Brain {
   const About about_;
   const Slot slot_;
   Estimate estimate_;
-  std::vector<Other> others_;  ///< of smaller numbers: what is told does not come back
+  std::vector<Other> others_;  ///< only smaller numbers: no estimate feeds back into itself
   Way way_;
   std::optional<Told> told_;
   double told_s_ = 0, next_s_ = 0;

@@ -9,11 +9,11 @@ namespace verp::brain {
 namespace {
 
 constexpr char kPace = 'F';
-constexpr double kSay_s = 0.25;     // how often a robot tells its pace
-constexpr double kPatience_s = 12;  // for others to get ready
+constexpr double kSay_s = 0.25;     // interval between reports
+constexpr double kPatience_s = 12;  // wait for the others to get ready
 constexpr double kSpeedStep_m_s = 1e-3;
 
-/// What each tells of itself.
+/// A robot's report of itself.
 struct Pace {
   double speed_m_s = 0;
   bool ready = false, over = false;
@@ -35,7 +35,7 @@ std::optional<Pace> heard(const Message& message) {
   return pace;
 }
 
-/// Tells its pace from time to time.
+/// Reports the pace every kSay_s.
 class Talker {
  public:
   void talk(double now_s, const Pace& pace, Orders& orders) {
@@ -87,11 +87,11 @@ class Leader final : public Brain {
   Talker talker_;
 };
 
-/// Where the one ahead was seen, one place after the other, in this robot's odometry.
+/// Successive sightings of the robot ahead, in this robot's odometry frame.
 class Trail {
  public:
   bool begun() const { return !crumbs_.empty(); }
-  /// Of a robot that stands here, and sees the one ahead there.
+  /// Starts with points from this robot to the robot ahead.
   void begin(Point here, Point there) {
     const int count = static_cast<int>(distance(here, there) / kCrumb_m);
     for (int i = 0; i <= count; ++i)
@@ -99,14 +99,13 @@ class Trail {
     crumbs_.push_back(there);
     seen_ = there;
   }
-  /// A walker sways by as much as it goes ahead between two looks: its mean over some of them
-  /// counts.
+  /// Uses a moving average, because a walker's sway between two scans is as large as its progress.
   void add(Point there) {
     constexpr double kShare = 0.25;
     seen_ = seen_ + kShare * (there - seen_);
     if (distance(crumbs_.back(), seen_) > kCrumb_m) crumbs_.push_back(seen_);
   }
-  /// Forgets what is behind the robot.
+  /// Drops points behind the robot.
   void pass(Point here) {
     while (crumbs_.size() > 2 && distance(crumbs_[1], here) <= distance(crumbs_[0], here))
       crumbs_.pop_front();
@@ -156,7 +155,7 @@ class Follower final : public Brain {
   }
 
  private:
-  /// Finds the one ahead where it is expected: at first straight ahead, then near where it was.
+  /// Finds the robot ahead where it is expected: at first straight ahead, then near its last place.
   void look(const Scan& scan) {
     constexpr double kNear_m = 0.3;
     const Point expected = trail_.begun() ? trail_.seen() : out_of(scan.odometry, Point{kGap_m, 0});
@@ -173,7 +172,7 @@ class Follower final : public Brain {
   }
 
   void follow(const Senses& senses, Orders& orders) {
-    constexpr double kLost_s = 2;  // not seen for so long: it waits where it is
+    constexpr double kLost_s = 2;  // older sightings and reports do not count
     constexpr double kLook_m = 0.4, kNear_m = 0.45, kAlong_1_s = 0.5, kLeast_m_s = 0.06;
     constexpr double kMost_m_s = 0.24, kMostTurn_rad_s = 0.5, kThere_m = 0.04;
     const Point here = senses.odometry.at_m;
@@ -185,13 +184,13 @@ class Follower final : public Brain {
     if (senses.now_s - seen_s_ > kLost_s || gap_m < kNear_m) v_m_s = 0;
     if (told && ahead_.over && gap_m < kGap_m + kThere_m) over_ = true;
     if (over_) return;
-    // The gait begins when there is a way to go, and then goes on on the spot.
+    // The gait starts when there is a way to go, and then continues on the spot.
     started_ = started_ || gap_m > kGap_m + kThere_m || pace_m_s > 0;
     if (!started_) return;
     orders.walk = true;
     orders.vx_m_s = std::fmax(0, std::fmin(kMost_m_s, v_m_s));
     const Point ahead = into(senses.odometry, trail_.ahead(here, kLook_m));
-    // On the circle through where it is, along where it looks, and there (pure pursuit).
+    // Pure pursuit: the circle through the robot, along its heading, and the point ahead.
     const double turn_1_s = 2 * std::fmax(orders.vx_m_s, kLeast_m_s) / kLook_m;
     if (orders.vx_m_s > 0)
       orders.wz_rad_s = within(turn_1_s * std::sin(direction_rad(ahead)), kMostTurn_rad_s);

@@ -7,16 +7,16 @@
 
 namespace verp::brain {
 
-/// How far behind the one ahead a follower walks.
+/// Distance between a follower and the robot ahead.
 inline constexpr double kGap_m = 0.8;
 
-/// The first walks along a way that nobody else knows, and tells how fast it is. Each other one
-/// follows the one before it: it sees that one by its laser, remembers where it saw it, and walks
-/// there, slower where it is near and faster where it is far.
+/// The leader walks a route that the others do not know and reports its speed. Each follower tracks
+/// the robot ahead with its laser, remembers where it saw it, and walks there: slower when near,
+/// faster when far.
 std::unique_ptr<Brain> make_leader(const About& about, double speed_m_s);
 std::unique_ptr<Brain> make_follower(const About& about);
 
-/// The leader's, from where it stands.
+/// The leader's route, from its start pose.
 Route leaders_way();
 
 }  // namespace verp::brain

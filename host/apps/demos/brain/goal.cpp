@@ -12,7 +12,7 @@ namespace {
 constexpr double kSpeed_m_s = 0.14;
 constexpr double kPlan_s = 0.5;
 constexpr double kThere_m = 0.1;
-constexpr double kLook_m = 0.3;  // ahead on the way
+constexpr double kLook_m = 0.3;  // ahead on the path
 
 class GoalGoer final : public Brain {
  public:
@@ -36,7 +36,7 @@ class GoalGoer final : public Brain {
   }
 
  private:
-  /// The map's frame is where the robot stands now.
+  /// The robot's present pose becomes the map's origin.
   void begin(const Senses& senses) {
     begun_ = true;
     odometry_frame_ = into(senses.odometry, Pose{});
@@ -53,7 +53,7 @@ class GoalGoer final : public Brain {
     Pose there = out_of(odometry_frame_, scan.odometry);
     if (!grid_.empty()) {
       there = matched(grid_, there, seen);
-      // So that what odometry says then is where the map says that it is.
+      // From now on, odometry in this frame gives the pose in the map.
       odometry_frame_ = out_of(there, into(scan.odometry, Pose{}));
     }
     grid_.add(there, about_, seen);
@@ -63,7 +63,7 @@ class GoalGoer final : public Brain {
     constexpr double kTurn_1_s = 1.3, kMostTurn_rad_s = 0.45, kOnTheSpot_rad = 0.7;
     constexpr double kStop_m = 0.24;
     orders.walk = true;
-    if (way_.empty()) {  // it looks around
+    if (way_.empty()) {  // looks around
       orders.wz_rad_s = 0.3;
       return;
     }
@@ -75,7 +75,7 @@ class GoalGoer final : public Brain {
       orders.vx_m_s = kSpeed_m_s * share * share * std::max(0.4, slow);
   }
 
-  /// A point of the way a little ahead of its nearest one.
+  /// The point of the path a little beyond the nearest one.
   Point ahead(Point here) const {
     std::size_t i = 0;
     for (std::size_t k = 1; k < way_.size(); ++k) {
@@ -88,7 +88,7 @@ class GoalGoer final : public Brain {
   const About about_;
   const Point goal_;
   Grid grid_;
-  Pose odometry_frame_;  ///< in the map's
+  Pose odometry_frame_;  ///< in the map frame
   std::vector<Point> way_;
   double next_s_ = 0, nearest_ahead_m_ = 0;
   bool begun_ = false, there_ = false;

@@ -23,7 +23,7 @@ void Grid::add(const Pose& robot, const About& about, const std::vector<Hit>& hi
     for (int i = 0; i < steps; ++i) {
       const Point at = laser + static_cast<double>(i) / steps * way;
       const int x = cell(at.x), y = cell(at.y);
-      // Each cell once a ray; that of the end and its neighbours are not passed through.
+      // Counts each cell once per ray. The end cell and its neighbours are not passed through.
       if ((x == last_x && y == last_y) || std::max(std::abs(x - end_x), std::abs(y - end_y)) < 2)
         continue;
       count(last_x = x, last_y = y, -kMiss);
@@ -33,7 +33,7 @@ void Grid::add(const Pose& robot, const About& about, const std::vector<Hit>& hi
   ++adds_;
 }
 
-/// Between the middles of four cells; only what is taken counts.
+/// Bilinear between four cell centres; only occupied cells count.
 double Grid::at(double x_m, double y_m) const {
   const double x = x_m / kCell_m - 0.5, y = y_m / kCell_m - 0.5;
   const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
@@ -67,7 +67,7 @@ std::vector<float> Grid::clearance_m(double most_m) const {
     if (inside(x + dx, y + dy))
       far[index(x, y)] = std::min(far[index(x, y)], far[index(x + dx, y + dy)] + by);
   };
-  // Two passes, each from one corner to the other (a chamfer distance).
+  // Chamfer distance: two passes, one from each corner.
   for (int y = 0; y < kCells; ++y) {
     for (int x = 0; x < kCells; ++x) {
       relax(x, y, -1, 0, kSide);
@@ -88,12 +88,12 @@ std::vector<float> Grid::clearance_m(double most_m) const {
 }
 
 Pose matched(const Grid& grid, const Pose& about_there, const std::vector<Hit>& hits) {
-  constexpr std::size_t kFewestRays = 20;  // for a place to be told from others
+  constexpr std::size_t kFewestRays = 20;  // fewer do not identify a place
   constexpr double kLeast = 0.15;
   if (hits.size() < kFewestRays) return about_there;
   Pose best = about_there;
   double best_fit = grid.fit(best, hits);
-  // Around what is best so far, finer each time. Nearer is better where two fit alike.
+  // Searches around the best pose, finer each time. Of equal fits, the nearer wins.
   for (const double scale : {1.0, 0.5, 0.25}) {
     constexpr int kSteps = 2;
     const double step_m = 0.04 * scale, step_rad = 0.02 * scale;

@@ -6,12 +6,12 @@
 
 namespace verp::brain {
 
-/// What a laser knows of a floor: cells that are taken, free, or not seen yet. The frame's origin
-/// is in the middle.
+/// Occupancy grid of a floor from laser scans: cells are occupied, free or unseen. The frame's
+/// origin is in the middle.
 class Grid {
  public:
   static constexpr double kCell_m = 0.05;
-  static constexpr int kCells = 240;  ///< on each side: 12 m
+  static constexpr int kCells = 240;  ///< per side: 12 m
 
   Grid() : odds_(static_cast<std::size_t>(kCells) * kCells, 0) {}
 
@@ -22,13 +22,13 @@ class Grid {
     return static_cast<std::size_t>(y) * kCells + static_cast<std::size_t>(x);
   }
 
-  /// Rays to what a robot saw from there.
+  /// Adds the rays of a scan that the robot took at that pose.
   void add(const Pose& robot, const About& about, const std::vector<Hit>& hits);
-  /// Surely taken.
+  /// Certainly occupied.
   bool taken(int x, int y) const { return inside(x, y) && odds_[index(x, y)] >= kTaken; }
-  /// How well what a robot sees fits if it stands there: the mean over all that it sees, 0 to 1.
+  /// How well the hits match the grid if the robot stands there: mean over all hits, 0 to 1.
   double fit(const Pose& robot, const std::vector<Hit>& hits) const;
-  /// How far each cell is from the next one that is taken, m; at most `most_m`.
+  /// Each cell's distance to the nearest occupied cell, m; at most `most_m`.
   std::vector<float> clearance_m(double most_m) const;
   bool empty() const { return adds_ == 0; }
 
@@ -41,12 +41,12 @@ class Grid {
   int adds_ = 0;
 };
 
-/// Where a robot is that stands about there and sees that: the best of the places around, or
-/// `about_there` if none fits.
+/// Scan matching: the pose near `about_there` that fits the hits best, or `about_there` if none
+/// fits.
 Pose matched(const Grid& grid, const Pose& about_there, const std::vector<Hit>& hits);
 
-/// The cheapest way between two points that keeps clear of what is taken: A* over the grid's cells;
-/// what was not seen yet is taken for free. Empty: there is none.
+/// Cheapest path between two points that keeps clear of occupied cells (A*). Unseen cells count as
+/// free. Empty: there is no path.
 std::vector<Point> way(const Grid& grid, Point from, Point to);
 
 }  // namespace verp::brain

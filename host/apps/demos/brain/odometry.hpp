@@ -4,11 +4,11 @@
 
 namespace verp::brain {
 
-/// Where a robot thinks that it is: what its controller estimates and tells on the operator link
-/// (common/balance/estimator.hpp), and where its parts then are. It drifts, and does not notice.
+/// The robot's own pose estimate from its controller's state (common/balance/estimator.hpp), and
+/// the poses of its links. It drifts without noticing.
 class Odometry {
  public:
-  /// The parameters must outlive it.
+  /// The caller keeps `params` alive.
   explicit Odometry(const Params& params) : params_(params) {}
 
   void update(const Inputs& inputs, const State& state);
@@ -16,8 +16,8 @@ class Odometry {
   double roll_rad() const { return roll_rad_; }
   double pitch_rad() const { return pitch_rad_; }
 
-  /// A point of that node's frame, and its axes, above the point of the floor that `pose` has: x
-  /// ahead, z up. By the joints' angles as read last.
+  /// Pose of a node's frame above the floor point of `pose` (x ahead, z up), from the last joint
+  /// angles.
   const math::Pose& above_floor(int node) const { return node_[node]; }
 
  private:

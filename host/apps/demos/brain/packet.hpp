@@ -8,7 +8,7 @@
 
 namespace verp::brain {
 
-/// Numbers as 16-bit steps, little-endian: a radio's messages are short.
+/// Encodes numbers as 16-bit steps, little-endian, because radio messages are short.
 class Packet {
  public:
   explicit Packet(char kind) : data_(1, kind) {}
@@ -28,7 +28,7 @@ class Packet {
   std::string data_;
 };
 
-/// Read back in the same order; what is missing reads as 0, and good() says so.
+/// Decodes in the same order. A missing value reads as 0 and clears good().
 class Unpacked {
  public:
   explicit Unpacked(std::string_view data) : data_(data) {}
@@ -50,7 +50,7 @@ class Unpacked {
     pose.yaw_rad = get(1e-3);
     return pose;
   }
-  /// All that was asked for was there, and no more.
+  /// The data held exactly the values that were read.
   bool good() const { return good_ && at_ == data_.size(); }
 
  private:

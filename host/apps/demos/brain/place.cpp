@@ -6,11 +6,11 @@
 namespace verp::brain {
 namespace {
 
-// What a way of 1 m leaves unknown, as the odometry of walks in the twin has it, and twice that: a
-// floor may be worse.
+// Uncertainty per metre walked: twice that of odometry in the twin, because a real floor may be
+// worse.
 constexpr double kSlip = 0.06;            // m per m
 constexpr double kSlipTurn_rad_m = 0.03;  // rad per m
-constexpr double kGate = 9.2;             // chi square of two numbers, 99 %
+constexpr double kGate = 9.2;             // chi square, two degrees of freedom, 99 %
 
 }  // namespace
 
@@ -27,7 +27,7 @@ void Estimate::move(const Pose& odometry) {
     f(0, 2) = -step.y;
     f(1, 2) = step.x;
     const double way_m = length(by.at_m);
-    const double turn_m = 0.1 * std::abs(by.yaw_rad);  // a turn on the spot makes soles slip, too
+    const double turn_m = 0.1 * std::abs(by.yaw_rad);  // soles slip in turns on the spot, too
     const double far = kSlip * kSlip * (way_m + turn_m),
                  turn = kSlipTurn_rad_m * kSlipTurn_rad_m * (way_m + turn_m);
     covariance_ = f * covariance_ * f.transpose();

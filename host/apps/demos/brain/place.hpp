@@ -5,17 +5,17 @@
 
 namespace verp::brain {
 
-/// Where a robot is in a frame that it shares with others: its odometry, mended by seeing things of
-/// which it knows where they are (an extended Kalman filter of three numbers).
+/// A robot's pose in a frame shared with others: odometry corrected by sightings of objects with
+/// known positions (an extended Kalman filter with three states).
 class Estimate {
  public:
-  /// It is put down there, and knows it so well.
+  /// Start pose and its standard deviations.
   Estimate(const Pose& at, double within_m, double within_rad);
 
-  /// Its odometry is that now.
+  /// Predicts: the robot's odometry now reads `odometry`.
   void move(const Pose& odometry);
-  /// It sees at `seen`, in its own frame as it is now, what stands at `known`; the two together are
-  /// known within `within_m`. False: that fits so badly that it is something else.
+  /// Corrects: the robot sees at `seen`, in its own frame now, what stands at `known`. `within_m`
+  /// is the deviation of both together. False: the gate rejected it as another object.
   bool see(Point seen, Point known, double within_m);
 
   const Pose& pose() const { return pose_; }

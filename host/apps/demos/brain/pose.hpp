@@ -24,18 +24,18 @@ inline Point turned(Point p, double by_rad) {
   const double c = std::cos(by_rad), s = std::sin(by_rad);
   return {c * p.x - s * p.y, s * p.x + c * p.y};
 }
-/// Into (-pi, pi].
+/// To [-pi, pi].
 inline double wrapped(double angle_rad) {
   return std::remainder(angle_rad, 2 * std::numbers::pi);
 }
 
-/// Where something stands on the floor and which way it looks; or a frame.
+/// Position and heading on the floor; or a frame.
 struct Pose {
   Point at_m;
   double yaw_rad = 0;
 };
 
-/// A point of the frame `pose` in the frame that `pose` is given in, and back.
+/// Converts a point from the frame `pose` to its parent frame, and back.
 inline Point out_of(const Pose& pose, Point inside) {
   return pose.at_m + turned(inside, pose.yaw_rad);
 }

@@ -6,19 +6,19 @@
 
 namespace verp::brain {
 
-/// A piece of a way: so long, bent so much (1/m, to the left).
+/// A piece of a route: its length and its curvature (1/m, positive left).
 struct Bend {
   double long_m = 0, bent = 0;
 };
 
-/// A way of bends, one after the other.
+/// A sequence of bends.
 class Route {
  public:
   Route(const Pose& from, std::vector<Bend> bends);
   double long_m() const { return long_m_; }
-  /// The same way from elsewhere.
+  /// The same route from another start.
   Route from(const Pose& pose) const { return {pose, bends_}; }
-  /// Beyond its ends it goes straight on.
+  /// Straight beyond both ends.
   Pose at(double way_m) const;
   double bent(double way_m) const;
 
@@ -28,11 +28,11 @@ class Route {
   double long_m_ = 0;
 };
 
-/// Has `orders` walk so that the robot gets to `slot`, which itself moves along at v_m_s and turns
-/// at w_rad_s; both of one frame. Sidesteps are small: they are the gait's weak side.
+/// Sets `orders` so that the robot reaches `slot`, which moves at v_m_s and turns at w_rad_s; both
+/// poses in one frame. Sidesteps stay small: the gait does them badly.
 void steer(const Pose& robot, const Pose& slot, double v_m_s, double w_rad_s, Orders& orders);
 
-/// Walks along a route, as far as the robot knows where it is.
+/// Walks along a route by the robot's own pose estimate.
 class Walker {
  public:
   Walker(Route route, double speed_m_s) : route_(std::move(route)), speed_m_s_(speed_m_s) {}

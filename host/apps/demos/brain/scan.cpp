@@ -6,11 +6,11 @@
 namespace verp::brain {
 namespace {
 
-constexpr double kFloorShare = 0.8;  // a ray is believed up to this share of its way to the floor
+constexpr double kFloorShare = 0.8;  // share of a ray's way to the floor within which a hit counts
 constexpr double kApart_m = 0.18;    // between two things; arms hang nearer to a trunk
 constexpr double kWidest_m = 0.5;    // of a robot with its arms
 
-/// How far it is to the floor along a ray; inf: it does not go down.
+/// Distance to the floor along a ray; inf if the ray does not descend.
 double floor_m(const Scan& scan, double angle_rad) {
   const double down = scan.pitch_rad * std::cos(angle_rad) - scan.roll_rad * std::sin(angle_rad);
   return down > 1e-6 ? scan.high_m / down : std::numeric_limits<double>::infinity();

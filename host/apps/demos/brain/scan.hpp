@@ -5,26 +5,25 @@
 
 namespace verp::brain {
 
-/// A ray that hit something that is not the floor.
+/// A ray that hit something other than the floor.
 struct Hit {
-  Point at_m;  ///< in the frame of the robot at the scan's time
+  Point at_m;  ///< robot frame at the scan's time
   std::size_t ray = 0;
   double range_m = 0;
 };
-/// A robot that walks sways: rays that may have met the floor are left out.
+/// Leaves out rays that may have met the floor, because a walking robot sways.
 std::vector<Hit> hits(const About& about, const Scan& scan);
 
-/// Something narrow that stands apart from all else: a leg's, a post's or a robot's width.
+/// A narrow object that stands apart: as wide as a leg, a post or a robot.
 struct Thing {
-  Point at_m;  ///< its middle, on the side that the laser sees, in the robot's frame
+  Point at_m;  ///< centre of the visible side, robot frame
   double wide_m = 0;
 };
 std::vector<Thing> things(const About& about, const Scan& scan);
 
-/// Of a robot's laser the trunk is the nearest surface of what it sees; its middle is so much
-/// further.
+/// The laser sees a robot's trunk first; the trunk's centre lies this much further.
 inline constexpr double kBehindSurface_m = 0.04;
-/// Where the middle of a robot is that looks like this.
+/// Centre of a robot that appears as `thing`.
 Point middle_of(const About& about, const Thing& thing);
 
 }  // namespace verp::brain

@@ -8,10 +8,10 @@
 namespace verp::brain {
 namespace {
 
-constexpr double kBody_m = 0.2;    // half of a robot with its arms, and what it sways
-constexpr double kShy_m = 0.45;    // nearer to a wall a way costs more
-constexpr double kShyCost = 3;     // so many times as much at kBody_m
-constexpr double kStart_m = 0.25;  // so near to where it is, a robot may go
+constexpr double kBody_m = 0.2;    // half a robot's width with arms, plus sway
+constexpr double kShy_m = 0.45;    // nearer to a wall, a path costs more
+constexpr double kShyCost = 3;     // this many times as much at kBody_m
+constexpr double kStart_m = 0.25;  // so near its start, a robot may pass narrow cells
 
 struct Open {
   double cost = 0;
@@ -37,7 +37,7 @@ std::vector<Point> way(const Grid& grid, Point from, Point to) {
     const Open at = open.top();
     open.pop();
     const std::size_t here = Grid::index(at.x, at.y);
-    if (at.cost > cost[here] + left(at.x, at.y) + 1e-9) continue;  // a cheaper one was found
+    if (at.cost > cost[here] + left(at.x, at.y) + 1e-9) continue;  // a cheaper path was found
     if (at.x == to_x && at.y == to_y) break;
     for (int dx = -1; dx <= 1; ++dx) {
       for (int dy = -1; dy <= 1; ++dy) {

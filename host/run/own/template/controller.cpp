@@ -8,7 +8,7 @@
 
 namespace {
 
-/// A joint by its name; -1: this robot has none.
+/// A joint by name; -1 if this robot has no such joint.
 int joint_named(const verp::Params& params, const char* name) {
   for (int j = 0; j < params.joint_count; ++j) {
     if (__builtin_strcmp(params.joint[j].name, name) == 0) return j;
@@ -16,7 +16,7 @@ int joint_named(const verp::Params& params, const char* name) {
   return -1;
 }
 
-/// Moves a goal by so much, within the joint's range.
+/// Adds to a goal, within the joint's range.
 void turn(const verp::Params& params, const char* name, float by_rad, verp::Outputs& out) {
   const int j = joint_named(params, name);
   if (j < 0) return;
@@ -30,7 +30,7 @@ void turn(const verp::Params& params, const char* name, float by_rad, verp::Outp
 
 void Controller::operator()(const verp::Params& params, verp::State& state, const verp::Inputs& in,
                             verp::Outputs& out) {
-  // The robot's own controller: leave it out, and everything is yours, its safety table too.
+  // The robot's own controller. Without this call everything is yours, including the safety table.
   verp::step(params, state, in, out);
 
   constexpr float kRaised_s = 1, kWaves_rad_s = 9, kRaise_rad = -2.6F, kWave_rad = 0.3F;
@@ -39,7 +39,7 @@ void Controller::operator()(const verp::Params& params, verp::State& state, cons
   const float period_s = 1e-6F * static_cast<float>(params.period_us);
   const float by = (stands ? period_s : -period_s) / kRaised_s;
   up = verp::math::clamp(up + by, 0.0F, 1.0F);
-  if (out.torque_enable == 0) up = 0;  // limp: its joints are where they are
+  if (out.torque_enable == 0) up = 0;  // limp: the joints stay where they are
   if (up <= 0) return;
   waved_rad += kWaves_rad_s * period_s;
   turn(params, "r_shoulder_pitch", kRaise_rad * up, out);

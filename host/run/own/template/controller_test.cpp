@@ -1,5 +1,4 @@
-// What the controller promises, without a robot: build/pc/controller_test, or ctest --test-dir
-// build/pc.
+// Tests the controller without a robot: build/pc/controller_test, or ctest --test-dir build/pc.
 #include <cstdio>
 
 #include "common/control/built_in_robot.hpp"
