@@ -25,7 +25,7 @@ namespace {
 }  // namespace
 
 FifoLink::FifoLink() {
-  // A firmware that ended shows as EPIPE of write(), not as a signal that ends us.
+  // If the firmware has ended, write() returns EPIPE; the signal would end this process.
   signal(SIGPIPE, SIG_IGN);
   for (const auto& path : {to_board(), from_board()}) {
     if (mkfifo(path.c_str(), 0600) != 0) fail(path, "can't make a FIFO");

@@ -7,9 +7,9 @@
 namespace verp::board {
 
 /// Runs the control loop in firmware on an emulated board, with `bus` as its servo bus, until the
-/// firmware quits: after options.ticks, or when hooks.stop says so. All of the controller is there;
-/// this process is its world. Throws BoardError when there is no image or emulator, or when the
-/// link breaks. `images`: the folder of the board's image; empty: where this project's is.
+/// firmware quits: after options.ticks, or when hooks.stop returns true. The whole controller runs
+/// on the board; this process simulates the world. Throws BoardError if the image or emulator is
+/// missing or the link breaks. `images`: folder of the board's image; empty: the project's.
 bus::ServerResult run_loop_on(const std::string& board, const Params& params, bus::VirtualBus& bus,
                               const bus::ServerHooks& hooks, const bus::RunOptions& options,
                               const std::string& images = "");

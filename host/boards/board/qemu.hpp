@@ -11,43 +11,41 @@
 
 namespace verp::board {
 
-/// One run of a firmware image in QEMU. Ends with this object at the latest, and with this process.
+/// One run of a firmware image in QEMU. It ends at the latest with this object or this process.
 class QemuProcess {
  public:
   struct Launch {
     EmulatedBoard board;
     std::filesystem::path image;
-    std::vector<std::string>
-        arguments;            ///< what the image gets as its command line; no spaces, no commas
-    std::string plugin = {};  ///< QEMU's -plugin option; empty: none
-    /// Where QEMU listens for the peers of the board's serial ports, in order: paths of sockets.
+    std::vector<std::string> arguments;  ///< command line of the image; no spaces, no commas
+    std::string plugin = {};             ///< QEMU's -plugin option; empty: none
+    /// Socket paths on which QEMU listens for the peers of the board's serial ports, in order.
     std::vector<std::filesystem::path> serial_ports = {};
-    std::vector<std::string> options = {};  ///< further words of QEMU's command line
-    std::string console =
-        {};  ///< QEMU's character device that gets what the image says; empty: stdout
-    /// This PC's CAN interface that the board's CAN is joined to; empty: none.
+    std::vector<std::string> options = {};  ///< further QEMU options
+    std::string console = {};  ///< QEMU character device for the image's output; empty: stdout
+    /// CAN interface of this PC to which the board's CAN is connected; empty: none.
     std::string can_interface = {};
   };
 
-  /// The command line that a launch comes to.
+  /// QEMU command line of a launch.
   static std::vector<std::string> command(const Launch& launch);
 
-  /// Throws BoardError if QEMU isn't installed. $VERP_QEMU names another emulator.
+  /// Throws BoardError if QEMU is not installed. $VERP_QEMU names another emulator.
   explicit QemuProcess(const Launch& launch);
 
-  /// The image's exit status, once it has one; 128 + signal if QEMU itself was killed.
+  /// Exit status of the image after its end; 128 + signal if QEMU was killed.
   std::optional<int> poll_status() { return child_->status(); }
 
-  /// Waits for the end. Throws BoardError with the image's last words if that takes too long.
+  /// Waits for the end. Throws BoardError with the image's last output if that takes too long.
   int wait(std::chrono::seconds limit);
 
-  /// Throws BoardError with the image's last words if it ended with any status but 0.
+  /// Throws BoardError with the image's last output if it ended with a nonzero status.
   void wait_for_success(std::chrono::seconds limit);
 
-  /// All that the image and QEMU printed so far.
+  /// Everything that the image and QEMU printed so far.
   std::string output() const;
 
-  /// One line: which image, what happened to it, its last words.
+  /// One line: the image, `what` happened to it, its last output.
   std::string described(const std::string& what) const;
 
  private:

@@ -13,22 +13,22 @@
 
 namespace verp::board {
 
-/// What a replay came to, on whatever machine it ran.
+/// Result of a replay on any machine.
 struct TargetReplay {
   std::vector<TickDigest> digests;  ///< one per Inputs
-  std::optional<State> state;       ///< after the tick asked for
-  std::uint32_t stack_bytes = 0;    ///< deepest stack of step(); 0 where it isn't measured
+  std::optional<State> state;       ///< after the requested tick
+  std::uint32_t stack_bytes = 0;    ///< deepest stack of step(); 0 if not measured
 };
 
 struct TargetReplayOptions {
   std::optional<std::uint32_t> state_after =
-      {};                   ///< index of the Inputs after which State is wanted
+      {};                   ///< index of the Inputs after which State is returned
   std::string plugin = {};  ///< QEMU's -plugin option (tests/bench)
   std::uint32_t limit_s = 600;
 };
 
-/// The file that tells a replay image what to do: its first argument; the second is where its
-/// answer goes. Throws BoardError.
+/// Writes the job file, which is the first argument of a replay image; the second is the result
+/// file. Throws BoardError.
 void write_replay_job(const std::filesystem::path& path, const Params& params,
                       std::span<const Inputs> inputs, const TargetReplayOptions& options = {});
 

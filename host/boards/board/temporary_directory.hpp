@@ -4,8 +4,8 @@
 
 namespace verp::board {
 
-/// A new directory of our own, removed with all it holds. Throws BoardError when it can't be made:
-/// without one there is no link to a board.
+/// A new directory, removed with its contents. Throws BoardError if it cannot be created, because a
+/// board's link needs one.
 class TemporaryDirectory : public files::TemporaryDirectory {
  public:
   TemporaryDirectory() try : files

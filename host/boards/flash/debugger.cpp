@@ -19,7 +19,7 @@ std::vector<std::string> gdb_words(const std::string& gdb, const fs::path& image
   return words;
 }
 
-/// QEMU halts before the first instruction; its own streams are gdb's, so what the image says goes
+/// QEMU halts before the first instruction. gdb uses QEMU's own streams, so the image's output goes
 /// to a file.
 std::string qemu_behind_a_pipe(board::QemuProcess::Launch launch, const fs::path& folder) {
   launch.console = "words";
@@ -29,7 +29,7 @@ std::string qemu_behind_a_pipe(board::QemuProcess::Launch launch, const fs::path
   return "target remote | exec " + files::shell_line(board::QemuProcess::command(launch));
 }
 
-/// gdb has the names of what it debugs from the ELF file beside the bytes.
+/// The ELF file beside the binary, with gdb's symbols.
 fs::path symbols_of(fs::path image) {
   return image.replace_extension(".elf");
 }
@@ -41,7 +41,7 @@ DebugPlan debug_chip(const std::string& gdb, const Recipe& recipe, BusProtocol p
   std::vector<std::string> openocd = {"openocd", "-f", recipe.probe, "-f",
                                       recipe.chip->openocd_target};
   if (!probe.empty()) openocd.insert(openocd.end(), {"-c", "adapter serial " + probe});
-  // What OpenOCD says would be in the way of what it tells gdb.
+  // OpenOCD's log would mix with its gdb protocol on the pipe.
   openocd.insert(openocd.end(), {"-c", "gdb_port pipe; log_output /dev/null"});
   return {gdb_words(gdb, symbols_of(code_image(recipe, protocol)),
                     "target extended-remote | exec " + files::shell_line(openocd),

@@ -13,7 +13,7 @@ namespace {
 
 using Kind = FlashError::Kind;
 
-/// Words of a tool's output, and what they mean. {port} and {pins} are replaced.
+/// Text in a tool's output, and its meaning. {port} and {pins} are replaced.
 struct Saying {
   const char* words;
   Kind kind;
@@ -138,7 +138,7 @@ const Saying* saying_of(Tool tool, const std::string& output) {
   return nullptr;
 }
 
-/// What a step that failed leaves behind, besides its reason.
+/// State of the flash after a failed step.
 std::string aftermath(const Step& step) {
   const bool wrote = step.kind == Step::Kind::kWrite || step.kind == Step::Kind::kReadBack ||
                      step.kind == Step::Kind::kCompare;

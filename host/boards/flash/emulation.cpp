@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds kStart{20};
-/// Longer than a boot check takes in an emulator on a machine under load.
+/// Longer than a boot check in an emulator on a busy machine.
 constexpr std::uint32_t kPatience_us = 5'000'000;
 
 bool is_emulated(const std::string& name) {
@@ -32,7 +32,7 @@ bool is_emulated(const std::string& name) {
                      [&](const board::EmulatedBoard& each) { return each.name == name; });
 }
 
-/// A path that QEMU's options can hold, and a socket's name.
+/// Throws unless the path fits QEMU's options and a socket's name.
 void require_plain(const fs::path& path) {
   if (path.string().size() < sizeof(sockaddr_un::sun_path) &&
       path.string().find_first_of(" ,") == std::string::npos) {
@@ -44,7 +44,7 @@ void require_plain(const fs::path& path) {
                        "VERP_FLASH_DIR to another folder, such as /tmp/verp");
 }
 
-/// An STM32 board: two serial ports as sockets, and the pieces where the flash would have them.
+/// STM32 board: two serial ports as sockets, and the pieces at their flash addresses.
 void plan_serial(EmulationPlan& plan, const std::vector<Piece>& pieces, const fs::path& folder) {
   plan.launch.serial_ports = {folder / "servo.sock", folder / "operator.sock"};
   plan.launch.options = {"-accel", "tcg,thread=single"};
@@ -54,13 +54,13 @@ void plan_serial(EmulationPlan& plan, const std::vector<Piece>& pieces, const fs
                                {"-device", fmt::format("loader,file={},addr={:#010x},force-raw=on",
                                                        piece.file.string(), piece.region.begin)});
   }
-  if (plan.protocol != BusProtocol::kCia402) {  // else its bus is one that QEMU's chip has not
+  if (plan.protocol != BusProtocol::kCia402) {  // QEMU's chip has no CAN
     plan.links.push_back({"servo bus", "unix:" + plan.launch.serial_ports[0].string()});
   }
   plan.links.push_back({"operator", "unix:" + plan.launch.serial_ports[1].string()});
 }
 
-/// An MPS2 board speaks by semihosting, through two FIFOs (host/boards/board/fifo_link.hpp).
+/// MPS2 board: uses semihosting through two FIFOs (host/boards/board/fifo_link.hpp).
 void plan_fifos(EmulationPlan& plan, const fs::path& folder) {
   for (const char* name : {"to_board", "from_board"}) {
     plan.launch.arguments.push_back((folder / name).string());
@@ -87,8 +87,8 @@ EmulationPlan plan_emulation(const Recipe& recipe, BusProtocol protocol,
   }
   require_plain(folder / "operator.sock");
   const board::EmulatedBoard& emulated = board::find_emulated_board(board);
-  // A chip's image as its flash would hold it: of an ELF file QEMU also clears as many bytes behind
-  // the code as there are variables, and there the robot may begin.
+  // Use the raw flash image of a chip. For an ELF file QEMU also clears memory behind the code, as
+  // much as the variables need, and the robot may be there.
   const fs::path image =
       recipe.chip != nullptr ? code_image(recipe, protocol) : firmware_image(emulated, "loop");
   EmulationPlan plan{.launch = {.board = emulated, .image = image, .arguments = {}},

@@ -7,13 +7,12 @@
 #include "host/boards/board/qemu.hpp"
 #include "host/boards/flash/plan.hpp"
 
-/// An emulated board is "flashed" by starting QEMU with the image: it has no flash that would
-/// outlast it.
+/// "Flashes" an emulated board by starting QEMU with the image; it has no persistent flash.
 namespace verp::flash {
 
 struct EmulatedLink {
   std::string what;   ///< "servo bus", "operator"
-  std::string place;  ///< as other commands take it, or paths of FIFOs
+  std::string place;  ///< endpoint for other commands, or FIFO paths
 };
 
 struct EmulationPlan {
@@ -22,20 +21,20 @@ struct EmulationPlan {
   BusProtocol protocol;  ///< of the robot's bus
 };
 
-/// The board with the image for this kind of bus and these pieces in its memory, its links in
-/// `folder`. Throws FlashError when the board has no emulator, no such image, or the links' paths
-/// are too long; this or NoSuchBoard when the image is not built.
+/// Plans the board with the image for this bus protocol, the pieces in its memory and its links in
+/// `folder`. Throws FlashError if the board has no emulator or no such image, or a link path is too
+/// long. Throws FlashError or NoSuchBoard if the image is not built.
 EmulationPlan plan_emulation(const Recipe& recipe, BusProtocol protocol,
                              const std::vector<Piece>& pieces, const std::filesystem::path& folder);
 
 /// A board that runs until this object ends.
 class Emulation {
  public:
-  /// Makes what the links need, starts QEMU and waits for the links. Throws BoardError.
+  /// Prepares the links, starts QEMU and waits for the links. Throws BoardError.
   explicit Emulation(const EmulationPlan& plan);
 
-  /// What its boot check came to, as its operator's port tells it: a line for people. Empty: the
-  /// board has no such port. Throws DeviceError when nobody answers there.
+  /// Result of the boot check from the board's operator port, as a line for people; empty: no such
+  /// port. Throws DeviceError if the port does not answer.
   std::string told() const;
 
   /// False once QEMU has ended.

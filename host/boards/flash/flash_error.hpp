@@ -4,23 +4,23 @@
 
 namespace verp::flash {
 
-/// Why nothing, or not all, came into a board's flash. what() is one line that ends with a remedy.
+/// A flash operation failed completely or partly. what() is one line that ends with a remedy.
 class FlashError : public std::runtime_error {
  public:
   enum class Kind {
     kUsage,        ///< no such board, tool or port for it
-    kBadFile,      ///< a file that must not be written there
+    kBadFile,      ///< this file must not be written there
     kNoTool,       ///< the flash tool is not installed
-    kNoDevice,     ///< no probe, boot loader or port; or the chip behind it does not answer
-    kPermission,   ///< it is there, but not for this user
-    kBusy,         ///< another program has it
-    kWrongChip,    ///< it is another chip than the board's
+    kNoDevice,     ///< no probe, boot loader or port, or the chip does not answer
+    kPermission,   ///< the device exists, but this user may not open it
+    kBusy,         ///< another program uses it
+    kWrongChip,    ///< not the board's chip
     kProtected,    ///< the chip's readout protection
-    kRefused,      ///< the chip would not erase or write
-    kLost,         ///< it went away in the middle
-    kVerify,       ///< what was written reads back differently
+    kRefused,      ///< the chip refused to erase or write
+    kLost,         ///< the connection was lost during the operation
+    kVerify,       ///< the flash reads back differently
     kInterrupted,  ///< Ctrl-C
-    kOther,        ///< something else that the tool says
+    kOther,        ///< any other error of the tool
   };
   FlashError(Kind kind, const std::string& what) : std::runtime_error(what), kind_(kind) {}
   Kind kind() const { return kind_; }

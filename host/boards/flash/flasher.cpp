@@ -33,7 +33,7 @@ Kind kind_of(link::LinkError::Kind kind) {
   }
 }
 
-/// The serial port, ours for as long as this lives: the tool takes no lock of its own.
+/// Exclusive lock on the serial port while this object lives; the tool takes none.
 class SerialPortLock {
  public:
   explicit SerialPortLock(const Job& job) {
@@ -87,8 +87,8 @@ void run_step(const Job& job, const Step& step, const FlashHooks& hooks) {
   }
 }
 
-/// A write failed after the sector was read: what else was in it is not lost, unless it was empty.
-/// Returns what to tell.
+/// A write failed after the sector was read: saves its other, non-empty contents. Returns the
+/// message.
 std::string keep(const Step& step) {
   const std::string sector = files::read(step.file).value_or("");
   std::string told;
@@ -115,7 +115,7 @@ void run(const Job& job, const std::vector<Step>& steps, const FlashHooks& hooks
       throw FlashError(error.kind(), error.what() + keep(step));
     }
   }
-  std::error_code error;  // of an earlier run that failed: they are old now
+  std::error_code error;  // left by an earlier failed run; obsolete now
   std::filesystem::remove(job.folder / "kept_params.bin", error);
   std::filesystem::remove(job.folder / kKeptActions, error);
 }
@@ -148,7 +148,7 @@ Workspace::Workspace(const std::string& board) : path_(work_root() / board) {
 }
 
 void Workspace::hand_over() const {
-  ::fcntl(lock_, F_SETFD, 0);  // open, and so locked, beyond exec
+  ::fcntl(lock_, F_SETFD, 0);  // stays open, and so locked, after exec
 }
 
 Workspace::~Workspace() {

@@ -72,7 +72,7 @@ std::filesystem::path code_image(const Recipe& recipe, BusProtocol protocol) {
 }
 
 void check_code(const std::filesystem::path& file, const MemoryMap& map) {
-  constexpr std::size_t kFewestVectors = 16;  // those that every Cortex-M has
+  constexpr std::size_t kFewestVectors = 16;  // minimum of every Cortex-M
   const std::string bytes = read(file, "code", map.code);
   const char* again = "build the firmware again";
   if (bytes.size() < 4 * kFewestVectors) refuse(file, fmt::format("is cut off; {}", again));

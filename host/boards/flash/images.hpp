@@ -6,28 +6,29 @@
 #include "common/model/params.hpp"
 #include "host/boards/flash/memory_map.hpp"
 
-/// What may be written where. All throw FlashError for a file that must not be.
+/// Checks which files may be written where. All functions throw FlashError for invalid files.
 namespace verp::flash {
 
-/// The image that drives a robot on this kind of bus: loop_<board>, or loop_can_<board>, of which
-/// neither drives the other's robot. Throws FlashError where the board has no CAN.
+/// Image name for this bus protocol: loop_<board> or loop_can_<board>; neither can drive the
+/// other's robot. Throws FlashError if the board has no CAN.
 std::string loop_image(const Recipe& recipe, BusProtocol protocol);
 
-/// Its bytes, in $VERP_FIRMWARE_DIR if that is set, else where the preset fw-<board> builds them.
+/// Path of its binary: in $VERP_FIRMWARE_DIR if set, else in the build folder of the preset
+/// fw-<board>.
 std::filesystem::path code_image(const Recipe& recipe, BusProtocol protocol);
 
-/// A vector table for this memory map (a stack in RAM, an entry in the code), and no more than
+/// Requires a vector table for this memory map (stack in RAM, entry in the code) and a size that
 /// fits.
 void check_code(const std::filesystem::path& file, const MemoryMap& map);
 
-/// A sound Params image of this program's core (common/model/image.hpp) that fits.
+/// Requires a valid Params image of this program's core (common/model/image.hpp) that fits.
 Params check_params(const std::filesystem::path& file, const MemoryMap& map);
 
-/// What a run that failed kept of a sector's actions is in a file of this name, and all of them.
+/// File with the actions of a sector that a failed run saved.
 inline constexpr const char* kKeptActions = "kept_actions.bin";
 
-/// A robot's actions (common/action/kept.hpp), `robot`'s own if that goes with them; or a file of
-/// that name, whatever was kept. Returns how many there are.
+/// Checks a robot's actions (common/action/kept.hpp); they must be `robot`'s own if it is given. A
+/// file named kKeptActions is accepted with any content. Returns the number of actions.
 int check_actions(const std::filesystem::path& file, const MemoryMap& map, const Params* robot);
 
 }  // namespace verp::flash

@@ -12,7 +12,7 @@
 namespace verp::flash {
 namespace {
 
-/// A linker script without its comments.
+/// Text of a linker script without comments.
 std::string read_script(const std::filesystem::path& file) {
   std::optional<std::string> script = files::read(file);
   if (!script) {
@@ -33,7 +33,7 @@ class Script {
  public:
   explicit Script(const std::filesystem::path& file) : file_(file), text_(read_script(file)) {}
 
-  /// The value of `name = ...;`, or `otherwise` when there is none.
+  /// Value of `name = ...;`, or `otherwise` if it is missing.
   std::uint32_t symbol(const std::string& name, std::uint32_t otherwise) const {
     std::smatch match;
     if (!std::regex_search(text_, match, std::regex("\\b" + name + "\\s*=\\s*([^;]*);"))) {
@@ -42,7 +42,7 @@ class Script {
     return value(match[1]);
   }
 
-  /// A line of MEMORY.
+  /// A region of MEMORY.
   Span memory(const std::string& name) const {
     std::smatch match;
     const std::regex line("\\b" + name +

@@ -6,19 +6,18 @@
 
 namespace verp::flash {
 
-/// What a board keeps where, from its memory.ld: the linker and the flash tool read the same lines.
+/// Memory regions of a board, read from the memory.ld that the linker uses.
 struct MemoryMap {
   Span code, ram;
-  Span params = {}, actions = {};  ///< no bytes where the board keeps none in flash
+  Span params = {}, actions = {};  ///< empty if the board does not keep them in flash
 };
 
-/// Reads boards/<board>/memory.ld of the source tree. Throws FlashError when it is missing or says
-/// what this reader does not understand.
+/// Reads boards/<board>/memory.ld of the source tree. Throws FlashError if it is missing or this
+/// parser does not understand it.
 MemoryMap read_memory_map(const std::string& board);
 
-/// The same of any file: symbols verp_{params,actions}_{begin,bytes} and MEMORY's FLASH and
-/// RAM, each a number, a name or `DEFINED(x) ? a : b`, of which b holds for images that are
-/// flashed.
+/// The same for any file: symbols verp_{params,actions}_{begin,bytes}, and FLASH and RAM of MEMORY.
+/// Each is a number, a name or `DEFINED(x) ? a : b`; b applies to flashed images.
 MemoryMap parse_memory_map(const std::filesystem::path& file);
 
 }  // namespace verp::flash

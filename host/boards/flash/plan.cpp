@@ -13,7 +13,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// Every Cortex-M3 to M7 of ST has DBGMCU_IDCODE here (RM0090 38.6.1).
+/// All ST Cortex-M3 to M7 have DBGMCU_IDCODE here (RM0090 38.6.1).
 constexpr const char* kReadDeviceId =
     "echo [format {Device ID: 0x%04x} [expr {[lindex [read_memory 0xe0042000 32 1] 0] & 0xfff}]]";
 
@@ -22,15 +22,15 @@ Words with(Words words, const Words& more) {
   return words;
 }
 
-/// A network's or a test's serial port. It has no parity, and stm32flash insists on what it asked
-/// for: the boot loader's even parity is the business of whatever has the real line.
+/// A serial port over a network or of a test. It has no parity, but stm32flash insists on the
+/// requested one. The even parity of the boot loader is then set at the real line.
 bool is_pseudo_terminal(const std::string& port) {
   std::error_code error;
   return std::filesystem::weakly_canonical(port, error).string().starts_with("/dev/pts/");
 }
 
-/// OpenOCD's commands are Tcl, in which anything between braces is one word but for these. Throws
-/// FlashError for a word that has one.
+/// OpenOCD's commands are Tcl. Between braces, any text but these characters is one word. Throws
+/// FlashError for other words.
 void require_tcl_word(const std::string& word, const std::string& remedy) {
   const bool odd = std::any_of(word.begin(), word.end(), [](unsigned char each) {
     return each < ' ' || each == 0x7F || each == '{' || each == '}' || each == '\\';
@@ -41,7 +41,7 @@ void require_tcl_word(const std::string& word, const std::string& remedy) {
                                word, remedy));
 }
 
-/// How one tool is told what; places are absolute addresses.
+/// Command lines of one tool; addresses are absolute.
 class Commands {
  public:
   explicit Commands(const Job& job) : job_(job) {}
@@ -50,7 +50,7 @@ class Commands {
     switch (job_.tool) {
       case Tool::kOpenocd:
         return with(base(), {"-c", std::string("init; ") + kReadDeviceId + "; shutdown"});
-      case Tool::kStm32flash:  // a read, as Get ID is answered under readout protection, too
+      case Tool::kStm32flash:  // a read, because Get ID also succeeds under readout protection
         return read({kFlashBegin, 256}, job_.folder / "first.bin");
       case Tool::kDfuUtil:
         return with(base(), {"-l"});
@@ -98,7 +98,7 @@ class Commands {
         if (!job_.port.empty()) {
           words = with(words, {"-c", fmt::format("adapter serial {{{}}}", job_.port)});
         }
-        // No server: a second copy, or a debugger's, could not listen beside it.
+        // Without servers it does not conflict with a second copy or a debugger.
         return with(words, {"-f", job_.recipe.chip->openocd_target, "-c",
                             "gdb_port disabled; tcl_port disabled; telnet_port disabled"});
       }
@@ -116,7 +116,7 @@ class Commands {
   const Job& job_;
 };
 
-/// Whether writing these sectors takes nothing away but what the pieces replace.
+/// True if writing these sectors destroys only what the pieces replace.
 bool owns(const Job& job, const Span& sectors, const std::vector<Piece>& pieces) {
   const Span regions[] = {job.map.code, job.map.params, job.map.actions};
   const auto inside = std::count_if(std::begin(regions), std::end(regions), [&](const Span& each) {
@@ -146,7 +146,7 @@ void add_write(std::vector<Step>& steps, const Job& job, const std::string& what
       {Step::Kind::kCompare, "verifying " + what, {"cmp", file.string(), back.string()}});
 }
 
-/// What is in these sectors besides the pieces.
+/// Other contents of these sectors.
 std::vector<Piece> neighbours(const Job& job, const Span& sectors,
                               const std::vector<Piece>& pieces) {
   std::vector<Piece> others;
@@ -226,7 +226,7 @@ std::vector<Step> plan(const Job& job) {
   }
   std::vector<Step> steps = {
       {Step::Kind::kCheckChip, "checking the chip", Commands(job).check_chip()}};
-  std::map<std::uint32_t, std::vector<Piece>> groups;  // by their first sector's address
+  std::map<std::uint32_t, std::vector<Piece>> groups;  // by the address of their first sector
   for (const Piece& piece : job.pieces) {
     groups[sectors_around(*job.recipe.chip, piece.region).begin].push_back(piece);
   }

@@ -10,8 +10,8 @@
 namespace verp::flash {
 namespace {
 
-// Identifiers: RM0090 38.6.1, RM0390 33.6.1, RM0385 40.6.1 (DBGMCU_IDCODE). Sectors: RM0090 3.3
-// (1 MB part), RM0390 3.3 (512 KB part), RM0385 3.3. Pins of the boot loaders: AN2606.
+// Identifiers: RM0090 38.6.1, RM0390 33.6.1, RM0385 40.6.1 (DBGMCU_IDCODE). Sectors: RM0090 3.3 (1
+// MB part), RM0390 3.3 (512 KB part), RM0385 3.3. Pins of the boot loaders: AN2606.
 constexpr std::uint32_t kKilobyte = 1024;
 const Chip kF405 = {"STM32F405",
                     0x413,
@@ -26,8 +26,8 @@ const Chip kF746 = {"STM32F746",
                     "target/stm32f7x.cfg",
                     {{4, 32 * kKilobyte}, {1, 128 * kKilobyte}, {3, 256 * kKilobyte}}};
 
-/// A board that only its tests start: its loop takes its orders from a file and has a twin on a CAN
-/// interface, so neither a flash tool nor an emulator left to itself is of any use.
+/// A board for tests only. Its loop takes orders from a file and needs a twin on a CAN interface,
+/// so neither a flash tool nor an emulator alone is useful.
 bool is_for_tests(const std::string& board) {
   const auto& boards = board::emulated_boards();
   return std::any_of(boards.begin(), boards.end(), [&](const board::EmulatedBoard& each) {
@@ -61,7 +61,7 @@ const std::vector<Recipe>& recipes() {
        "olimex_h405",
        true},
       {"nucleo_f446re", &kF446, {kOpenocd, kStm32flash}, kStLink, "PA9, PA10", "olimex_h405", true},
-      // The boot loader's serial pins of this chip are on no connector of OpenCR but the servos'.
+      // On OpenCR the serial pins of this chip's boot loader are only on the servo connectors.
       {"opencr", &kF746, {kDfuUtil, kOpenocd}, kStLink, "", "mps2_an500", true},
       {"mps2_an385", nullptr, {}, "", "", "mps2_an385"},
       {"mps2_an386", nullptr, {}, "", "", "mps2_an386"},

@@ -19,9 +19,9 @@ namespace verp::flash {
 namespace {
 
 constexpr int kLook_ms = 50;
-constexpr int kGrace_looks = 60;  ///< 3 s between the polite end and the other one
+constexpr int kGrace_looks = 60;  ///< 3 s between SIGINT and SIGKILL
 
-/// A tool with both its streams in one pipe; it ends with this object at the latest.
+/// A tool with both output streams in one pipe; it ends at the latest with this object.
 class StartedTool {
  public:
   StartedTool(const std::vector<std::string>& command, const std::string& package) {
@@ -42,7 +42,7 @@ class StartedTool {
   StartedTool(const StartedTool&) = delete;
   StartedTool& operator=(const StartedTool&) = delete;
 
-  /// Appends what comes within kLook_ms. False: nothing will come any more.
+  /// Appends the output of the next kLook_ms. False: no more output will come.
   bool read(std::string& output) const {
     pollfd waiting{.fd = out_, .events = POLLIN, .revents = 0};
     if (::poll(&waiting, 1, kLook_ms) <= 0) return true;
@@ -70,7 +70,7 @@ class StartedTool {
   std::optional<process::Child> child_;
 };
 
-/// The number before the last percent sign, as a share; negative when there is none.
+/// The number before the last percent sign as a share; negative if there is none.
 double last_share(const std::string& output) {
   const std::size_t sign = output.rfind('%');
   if (sign == output.npos) return -1;

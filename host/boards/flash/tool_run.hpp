@@ -6,20 +6,20 @@
 namespace verp::flash {
 
 struct ToolRun {
-  int status = 0;      ///< exit status; 128 + signal if it was killed
-  std::string output;  ///< both streams, as they came
+  int status = 0;      ///< exit status; 128 + signal if killed
+  std::string output;  ///< both streams, in order of arrival
   bool interrupted = false;
 };
 
 struct ToolHooks {
-  /// The last percentage in what the tool printed, as a share.
+  /// Called with the last percentage in the tool's output, as a share.
   std::function<void(double)> share = [](double) {};
-  /// Looked at often; true ends the tool, in its own way first.
+  /// Polled often; true ends the tool, at first gracefully.
   std::function<bool()> stop = [] { return false; };
 };
 
-/// Runs a command without a terminal and without our Ctrl-C, and waits for its end. Throws
-/// FlashError when there is no such program; `package` is the Debian package that has it.
+/// Runs a command without a terminal, shielded from our Ctrl-C, and waits for its end. Throws
+/// FlashError if the program is missing; `package` is its Debian package.
 ToolRun run_tool(const std::vector<std::string>& command, const std::string& package,
                  const ToolHooks& hooks);
 

@@ -4,8 +4,8 @@
 
 namespace verp::files {
 
-/// The text as one field of a CSV file, RFC 4180: in quotes, its own quotes doubled, when it holds
-/// a comma, a quote or a line break; else as it is. Names of joints come from a file, and may.
+/// Text as one CSV field (RFC 4180). A text with a comma, quote or line break is quoted, with inner
+/// quotes doubled; joint names from a file may contain these.
 std::string csv_field(std::string_view text);
 
 }  // namespace verp::files

@@ -3,9 +3,9 @@
 
 namespace verp::files {
 
-/// While it lives, no other program holds the lock of this folder; waits for its turn. Where the
-/// file system has no locks it holds nothing: then files of two writers may stand side by side,
-/// each whole.
+/// Lock of a folder against other programs while this object lives; the constructor waits for it.
+/// On a file system without locks it does nothing. Files of two writers may then be mixed in the
+/// folder, but each file is complete.
 class FolderLock {
  public:
   explicit FolderLock(const std::filesystem::path& folder);

@@ -4,10 +4,10 @@
 
 namespace verp::files {
 
-/// The text as a shell takes it for one word: as it is, or in quotes.
+/// Text as one shell word, quoted if necessary.
 std::string shell_word(const std::string& text);
 
-/// The words as one line that a shell takes apart into the same words.
+/// Words as one shell command line.
 std::string shell_line(const std::vector<std::string>& words);
 
 }  // namespace verp::files

@@ -4,14 +4,14 @@
 
 namespace verp::files {
 
-/// No file could be made; what() is one line with the remedy.
+/// A file or folder could not be created; what() is one line with the remedy.
 class FileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A new directory of our own, removed with all it holds: below TMPDIR, or below /tmp when that is
-/// of no use. Throws FileError when neither will do.
+/// A new directory, removed with its contents: below TMPDIR, or below /tmp if TMPDIR is unusable.
+/// Throws FileError if both fail.
 class TemporaryDirectory {
  public:
   TemporaryDirectory();

@@ -5,22 +5,21 @@
 #include <string>
 #include <string_view>
 
-/// Files that are read and written as a whole. What to tell a person of one that is not is the
-/// caller's: he knows what the file is for.
+/// Reads and writes whole files. The caller reports errors, because it knows the file's purpose.
 namespace verp::files {
 
-/// What is read as a whole is smaller: a device may go on for ever.
+/// Limit for reads, because a device may never end.
 inline constexpr std::size_t kMostBytes = 128U << 20;
 
-/// Nothing: it can't be opened, or is larger than kMostBytes; errno says why.
+/// Nothing if the file cannot be opened or exceeds kMostBytes; errno gives the reason.
 std::optional<std::string> read(const std::filesystem::path& file);
 
-/// False: not all of it could be written.
+/// False: not all bytes could be written.
 bool write(const std::filesystem::path& file, std::string_view bytes);
 
-/// The same under a name of its own, which is then the file's: a reader never sees half of it, two
-/// writers never mix, and of what could not be written nothing stays. A link stays one, to the new
-/// bytes; a device or a pipe is written to.
+/// Like write(), but through a temporary file that is then renamed. So a reader never sees half a
+/// file, two writers never mix, and a failed write leaves nothing. A link stays a link, to the new
+/// bytes; a device or pipe is written directly.
 bool replace(const std::filesystem::path& file, std::string_view bytes);
 
 }  // namespace verp::files

@@ -8,26 +8,26 @@
 
 #include "common/base/can_frame.hpp"
 
-/// CAN frames as the kernel has them.
+/// Conversion between CAN frames and the kernel's structures.
 namespace verp::link {
 
 canfd_frame to_kernel(const CanFrame& frame);
 CanFrame from_kernel(const canfd_frame& raw, bool fd);
 
-/// What came with a frame beside it.
+/// Metadata that the kernel delivers with a frame.
 struct CanBeside {
-  std::uint64_t wall_ns = 0;  ///< 0: not told
-  std::uint32_t drops = 0;    ///< of the socket's queue, so far
+  std::uint64_t wall_ns = 0;  ///< 0: missing
+  std::uint32_t drops = 0;    ///< total drops of the socket's queue
   bool drops_told = false;
 };
 CanBeside read_beside(msghdr& message);
 
-/// Frames on their way through one call of the kernel, and what comes with each.
+/// Frames and their metadata in one kernel call.
 struct CanBatch {
   static constexpr std::size_t kMost = 16;
 
   explicit CanBatch(std::size_t size);
-  /// For receiving.
+  /// Prepares for receiving.
   void expect_control();
 
   canfd_frame raw[kMost] = {};

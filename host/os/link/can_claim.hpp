@@ -5,16 +5,16 @@
 
 namespace verp::link {
 
-/// One part at a CAN interface that only one program of this PC may play: two masters, or two
-/// copies of the same nodes, hear each other's frames as their own. It is given back when this
-/// goes, or the program, however that ends.
+/// Claims a role on a CAN interface for one program of this PC. Two masters, or two copies of the
+/// same nodes, would take each other's frames for their own. The claim ends with this object or
+/// with the program, however that ends.
 class CanClaim {
  public:
-  /// Who has the part "watcher", in words: it alone asks the controller's node for its State.
+  /// Description of the role "watcher": only it may request State from the controller's node.
   static constexpr const char* kWatcher = "`verp shadow`, or `verp hil` without --operator,";
 
-  /// Throws LinkError (kBusy) that says who has it, and to end that; `who` plays the part
-  /// ("`verp run`").
+  /// Throws LinkError (kBusy) if another program has the role. `who` describes the role in the
+  /// message ("`verp run`").
   CanClaim(const std::string& interface, const std::string& part, const std::string& who);
 
  private:

@@ -19,7 +19,7 @@ namespace {
 
 using Kind = LinkError::Kind;
 
-/// Attributes of a netlink message that lie in `size` bytes from `first` on.
+/// Attributes of a netlink message in `size` bytes from `first`.
 class Attributes {
  public:
   Attributes(const void* first, std::size_t size)
@@ -123,7 +123,7 @@ std::vector<CanInterface> network_interfaces() {
   if (::send(socket.get(), &request, sizeof request, 0) < 0) kernel_silent(errno);
 
   std::vector<CanInterface> all;
-  alignas(nlmsghdr) std::array<std::uint8_t, 32768> buffer;  // as large as the kernel fills at once
+  alignas(nlmsghdr) std::array<std::uint8_t, 32768> buffer;  // the kernel fills at most this much
   for (;;) {
     const ssize_t count = ::recv(socket.get(), buffer.data(), buffer.size(), 0);
     if (count < 0 && errno == EINTR) continue;

@@ -14,23 +14,23 @@ struct CanInterface {
   bool is_can = false;
   bool is_virtual = false;  ///< vcan, vxcan: no wire, no bit rate, no bus-off
   bool up = false;
-  bool fd = false;               ///< takes CAN FD frames
-  std::uint32_t bitrate = 0;     ///< bit/s; 0: unknown, or there is none
-  std::uint32_t restart_ms = 0;  ///< how long after a bus-off it starts again; 0: never by itself
+  bool fd = false;               ///< accepts CAN FD frames
+  std::uint32_t bitrate = 0;     ///< bit/s; 0: unknown or none
+  std::uint32_t restart_ms = 0;  ///< restart delay after a bus-off; 0: no automatic restart
 };
 
-/// All network interfaces of this PC, CAN or not. Throws LinkError if the kernel does not say.
+/// All network interfaces of this PC, CAN or not. Throws LinkError if the kernel does not answer.
 std::vector<CanInterface> network_interfaces();
 
-/// The interface `name`, fit to be opened, or a LinkError that says what is wrong with it and how
-/// to make it right: not there, no CAN, down.
+/// The interface `name`, ready to be opened. Throws LinkError with the remedy if it is missing,
+/// down or not CAN.
 CanInterface find_can_interface(const std::string& name);
 
-/// What its user should know though it can be opened; empty: nothing.
+/// Advice for a usable interface; empty: none.
 std::string advice(const CanInterface& interface);
 
-/// Why it can't carry a robot's bus of so many bit/s, and what to do; empty: it can, or has no bit
-/// rate that is known.
+/// Why the interface cannot carry a robot's bus at `baud` bit/s, with the remedy. Empty: it can, or
+/// its rate is unknown.
 std::string bit_rate_trouble(const CanInterface& interface, const std::string& robot,
                              std::uint32_t baud);
 

@@ -25,7 +25,7 @@ struct Endpoint {
 
 inline constexpr std::uint32_t kDefaultBaud = 2'000'000;
 
-/// Bad usage: exit status 2. what() is one line that says what is wrong and what to write instead.
+/// Usage error: exit status 2. what() is one line with the error and the correct form.
 class EndpointError : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
@@ -34,7 +34,7 @@ class EndpointError : public std::invalid_argument {
 /// Throws EndpointError.
 Endpoint parse_endpoint(const std::string& text);
 
-/// What parse_endpoint() makes the same endpoint of.
+/// Text from which parse_endpoint() makes an equal endpoint.
 std::string to_text(const Endpoint& endpoint);
 
 }  // namespace verp::link

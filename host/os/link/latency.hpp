@@ -4,12 +4,12 @@
 
 namespace verp::link {
 
-/// Milliseconds that a USB serial adapter of FTDI keeps bytes back before it sends a packet that is
-/// not full: its `latency_timer`. Empty for other devices. `device` may be a symbolic link.
+/// The `latency_timer` of an FTDI USB serial adapter: the time in milliseconds for which it holds
+/// back a partly filled packet. Empty for other devices. `device` may be a symbolic link.
 std::optional<int> latency_timer_ms(const std::string& device,
                                     const std::string& system_folder = "/sys");
 
-/// One line of advice if `device` keeps bytes back for longer than 1 ms; empty if all is well.
+/// One line of advice if `device` holds bytes back for more than 1 ms; otherwise empty.
 std::string latency_advice(const std::string& device, const std::string& system_folder = "/sys");
 
 }  // namespace verp::link

@@ -3,9 +3,9 @@
 
 namespace verp::link {
 
-/// What libserial cannot: any rate that the adapter can make, and which one it has made.
+/// Sets any rate that the adapter supports and reads the actual one; libserial can do neither.
 bool set_line_rate(int descriptor, std::uint32_t baud);
-/// 0: the device doesn't say.
+/// 0: unknown.
 std::uint32_t line_rate(int descriptor);
 
 }  // namespace verp::link

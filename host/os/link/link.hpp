@@ -11,17 +11,17 @@
 
 namespace verp::link {
 
-/// The PC's ByteLink: a serial port, a pseudo-terminal or a socket. After a loss it finds the other
-/// end again by itself, within read() and write(). Use one Link from one thread.
+/// The PC's ByteLink: a serial port, a pseudo-terminal or a socket. After a loss, read() and
+/// write() reconnect by themselves. Use one Link from one thread.
 class Link {
  public:
-  /// Opens it. A listener or pseudo-terminal is not connected before somebody came. Throws
-  /// LinkError.
+  /// Opens the endpoint. A listener or pseudo-terminal is connected only when a peer has come.
+  /// Throws LinkError.
   explicit Link(const Endpoint& endpoint);
 
-  /// What somebody else can be told to open: `/dev/pts/4`, `tcp:127.0.0.1:6000`.
+  /// Endpoint that a peer can open: `/dev/pts/4`, `tcp:127.0.0.1:6000`.
   std::string place() const { return port_->place(); }
-  /// Of a pseudo-terminal: the rate in baud that its other end has set, or found; else 0.
+  /// For a pseudo-terminal: the rate in baud that its other end has set or found; otherwise 0.
   std::uint32_t rate() const { return port_->rate(); }
   void set_rate(std::uint32_t baud) { port_->set_rate(baud); }
 
@@ -31,11 +31,11 @@ class Link {
   bool connected() const { return descriptor_ >= 0; }
   hal::LinkErrors errors() const;
 
-  /// Waits until somebody is there; false: timeout_us has passed. Also what read() and write() do.
+  /// Waits for a peer; false: timeout_us has passed. read() and write() do this too.
   bool wait_connected(std::uint32_t timeout_us);
 
  private:
-  /// In nanoseconds of the monotonic clock.
+  /// Deadline in nanoseconds of the monotonic clock.
   bool connect_until(std::uint64_t deadline_ns);
   void lose();
   bool unread() const;

@@ -31,7 +31,7 @@ class Descriptor {
   int number_;
 };
 
-/// What a Link is opened on; one for each kind of endpoint. Not for threads.
+/// Implementation of a Link, one per kind of endpoint. Not thread-safe.
 class Port {
  public:
   Port() = default;
@@ -39,25 +39,24 @@ class Port {
   Port& operator=(const Port&) = delete;
   virtual ~Port() = default;
 
-  /// A descriptor that never blocks, of this Port's, to a peer; -1: nobody is there yet. Never
-  /// waits for long. Throws LinkError.
+  /// A non-blocking descriptor to a peer, owned by this Port; -1: no peer yet. Never waits for
+  /// long. Throws LinkError.
   virtual int open() = 0;
-  /// After a loss: the descriptor is of no more use.
+  /// Called after a loss, when the descriptor is no longer useful.
   virtual void close() = 0;
-  /// When to try open() again.
+  /// Retry interval of open().
   virtual std::uint32_t retry_us() const = 0;
-  /// What a peer may be told to open; see Link::place().
+  /// Endpoint for a peer; see Link::place().
   virtual std::string place() const = 0;
-  /// The rate in baud that a peer has set; 0: there is none, or it is nothing to the peer.
+  /// Rate in baud set by a peer; 0: none, or irrelevant to the peer.
   virtual std::uint32_t rate() const { return 0; }
-  /// The rate that a peer finds, and may change. One that came first, and has set its own, keeps
-  /// it.
+  /// Sets the rate that a peer finds and may change. A peer that has already set a rate keeps it.
   virtual void set_rate(std::uint32_t) {}
-  /// Since this Port was made, without losses.
+  /// Counts since this Port was created, without losses.
   virtual hal::LinkErrors counted() { return {}; }
 };
 
-/// Makes what can be made at once (a listening socket, a pseudo-terminal); throws LinkError.
+/// Creates what can be created at once (a listening socket, a pseudo-terminal); throws LinkError.
 std::unique_ptr<Port> make_port(const Endpoint& endpoint);
 
 std::unique_ptr<Port> make_serial_port(const Endpoint& endpoint);

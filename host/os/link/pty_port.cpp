@@ -23,27 +23,27 @@ namespace {
 
 constexpr std::string_view kTerminals = "/dev/pts/";
 
-/// The folder of a path, as it may be opened.
+/// Folder of a path, as an argument of open().
 std::string folder_of(const std::string& path) {
   const std::string::size_type end = path.rfind('/');
   return end == std::string::npos ? "." : path.substr(0, end + 1);
 }
 
-/// A pseudo-terminal's name, as ptsname() gives it.
+/// True for a pseudo-terminal's name, as ptsname() gives it.
 bool is_terminal_name(std::string_view name) {
   if (!name.starts_with(kTerminals) || name.size() == kTerminals.size()) return false;
   name.remove_prefix(kTerminals.size());
   return std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// The kernel takes the name away with the master. It is not opened to see: its master would take
-/// that for a peer that came and left.
+/// The kernel removes the name with the master. Do not open it to check: its master would see a
+/// peer that came and left.
 bool exists(const std::string& name) {
   struct stat status {};
   return ::stat(name.c_str(), &status) == 0;
 }
 
-/// The master's end of a pseudo-terminal: whoever opens the other end finds a serial port.
+/// Master end of a pseudo-terminal: a program that opens the other end finds a serial port.
 class PtyPort final : public Port {
  public:
   explicit PtyPort(std::string path) : path_(std::move(path)) {
@@ -56,7 +56,8 @@ class PtyPort final : public Port {
                           "; mount /dev/pts, or close programs that use many");
     }
     name_ = name.data();
-    // Raw from the start, and once open and closed, so that the master knows that nobody is there.
+    // Raw mode from the start. Opening and closing the other end once shows the master that no peer
+    // is there.
     const Descriptor slave(::open(name_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
     termios settings{};
     if (::tcgetattr(slave.get(), &settings) == 0) {
@@ -75,8 +76,8 @@ class PtyPort final : public Port {
     pollfd one{master_.get(), 0, 0};
     return ::poll(&one, 1, 0) < 0 || (one.revents & POLLHUP) != 0 ? -1 : master_.get();
   }
-  // What the one who left did not read is no business of the next one. The master's own flush does
-  // not reach what the other end's line has taken already.
+  // The next peer must not get bytes that the last one did not read. The master's flush does not
+  // reach bytes already in the other end's line buffer.
   void close() override {
     const Descriptor slave(::open(name_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
     ::tcflush(master_.get(), TCOFLUSH);
@@ -90,7 +91,7 @@ class PtyPort final : public Port {
   std::string place() const override { return path_.empty() ? name_ : path_; }
 
  private:
-  /// Where the symbolic link at path_ goes; empty if there is none.
+  /// Target of the symbolic link at path_; empty if there is none.
   std::string target() const {
     std::array<char, 64> target{};
     return ::readlink(path_.c_str(), target.data(), target.size() - 1) > 0 ? target.data() : "";
@@ -99,7 +100,7 @@ class PtyPort final : public Port {
     const int error = link();
     if (error == 0) return;
     if (error != EEXIST || !is_terminal_name(target())) refuse_link(error);
-    // Of two that find the link of one that was killed, the second must see what the first made.
+    // If two programs find a killed program's link, the second must see the first one's new link.
     const Descriptor folder(::open(folder_of(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (folder.get() >= 0) ::flock(folder.get(), LOCK_EX);
     const std::string other = target();
@@ -109,8 +110,8 @@ class PtyPort final : public Port {
     }
     if (const int still = link(); still != 0) refuse_link(still);
   }
-  /// What kept the link from being made, an errno. The number of one that was killed may be ours
-  /// now: then its link is, too.
+  /// errno of the failed link. A killed program's terminal number may now be ours; then its link is
+  /// ours too.
   int link() const {
     const int error = ::symlink(name_.c_str(), path_.c_str()) == 0 ? 0 : errno;
     return error == EEXIST && target() == name_ ? 0 : error;
@@ -145,7 +146,7 @@ class PtyPort final : public Port {
 
   std::string path_;
   std::string name_;
-  std::uint32_t found_ = 0;  ///< the rate as the kernel makes one
+  std::uint32_t found_ = 0;  ///< the kernel's initial rate
   Descriptor master_;
 };
 

@@ -10,7 +10,7 @@ std::uint8_t clamped(double value) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
 }
 
-/// ITU-R BT.601, of 219 steps of Y and 224 of Cb and Cr.
+/// ITU-R BT.601: 219 steps of Y and 224 of Cb and Cr.
 void put_yuv(std::uint8_t* out, double y, double cb, double cr) {
   const double luma = 255.0 / 219.0 * (y - 16), blue = 255.0 / 224.0 * (cb - 128),
                red = 255.0 / 224.0 * (cr - 128);
@@ -38,7 +38,7 @@ std::vector<std::uint8_t> rgb_of(const hal::CameraFrame& frame) {
       } else if (frame.format == hal::PixelFormat::kGrey) {
         std::fill_n(out, 3, in[x]);
       } else {
-        // An odd picture's last pixel has no partner: it takes its Cr of the pair before.
+        // The last pixel of an odd row has no partner, so it uses the previous pair's Cr.
         const std::size_t pair = 4 * (x / 2);
         const double cr = pair + 3 < row ? in[pair + 3] : (pair >= 4 ? in[pair - 1] : 128);
         put_yuv(out, in[2 * x], in[pair + 1], cr);

@@ -6,8 +6,7 @@
 
 namespace verp::link {
 
-/// The picture as three bytes a pixel, rows without gaps. Empty: it is compressed, or has fewer
-/// bytes than it says.
+/// The picture with three bytes per pixel, rows without gaps. Empty: it is compressed or too short.
 std::vector<std::uint8_t> rgb_of(const hal::CameraFrame& frame);
 
 }  // namespace verp::link

@@ -7,10 +7,10 @@ namespace {
 
 constexpr char kFirst = '0';
 constexpr std::uint32_t kSixBits = 0x3F;
-// The longest reply is a scan of 1128 steps of 3 characters and 53 sums and line ends.
+// The longest reply: a scan of 1128 steps of 3 characters, plus 53 sums and line ends.
 constexpr std::size_t kLongest = 8192;
 
-/// The line without its sum, if that is right.
+/// The line without its checksum; nothing if the checksum is wrong.
 std::optional<std::string_view> checked(std::string_view line) {
   if (line.empty()) return std::nullopt;
   const std::string_view data = line.substr(0, line.size() - 1);
@@ -62,7 +62,7 @@ std::optional<Replies::Reply> Replies::next() {
     const std::size_t end = waiting_.find("\n\n");
     if (end == std::string::npos) {
       if (waiting_.size() <= kLongest) return std::nullopt;
-      waiting_.clear();  // nothing that speaks this protocol
+      waiting_.clear();  // not this protocol
       ++damaged_;
       return std::nullopt;
     }

@@ -8,15 +8,15 @@
 
 namespace verp::link {
 
-/// A Hokuyo laser on a link as hal/contract/range_finder.hpp: it is asked to scan without end, and
-/// asked anew when it has been silent. Now: this PC's time, ns.
+/// A Hokuyo laser on a link as hal/contract/range_finder.hpp. It requests endless scans, and again
+/// after a silence. Now: this PC's time, ns.
 template <hal::ByteLink Line, std::uint64_t (*Now)() = monotonic_ns>
 class ScipRangeFinder {
  public:
   struct Steps {
     int first = 44, last = 725;     ///< URG-04LX: 240 degrees, from right to left
-    std::uint16_t least_mm = 20;    ///< DMIN of its PP reply: below are error codes
-    std::uint32_t silent_ms = 500;  ///< of a scan takes 100 ms, of a start two
+    std::uint16_t least_mm = 20;    ///< DMIN of its PP reply; smaller values are error codes
+    std::uint32_t silent_ms = 500;  ///< a scan takes 100 ms, a start two scans
   };
 
   ScipRangeFinder(Line& line, Steps steps) : line_(line), steps_(steps) {}
@@ -43,7 +43,7 @@ class ScipRangeFinder {
   }
   std::uint32_t faults() const { return faults_; }
 
-  /// Of the last reply that was an answer to a request that failed; empty: none was.
+  /// Last error reply to a request; empty: none.
   const std::string& last_complaint() const { return complaint_; }
   std::uint32_t damaged() const { return replies_.damaged(); }
 
@@ -57,14 +57,15 @@ class ScipRangeFinder {
     while ((size = line_.read(bytes, sizeof bytes, 0)) > 0) replies_.add(bytes, size);
   }
   bool is_ill(const scip::Replies::Reply& reply) {
-    // BM says 02 where the laser is on already.
+    // The laser answers BM with 02 if it is already on.
     if (reply.status == "00" || reply.status == "99" ||
         (reply.echo.starts_with("BM") && reply.status == "02"))
       return false;
     complaint_ = reply.echo + " " + reply.status;
     return reply.echo.starts_with("MD");
   }
-  /// SCIP 2.0 of a sensor that may begin with 1.1, laser on, scans without end of one step each.
+  /// Switches a sensor that may start in 1.1 to SCIP 2.0, turns the laser on and requests endless
+  /// scans of single steps.
   void ask() {
     const auto digits = [](int value) {
       const std::string text = std::to_string(value);

@@ -3,8 +3,8 @@
 
 namespace verp::link {
 
-/// Throws LinkError that says what keeps `device` from being opened as a serial port, as far as it
-/// shows from outside: it is not there, is something else, is another user's, is held alone.
+/// Throws LinkError if `device` visibly cannot be opened as a serial port: it is missing, is
+/// another kind of file, lacks permission, or is open exclusively elsewhere.
 void check_serial_port(const std::string& device);
 
 }  // namespace verp::link

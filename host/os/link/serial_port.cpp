@@ -25,7 +25,7 @@ using LibSerial::BaudRate;
 
 constexpr std::uint32_t kRetry_us = 50'000;
 
-/// The serial ports that are plugged in, as advice.
+/// The connected serial ports, as advice.
 std::string ports_here() {
   std::string names;
   std::error_code error;
@@ -73,7 +73,7 @@ void check_serial_port(const std::string& device) {
 
 namespace {
 
-/// libserial's name of a rate, or BAUD_INVALID: then the kernel is asked directly.
+/// libserial's constant for a rate; BAUD_INVALID: set the rate through the kernel.
 BaudRate standard_rate(std::uint32_t baud) {
   switch (baud) {
     case 9600:
@@ -110,7 +110,7 @@ class SerialPort final : public Port {
     } catch (const LinkError&) {
       close();
       throw;
-    } catch (const std::exception& error) {  // libserial's, which carry no error number
+    } catch (const std::exception& error) {  // libserial's, without an error number
       close();
       throw LinkError(Kind::kUnsuitable,
                       device_ + ": " + error.what() + "; is it a serial port, and free?");
@@ -145,8 +145,8 @@ class SerialPort final : public Port {
   }
 
  private:
-  // A second copy would steal half of the bytes. TIOCEXCL keeps others out but not root; the lock
-  // keeps out all that ask.
+  // A second reader would take half of the bytes. TIOCEXCL excludes other programs but not root;
+  // flock() excludes all that use it.
   void own() const {
     const int descriptor = port_->GetFileDescriptor();
     if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) throw busy(device_);
@@ -154,8 +154,8 @@ class SerialPort final : public Port {
     ::fcntl(descriptor, F_SETFD, FD_CLOEXEC);
   }
 
-  // Closing restores the settings, which what is unplugged refuses; and libserial's destructor then
-  // ends the program. So it gets a terminal on which it can.
+  // Closing restores the settings, which fails on an unplugged device; libserial's destructor then
+  // ends the program. So give it a terminal on which closing succeeds.
   void give_it_a_terminal() {
     int master = -1;
     int slave = -1;
@@ -165,7 +165,7 @@ class SerialPort final : public Port {
       spare_.reset(master);
     } else {
       ::close(port_->GetFileDescriptor());
-      static_cast<void>(port_.release());  // better a lost object than a lost robot
+      static_cast<void>(port_.release());  // better leak an object than lose a robot
     }
   }
 
@@ -174,7 +174,7 @@ class SerialPort final : public Port {
     port_->SetParity(LibSerial::Parity::PARITY_NONE);
     port_->SetStopBits(LibSerial::StopBits::STOP_BITS_1);
     port_->SetFlowControl(LibSerial::FlowControl::FLOW_CONTROL_NONE);
-    port_->SetVMin(1);  // with 0, nothing to read would look like a hang-up
+    port_->SetVMin(1);  // with 0, an empty read would look like a hang-up
     port_->SetVTime(0);
     port_->SetSerialPortBlockingStatus(false);
     set_line();
@@ -183,12 +183,12 @@ class SerialPort final : public Port {
     const int descriptor = port_->GetFileDescriptor();
     if (::ioctl(descriptor, TIOCGSERIAL, &settings) == 0) {
       settings.flags |= ASYNC_LOW_LATENCY;
-      ::ioctl(descriptor, TIOCSSERIAL, &settings);  // not all drivers have it
+      ::ioctl(descriptor, TIOCSSERIAL, &settings);  // not supported by all drivers
     }
   }
 
-  // Receivers stand about 2 % of error; an adapter that cannot make the rate takes another one
-  // without a word.
+  // Receivers tolerate about 2 % of rate error. An adapter that does not support the rate silently
+  // uses another.
   void set_line() const {
     const int descriptor = port_->GetFileDescriptor();
     const BaudRate rate = standard_rate(baud_);
@@ -206,7 +206,7 @@ class SerialPort final : public Port {
     serial_icounter_struct count{};
     if (!port_ || !port_->IsOpen() ||
         ::ioctl(port_->GetFileDescriptor(), TIOCGICOUNT, &count) != 0) {
-      return at_open_;  // a pseudo-terminal counts nothing, what is unplugged no more
+      return at_open_;  // pseudo-terminals and unplugged devices have no counters
     }
     const auto sum = [](int a, int b) { return static_cast<std::uint32_t>(a + b); };
     return {.overruns = sum(count.overrun, count.buf_overrun),
@@ -216,10 +216,10 @@ class SerialPort final : public Port {
 
   std::string device_;
   std::uint32_t baud_;
-  Descriptor spare_;  ///< outlives port_
+  Descriptor spare_;  ///< must outlive port_
   std::unique_ptr<LibSerial::SerialPort> port_;
-  hal::LinkErrors before_;   ///< of earlier openings
-  hal::LinkErrors at_open_;  ///< the driver counts from its own beginning
+  hal::LinkErrors before_;   ///< from earlier openings
+  hal::LinkErrors at_open_;  ///< the driver counts from its own start
 };
 
 }  // namespace

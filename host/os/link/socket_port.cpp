@@ -21,7 +21,7 @@ constexpr int kConnectTimeout_ms = 2000;
 constexpr std::uint32_t kRetryClient_us = 50'000;
 constexpr std::uint32_t kRetryListener_us = 1000;
 
-/// Where sockets of one endpoint are bound or connected.
+/// Address to which an endpoint's sockets are bound or connected.
 using Kind = LinkError::Kind;
 
 struct Address {
@@ -87,7 +87,7 @@ Descriptor new_socket(const Endpoint& endpoint, const Address& address) {
   return made;
 }
 
-// Frames are small and wait for answers: none may wait for company.
+// Frames are small and wait for answers, so TCP must not delay them.
 void send_at_once(int descriptor) {
   const int on = 1;
   ::setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
@@ -123,7 +123,7 @@ class SocketPort final : public Port {
   Descriptor peer_;
 };
 
-/// One peer at a time; the next one waits until it is gone.
+/// One peer at a time; the next one waits until it has left.
 class Listener final : public Port {
  public:
   Listener(Endpoint endpoint, const Address& address) : endpoint_(std::move(endpoint)) {
@@ -140,7 +140,7 @@ class Listener final : public Port {
     sockaddr_storage name{};
     socklen_t size = sizeof name;
     ::getsockname(listening_.get(), reinterpret_cast<sockaddr*>(&name), &size);
-    // The port stands at the same place in both families.
+    // The port has the same offset in both address families.
     endpoint_.port = ntohs(reinterpret_cast<const sockaddr_in*>(&name)->sin_port);
   }
   ~Listener() override {
@@ -162,7 +162,7 @@ class Listener final : public Port {
   }
 
  private:
-  // A program that was killed leaves its socket behind: nobody answers there.
+  // A killed program leaves its socket behind; connecting to it is refused.
   void remove_dead_socket(const Address& address) const {
     struct stat status {};
     if (::stat(endpoint_.place.c_str(), &status) != 0 || !S_ISSOCK(status.st_mode)) return;

@@ -19,8 +19,8 @@ inline std::uint64_t monotonic_ns() {
          static_cast<std::uint64_t>(now.tv_nsec);
 }
 
-/// Returns when monotonic_ns() says so. Where that is not the kernel's own word
-/// (tests/support/quick_clock.cpp), the kernel's sleep may end a few microseconds before.
+/// Returns when monotonic_ns() reaches `time_ns`. The loop is needed because a replaced clock
+/// (tests/support/quick_clock.cpp) may wake a few microseconds early.
 inline void sleep_until_ns(std::uint64_t time_ns) {
   const timespec until = to_timespec(time_ns);
   do {
@@ -28,8 +28,8 @@ inline void sleep_until_ns(std::uint64_t time_ns) {
   } while (monotonic_ns() < time_ns);
 }
 
-/// The PC's TickSource. How late wait() returns is the scheduler's to say: usually well under a
-/// millisecond, milliseconds under load; SCHED_FIFO helps.
+/// The PC's TickSource. The scheduler decides how late wait() returns: usually well under a
+/// millisecond, milliseconds under load. SCHED_FIFO helps.
 class SystemClock {
  public:
   bool start(std::uint32_t period_us) {
@@ -52,7 +52,7 @@ class SystemClock {
  private:
   std::uint64_t made_ns_ = monotonic_ns();
   std::uint64_t period_ns_ = 0;
-  std::uint64_t next_ns_ = 0;  ///< when the next tick begins
+  std::uint64_t next_ns_ = 0;  ///< start of the next tick
 };
 
 static_assert(hal::TickSource<SystemClock>);

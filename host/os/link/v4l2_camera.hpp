@@ -9,28 +9,29 @@
 
 namespace verp::link {
 
-/// A way in which a video device gives pictures.
+/// A picture format of a video device.
 struct VideoFormat {
-  std::string code;   ///< of four characters, as the kernel has it: YUYV
-  std::string name;   ///< the driver's words
-  std::string sizes;  ///< "640x480 320x240", "16x16 to 1920x1080"; empty: it tells none
-  hal::PixelFormat format = hal::PixelFormat::kNone;  ///< kNone: none that is read here
+  std::string code;   ///< four characters, as in the kernel: YUYV
+  std::string name;   ///< the driver's description
+  std::string sizes;  ///< "640x480 320x240", "16x16 to 1920x1080"; empty: unknown
+  hal::PixelFormat format = hal::PixelFormat::kNone;  ///< kNone: not supported here
 };
 
-/// What is asked of one; 0 and kNone: what it has.
+/// Requested format; 0 and kNone: the device's own.
 struct VideoWish {
   std::uint32_t width_px = 0, height_px = 0;
   double rate_hz = 0;
   hal::PixelFormat format = hal::PixelFormat::kNone;
 };
 
-/// A camera of Linux (V4L2, <linux/videodev2.h>: capture, streaming into mapped buffers) as
-/// hal/contract/camera.hpp. It opens and starts in the constructor, and again by itself when it was
-/// unplugged and has come back.
+/// A Linux camera (V4L2, <linux/videodev2.h>: capture, streaming into mapped buffers) as
+/// hal/contract/camera.hpp. The constructor opens and starts it; it restarts by itself after it was
+/// unplugged and returned.
 class V4l2Camera {
  public:
   using Now = std::uint64_t (*)();  ///< ns; monotonic
-  /// Throws LinkError, one line: no such device, no permission, busy, no camera, not that picture.
+  /// Throws LinkError, one line: missing device, permission, busy, not a camera, unsupported
+  /// picture.
   V4l2Camera(std::string device, const VideoWish& wish, VideoCalls& calls = kernel_video_calls(),
              Now now = monotonic_ns);
   ~V4l2Camera();
@@ -41,19 +42,19 @@ class V4l2Camera {
   hal::CameraStatus read(hal::CameraFrame& frame);
   std::uint32_t faults() const { return faults_; }
 
-  /// Waits until a picture may be there, at most so long.
+  /// Waits at most `time_ms` for a picture.
   void wait(int time_ms);
-  /// The ways in which it gives pictures.
+  /// Supported picture formats.
   std::vector<VideoFormat> formats() const;
-  /// What it is, by its driver, and what it was set to.
+  /// The driver's name for the camera, and its present settings.
   const std::string& card() const { return card_; }
   std::uint32_t width_px() const { return width_px_; }
   std::uint32_t height_px() const { return height_px_; }
   hal::PixelFormat format() const { return format_; }
-  double rate_hz() const { return rate_hz_; }  ///< 0: it doesn't tell
-  /// Pictures that came in part, or that its driver called damaged.
+  double rate_hz() const { return rate_hz_; }  ///< 0: unknown
+  /// Incomplete pictures, and pictures that the driver marked as damaged.
   std::uint32_t damaged() const { return damaged_; }
-  /// Why it is gone; empty: it is there.
+  /// Why the camera is lost; empty: it works.
   const std::string& trouble() const { return trouble_; }
 
  private:
@@ -86,7 +87,7 @@ class V4l2Camera {
   hal::PixelFormat format_ = hal::PixelFormat::kNone;
   double rate_hz_ = 0;
   std::vector<Buffer> buffers_;
-  int held_ = -1;  ///< the buffer that the last frame is in
+  int held_ = -1;  ///< buffer of the last frame
   std::uint32_t next_sequence_ = 0;
   std::uint64_t last_us_ = 0, retry_ns_ = 0;
   std::uint32_t faults_ = 0, damaged_ = 0;

@@ -13,7 +13,7 @@ hal::PixelFormat format_of(std::uint32_t code) {
   return found == kCodes.end() ? hal::PixelFormat::kNone : found->format;
 }
 
-/// Four characters, the lowest first; what is none is a dot.
+/// Four characters, lowest byte first; a dot replaces unprintable ones.
 std::string fourcc_text(std::uint32_t code) {
   std::string text;
   for (int shift = 0; shift < 32; shift += 8) {
@@ -23,7 +23,7 @@ std::string fourcc_text(std::uint32_t code) {
   return text;
 }
 
-/// Of one format. A driver may know single sizes or a range, or tell nothing.
+/// Sizes of one format. A driver may list single sizes, a range or nothing.
 std::string sizes_of(VideoCalls& calls, int descriptor, std::uint32_t code) {
   std::vector<std::string> sizes;
   for (std::uint32_t i = 0; i < 100; ++i) {

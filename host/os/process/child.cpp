@@ -16,9 +16,10 @@
 namespace verp::process {
 namespace {
 
-constexpr int kFirstFree = STDERR_FILENO + 1;  // below are the streams, in either process
+constexpr int kFirstFree = STDERR_FILENO + 1;  // lower numbers are the standard streams of both
+                                               // processes
 
-/// The end of a pipe on which a program that does not start says why. It closes when one does.
+/// Pipe for the error of a failed start. A successful exec closes it.
 struct Report {
   int read_end = -1, write_end = -1;
 
@@ -37,7 +38,7 @@ struct Report {
   Report(const Report&) = delete;
   Report& operator=(const Report&) = delete;
 
-  /// The error number, or 0; waits for either.
+  /// Error number, or 0; waits for either.
   int read() {
     ::close(std::exchange(write_end, -1));
     int error = 0;
@@ -49,8 +50,8 @@ struct Report {
   }
 };
 
-/// Where PATH has it; itself if it says where it is, or if it is nowhere. execvp() would look too,
-/// but gives what is no program to a shell, which fails with words about something else.
+/// Path of the program in PATH; `program` itself if it contains a slash or is not found. execvp()
+/// would pass a file that is no program to a shell, whose message is misleading.
 std::string place_of(const std::string& program) {
   const char* path = std::getenv("PATH");
   if (path == nullptr || program.find('/') != std::string::npos) return program;
@@ -62,19 +63,21 @@ std::string place_of(const std::string& program) {
   return program;
 }
 
-/// The forked half, up to its new program. Only what is safe after fork: no memory is allocated, as
-/// another thread's lock may be held here for ever.
+/// The forked child before exec. It uses only async-signal-safe calls and allocates no memory,
+/// because another thread's lock may be held here forever.
 class Becoming {
  public:
   Becoming(const Command& command, const char* program, char* const* words, int report)
       : command_(command), program_(program), words_(words), report_(report) {}
 
   [[noreturn]] void become(pid_t parent) {
-    // A descriptor below may be the report's, where our own streams were closed.
+    // If our own standard streams are closed, the report may have one of their numbers.
     report_ = must(::fcntl(report_, F_DUPFD_CLOEXEC, kFirstFree));
     must(::setpgid(0, 0));
     if (command_.ends_with_thread) must(::prctl(PR_SET_PDEATHSIG, SIGKILL));
-    if (::getppid() != parent) ::_exit(kNotStarted);  // it died before it could be told of
+    if (::getppid() != parent)
+      ::_exit(kNotStarted);  // the parent died before the kernel could
+                             // watch it
     const int input = open(command_.input, O_RDONLY);
     const int output = open(command_.output, O_WRONLY | O_CREAT | O_TRUNC);
     const int error = command_.error ? open(*command_.error, O_WRONLY | O_CREAT | O_TRUNC) : output;
@@ -153,7 +156,7 @@ std::optional<int> Child::reap(int flags) {
     const pid_t ended = ::waitpid(pid_, &status, flags);
     if (ended == 0) break;
     if (ended < 0 && errno == EINTR) continue;
-    // Somebody else took it: all that is known is that it is gone.
+    // Another waiter took the status; the process has ended.
     status_ = ended < 0           ? 128 + SIGKILL
               : WIFEXITED(status) ? WEXITSTATUS(status)
                                   : 128 + WTERMSIG(status);

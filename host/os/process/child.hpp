@@ -6,45 +6,45 @@
 #include <string>
 #include <vector>
 
-/// Programs that we start.
+/// Child processes.
 namespace verp::process {
 
-/// Where a program's stream leads: a descriptor of ours that it gets a copy of, or a file, which is
-/// made anew if it is written. Neither: nowhere.
+/// Source or target of a program's stream: a copy of our descriptor, or a file, which is created or
+/// truncated for output. Neither: /dev/null.
 struct Stream {
   int descriptor = -1;
   std::filesystem::path file = {};
 };
 
 struct Command {
-  std::vector<std::string> words;  ///< the program, looked up in PATH, and its arguments
+  std::vector<std::string> words;  ///< the program, searched in PATH, and its arguments
   Stream input, output;
-  std::optional<Stream> error = {};   ///< none: where the output goes
-  std::filesystem::path folder = {};  ///< where it works; empty: where we do
-  /// It ends with the thread that made it, even one of a process that is killed. False: for whoever
-  /// is told by its streams that we are gone, and may be made on any thread.
+  std::optional<Stream> error = {};   ///< none: same as the output
+  std::filesystem::path folder = {};  ///< working directory; empty: ours
+  /// The program ends with the thread that started it, even in a killed process. False: for
+  /// programs that notice our end by their streams; any thread may start them.
   bool ends_with_thread = true;
 };
 
-/// A program that runs beside this one, in a process group of its own: a terminal's Ctrl-C reaches
-/// us, who then end it in order. It ends with this object at the latest, and with this process,
-/// even one that is killed. Make it on the main thread, unless its command says otherwise: to the
-/// kernel, a thread that ends is a parent that died.
+/// A child process in its own process group. A terminal's Ctrl-C reaches only us, and we then end
+/// the child in order. It ends at the latest with this object or this process, even a killed one.
+/// Create it on the main thread unless the command says otherwise, because the kernel treats the
+/// end of the starting thread as the parent's death.
 class Child {
  public:
-  /// Returns when the program runs. Throws std::system_error with the reason when it can't be
-  /// started; ENOENT: there is no such program.
+  /// Returns when the program runs. Throws std::system_error with the reason if it cannot start;
+  /// ENOENT: there is no such program.
   explicit Child(const Command& command);
   ~Child();
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
   pid_t id() const { return pid_; }
-  /// A signal to it and to what it started.
+  /// Sends a signal to the process group.
   void tell(int signal) const;
-  /// Its exit status once it has ended, 128 + signal if it was killed. Does not wait.
+  /// Exit status after the end; 128 + signal if killed. Does not wait.
   std::optional<int> status();
-  /// The same; waits.
+  /// The same, but waits.
   int wait();
 
  private:
@@ -54,7 +54,7 @@ class Child {
   std::optional<int> status_;
 };
 
-/// What it said last; "nothing" if it said nothing.
+/// Last line of the output; "nothing" if it is empty.
 std::string last_line(const std::string& output);
 
 }  // namespace verp::process
