@@ -62,8 +62,7 @@ enum { VERP_ABI = 0 };
 uint32_t verp_abi(void);
 /* Revision of the library's sources. The string is constant. */
 const char* verp_version(void);
-/* The error of this thread's last failed call, or "". Valid until this thread's next failed call.
- */
+/* The error of this thread's last failed call, or "". Valid until its next failed call. */
 const char* verp_last_error(void);
 /* Layout of "inputs", "outputs", "state" or "params", one line per field: offset, type, name. Null:
  * there is no such struct. The string is constant. */

@@ -15,11 +15,12 @@ namespace verp::live {
 namespace {
 
 constexpr std::size_t kMostHead = 8192;
-constexpr std::uint64_t kMostMessage = 64 * 1024;  // of a viewer's: lists of subscriptions
-// Who takes nothing is not listened to either: answers to what it says would pile up.
+constexpr std::uint64_t kMostMessage = 64 * 1024;  // of a viewer's message: a subscription list
+// A viewer that reads nothing is not read either, because the answers to its messages would pile
+// up.
 constexpr std::size_t kMostUntaken = 64 * 1024;
-constexpr std::size_t kAtOnce = 64 * 1024;  // read of one, before others have their turn
-constexpr std::size_t kMessage = 64;        // that wslay keeps beside a message's bytes
+constexpr std::size_t kAtOnce = 64 * 1024;  // bytes read before others have their turn
+constexpr std::size_t kMessage = 64;        // wslay's overhead per queued message
 
 bool would_block() {
   return errno == EAGAIN || errno == EWOULDBLOCK;
@@ -58,7 +59,7 @@ void Connection::greet() {
   const ssize_t count = receive(bytes.data(), bytes.size());
   if (count < 0 && would_block()) return;
   if (count <= 0) return cut();
-  if (stage_ == Stage::kRefused) return;  // whatever it still says
+  if (stage_ == Stage::kRefused) return;  // ignores all further input
   in_.append(reinterpret_cast<const char*>(bytes.data()), static_cast<std::size_t>(count));
   const std::size_t length = std::min(head_length(in_), in_.size());
   if (length == in_.size() && head_length(in_) == in_.npos && length < kMostHead) return;
@@ -119,7 +120,7 @@ void Connection::write() {
   look_for_end();
 }
 
-/// Both have said their last, or wslay gave up on it.
+/// Cuts the connection if both sides have closed it, or wslay gave up.
 void Connection::look_for_end() {
   if (::wslay_event_want_read(frames_.get()) == 0 && ::wslay_event_want_write(frames_.get()) == 0)
     cut();

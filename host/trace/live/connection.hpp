@@ -10,16 +10,17 @@
 
 namespace verp::live {
 
-/// A WebSocket over one socket, which it owns; the server's end. Never waits: who polls socket()
-/// for events() calls ready(). wslay does the frames, this the greeting and the bytes.
+/// The server's end of a WebSocket over one socket, which it owns. It never blocks: the owner polls
+/// socket() for events() and then calls ready(). wslay does the framing; this class does the
+/// handshake and the I/O.
 class Connection {
  public:
   using Clock = std::chrono::steady_clock;
   enum class Stage { kGreeting, kRefused, kOpen, kGone };
-  /// A whole message; binary ones as well.
+  /// Receives a complete message, text or binary.
   using Heard = std::function<void(bool is_text, std::string_view message)>;
 
-  /// `origins`: of pages that are welcome besides; they outlive it.
+  /// `origins`: further allowed Origins; must outlive the connection.
   Connection(int socket, Heard heard, std::span<const std::string> origins = {});
   ~Connection();
   Connection(const Connection&) = delete;
@@ -30,17 +31,17 @@ class Connection {
   short events() const;
   void ready(short events);
 
-  /// Queues a message; write() has the socket take what it can. False: it is about to close.
+  /// Queues a message; write() sends what the socket accepts. False: the connection is closing.
   bool send(bool is_text, std::string_view message);
   void write();
-  /// Bytes that the socket has not taken yet, and some for each message.
+  /// Unsent bytes, plus an overhead per message.
   std::size_t backlog() const;
-  /// Queues the last frame, once: nothing more is sent. What waits would be lost: have backlog()
-  /// empty.
+  /// Queues the close frame, once; no message can follow. Queued messages would be lost, so wait
+  /// until backlog() is 0.
   void close(std::uint16_t code, std::string_view reason);
   void cut() { stage_ = Stage::kGone; }
 
-  /// When it came, or last took something.
+  /// Time of the connection, or of the last bytes that the socket accepted.
   Clock::time_point moved() const { return moved_; }
 
  private:
@@ -50,7 +51,7 @@ class Connection {
   void greet();
   void open();
   void read_frames();
-  ssize_t receive(std::uint8_t* to, std::size_t size);  ///< as recv(); 0: the other end is gone
+  ssize_t receive(std::uint8_t* to, std::size_t size);  ///< like recv(); 0: the peer has closed
   ssize_t take(const std::uint8_t* from, std::size_t size);
   void look_for_end();
 
@@ -58,9 +59,9 @@ class Connection {
   Heard heard_;
   std::span<const std::string> origins_;
   Stage stage_ = Stage::kGreeting;
-  std::string in_, out_;  ///< of the greeting; afterwards, in_ is what came with it
+  std::string in_, out_;  ///< handshake; once open, in_ holds the bytes that came with it
   std::unique_ptr<wslay_event_context, FreeContext> frames_;
-  std::size_t budget_ = 0;  ///< bytes that may be read now: others want to be heard as well
+  std::size_t budget_ = 0;  ///< bytes that may still be read in this turn
   bool closing_ = false;
   Clock::time_point moved_ = Clock::now();
 };

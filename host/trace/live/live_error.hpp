@@ -3,7 +3,7 @@
 
 namespace verp::live {
 
-/// A stream that cannot be offered: one line with the port, what is wrong, and how to fix it.
+/// The stream cannot be offered. what() is one line: the port, the problem, the remedy.
 class LiveError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-/// Foxglove's WebSocket protocol, the server's side of it, as bytes:
+/// The server's side of Foxglove's WebSocket protocol, as bytes:
 /// https://github.com/foxglove/ws-protocol/blob/main/docs/spec.md
 namespace verp::live {
 
@@ -16,23 +16,24 @@ struct Channel {
 
 enum class Level { kInfo = 0, kWarning = 1, kError = 2 };
 
-/// The texts, in JSON.
+/// Text messages, in JSON.
 std::string server_info(std::string_view name);
 std::string advertise(const std::vector<Channel>& channels);
-/// One with an `id` takes the place of the last of that id.
+/// A status with an `id` replaces the last one with that id.
 std::string status(Level level, std::string_view message, std::string_view id = {});
 
-/// The binary messages.
+/// Binary messages.
 std::string message_data(std::uint32_t subscription, std::uint64_t time_ns, std::string_view data);
 std::string time(std::uint64_t time_ns);
 
 struct Request {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> subscribe;  ///< subscription, channel
-  std::vector<std::uint32_t> unsubscribe;                          ///< subscriptions
-  std::string refused;  ///< why it is none; empty: it is one
+  std::vector<std::pair<std::uint32_t, std::uint32_t>>
+      subscribe;                           ///< pairs of subscription and channel
+  std::vector<std::uint32_t> unsubscribe;  ///< subscriptions
+  std::string refused;                     ///< why the request is invalid; empty: it is valid
 };
 
-/// What a viewer asked by a text. Total: rubbish is refused in words.
+/// Parses a viewer's text message. Total: invalid input sets `refused`.
 Request parse_request(std::string_view text);
 
 }  // namespace verp::live

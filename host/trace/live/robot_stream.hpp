@@ -10,12 +10,12 @@
 
 namespace verp::live {
 
-/// What one robot's trace is given, streamed: the same channels and messages, but for those of
-/// `verp replay`, in an encoding of our own that no viewer reads.
+/// Streams one robot's trace: the same channels and messages, except those for `verp replay`, whose
+/// encoding is our own.
 class RobotStream : public record::mcap::Listener {
  public:
-  /// The server must outlive it. `robot`: its name among several (record::TeamChannel); empty: it
-  /// is alone, and all is as in its trace.
+  /// The server must outlive the stream. `robot`: its name among several (record::TeamChannel);
+  /// empty: a single robot, streamed as in its trace.
   explicit RobotStream(Server& server, std::string robot = {})
       : server_(server), robot_(std::move(robot)) {}
 
@@ -29,7 +29,7 @@ class RobotStream : public record::mcap::Listener {
   };
   struct Streamed {
     std::uint32_t id = 0;
-    std::optional<record::TeamChannel> team;  ///< none: it is alone
+    std::optional<record::TeamChannel> team;  ///< nullopt: a single robot
   };
 
   Server& server_;

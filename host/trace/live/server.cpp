@@ -23,9 +23,9 @@ using Clock = Connection::Clock;
 using std::chrono::milliseconds;
 
 constexpr std::size_t kMostViewers = 16;
-constexpr std::size_t kAhead = 64 * 1024;  // handed to a connection before its socket took it
-constexpr milliseconds kSettled{300};      // after which a viewer has subscribed to all it wants
-constexpr milliseconds kGreeting{10'000};  // in which a client has to say what it wants
+constexpr std::size_t kAhead = 64 * 1024;  // queued in a connection beyond its socket
+constexpr milliseconds kSettled{300};      // a viewer subscribes no more after this pause
+constexpr milliseconds kGreeting{10'000};  // time for a client's handshake
 constexpr std::string_view kFull =
     "HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
 
@@ -35,7 +35,7 @@ int listen_on(std::uint16_t& port) {
   sockaddr_in place{};
   place.sin_family = AF_INET;
   place.sin_port = htons(port);
-  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);  // a robot's data are nobody else's business
+  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);  // only this PC may read a robot's data
   socklen_t size = sizeof(place);
   auto* address = reinterpret_cast<sockaddr*>(&place);
   ::setsockopt(listener, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
@@ -49,7 +49,7 @@ int listen_on(std::uint16_t& port) {
   return listener;
 }
 
-/// A thread that no signal of the program's goes to.
+/// A thread that receives no signals.
 template <class Function>
 std::thread quiet_thread(Function function) {
   sigset_t all, before;
@@ -171,7 +171,7 @@ void Server::serve() {
   }
 }
 
-/// Until something is to be done, and does what the sockets are ready for.
+/// Waits until there is work, then serves the sockets that are ready.
 void Server::wait(milliseconds most) {
   polled_.assign({{bell_, POLLIN, 0}, {rests_ ? -1 : listener_, POLLIN, 0}});
   for (const auto& viewer : viewers_)
@@ -231,7 +231,8 @@ void Server::hear(Viewer& viewer, bool is_text, std::string_view message) {
   subscribed_.notify_all();
 }
 
-/// Hands the connection what it may have now. Whether there is more, and the socket would take it.
+/// Gives the connection as much as it may have now. True: there is more, and the socket would
+/// accept it.
 bool Server::pump(Viewer& viewer) {
   Connection& connection = viewer.connection;
   if (connection.stage() != Connection::Stage::kOpen) return false;

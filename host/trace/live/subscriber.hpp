@@ -8,7 +8,7 @@
 
 namespace verp::live {
 
-/// A message as every viewer that wants it shares it.
+/// A message, shared by all its viewers.
 struct Stamped {
   std::uint64_t time_ns = 0;
   std::shared_ptr<const std::string> data;
@@ -19,38 +19,38 @@ struct Frame {
   std::string bytes;
 };
 
-/// One viewer: what it wants, and what waits for it. That has a bound: who takes messages more
-/// slowly than they come loses the oldest, so that it sees the present, and is told how many.
+/// One viewer: its subscriptions and its queue. The queue is bounded: a viewer that is too slow
+/// loses the oldest messages, so that it sees the present, and gets their number.
 class Subscriber {
  public:
   explicit Subscriber(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
-  /// False: that subscription, or one to that channel, is there already.
+  /// False: the subscription, or one to that channel, exists.
   bool subscribe(std::uint32_t subscription, std::uint32_t channel);
-  /// Drops what waits for it. False: there is none of that number.
+  /// Drops its queued messages. False: there is no such subscription.
   bool unsubscribe(std::uint32_t subscription);
   bool wants_something() const { return !channels_.empty(); }
 
-  /// Texts of the protocol. They come first, and none is lost.
+  /// Queues a protocol text. Texts are sent first and never dropped.
   void say(std::string text) { texts_.push_back(std::move(text)); }
-  /// Whether it wants that.
+  /// Queues a message if the viewer has subscribed to its channel; returns whether it has.
   bool offer(std::uint32_t channel, const Stamped& message);
   void offer_time(std::uint64_t time_ns);
 
-  /// The next to be sent.
+  /// The next frame to send.
   std::optional<Frame> next();
   bool is_empty() const { return texts_.empty() && waiting_.empty(); }
-  /// Tells it how many it lost, if it was not told yet.
+  /// Reports the number of lost messages, unless it was reported already.
   void tell_dropped();
 
   std::uint64_t sent() const { return sent_; }
   std::uint64_t dropped() const { return dropped_; }
-  /// What waits is lost, too.
+  /// Counts the queued messages as lost, too.
   void drop_all();
 
  private:
   struct Waiting {
-    std::optional<std::uint32_t> subscription;  ///< none: the time
+    std::optional<std::uint32_t> subscription;  ///< nullopt: a time message
     Stamped message;
   };
   static std::size_t cost(const Waiting& waiting);

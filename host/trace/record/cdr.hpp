@@ -5,11 +5,11 @@
 #include <string_view>
 #include <utility>
 
-/// CDR, in which ROS 2 messages are written. Private to this folder.
+/// CDR, the encoding of ROS 2 messages. Private to this folder.
 namespace verp::record::ros {
 
-/// CDR, little-endian: every number stands at a multiple of its size after the 4-byte encapsulation
-/// header.
+/// Writes CDR, little-endian: each number is aligned to its size, counted from the end of the
+/// 4-byte encapsulation header.
 class Cdr {
  public:
   template <class Number>
@@ -34,7 +34,7 @@ class Cdr {
     for (const double value : values) put(value);
     return *this;
   }
-  /// As they are, without a length.
+  /// Appends the bytes without a length.
   Cdr& bytes(std::string_view values) {
     data_.append(values);
     return *this;
@@ -45,7 +45,7 @@ class Cdr {
   std::string data_{"\0\1\0\0", 4};  // CDR_LE
 };
 
-/// CDR read back, little-endian; a read beyond the end leaves zeros, and `good` says so.
+/// Reads little-endian CDR. A read beyond the end gives zeros and clears `good`.
 class CdrReader {
  public:
   explicit CdrReader(std::string_view data) : data_(data) {}
@@ -65,7 +65,7 @@ class CdrReader {
     if (good) at_ += length;
     return found;
   }
-  /// `length` bytes that stand here.
+  /// The next `length` bytes.
   std::string_view bytes(std::size_t length) {
     good = good && at_ <= data_.size() && length <= data_.size() - at_;
     const std::string_view found = good ? data_.substr(at_, length) : "";

@@ -5,10 +5,10 @@
 namespace verp::record::mcap {
 namespace {
 
-/// A walk of 20 s, 7.7 MB: 1.47 MB in 12 ms; level 3 gives 1.40 MB in 17 ms, level 9 1.31 in 72 (in
-/// chunks of 390 kB, November 2026).
+/// Measured on a walk of 20 s, 7.7 MB, in chunks of 390 kB (November 2026): level 1 gives 1.47 MB
+/// in 12 ms, level 3 1.40 MB in 17 ms, level 9 1.31 MB in 72 ms.
 constexpr int kLevel = 1;
-/// No chunk of ours is as large: a size beyond is not one that a writer meant.
+/// Our chunks are smaller; a larger size is an error in the file.
 constexpr std::uint64_t kMostBytes = 1u << 30;
 
 }  // namespace
@@ -24,7 +24,7 @@ std::string packed(std::string_view bytes) {
 
 std::optional<std::string> unpacked(std::string_view compression, std::string_view frame,
                                     std::uint64_t size) {
-  // Other writers need not say in the frame how much is in it; if they do, it must be true.
+  // Other writers may omit the content size in the frame; if it is there, it must match.
   const std::uint64_t said = ZSTD_getFrameContentSize(frame.data(), frame.size());
   const bool fits = said == size || said == ZSTD_CONTENTSIZE_UNKNOWN;
   if (compression != kZstdName || !fits || size > kMostBytes) return std::nullopt;

@@ -4,16 +4,15 @@
 #include <string>
 #include <string_view>
 
-/// Chunks of MCAP files, compressed as its specification has it.
+/// Compressed chunks of MCAP files, as the MCAP specification defines them.
 namespace verp::record::mcap {
 
 inline constexpr std::string_view kZstdName = "zstd";
 
-/// As one zstd frame; empty where that is no shorter.
+/// One zstd frame; empty if that is not shorter.
 std::string packed(std::string_view bytes);
 
-/// The `size` bytes that a frame of that compression holds; nothing when it is damaged, of another
-/// size, or of another compression than zstd.
+/// Unpacks a frame to `size` bytes. nullopt: damaged, another size, or not zstd.
 std::optional<std::string> unpacked(std::string_view compression, std::string_view frame,
                                     std::uint64_t size);
 

@@ -6,16 +6,16 @@
 
 namespace verp::record {
 
-/// What the controller made of each tick of a trace: the run once more. Nothing from where this
-/// program would decide otherwise than the one that recorded it, as another revision may.
+/// Recomputes the controller's outputs for each tick of a trace. Stops at the first tick where this
+/// program decides differently from the recording one, as another revision may.
 class Decisions {
  public:
-  /// The trace must outlive it.
+  /// The trace must outlive this object.
   explicit Decisions(const Trace& trace)
       : trace_(trace), actions_(trace.library()), state_(trace.start()) {}
-  /// Null where it is not known. Ticks are asked for in order, none left out.
+  /// Null: unknown. Call it for every tick, in order.
   const Outputs* at(const TickRecord& record);
-  /// After the tick last asked for.
+  /// After the last tick passed to at().
   const State& state() const { return state_; }
 
  private:

@@ -11,11 +11,11 @@
 
 #include "common/base/fields.hpp"
 
-/// Names and text for any struct with a VERP_FIELDS list: print, diff and describe follow the same
-/// list as the digest does, so no field can be hashed and yet be invisible here.
+/// Names and text for any struct with a VERP_FIELDS list. Print, diff and describe use the digest's
+/// list, so every hashed field is visible here.
 namespace verp::record {
 
-/// One scalar that differs between two structs; `path` reads like the source, e.g.
+/// A scalar that differs between two structs; `path` reads like the source, e.g.
 /// "gait.step[1].x_m".
 struct FieldDifference {
   std::string path;
@@ -23,8 +23,8 @@ struct FieldDifference {
   std::string right;
 };
 
-/// Decimal and bits of a scalar: "0.1 (0x3dcccccd)", "-12 (0xfff4)". Floats print the fewest digits
-/// that name them.
+/// Decimal and bits of a scalar: "0.1 (0x3dcccccd)", "-12 (0xfff4)". Floats have the fewest digits
+/// that identify them.
 template <class Scalar>
 std::string scalar_text(Scalar value) {
   if constexpr (std::is_same_v<Scalar, float>) {
@@ -71,8 +71,8 @@ constexpr const char* scalar_type_name() {
   }
 }
 
-/// Calls leaf(path, scalar) for every scalar under `value`, in field order. `path` is one buffer
-/// that grows and shrinks; copy it to keep it.
+/// Calls leaf(path, scalar) for every scalar in `value`, in field order. `path` is one reused
+/// buffer; copy it to keep it.
 template <class T, class Leaf>
 void for_each_named_leaf(T& value, std::string& path, Leaf&& leaf) {
   using Plain = std::remove_const_t<T>;
@@ -95,8 +95,8 @@ void for_each_named_leaf(T& value, std::string& path, Leaf&& leaf) {
   }
 }
 
-/// Every scalar whose bits differ, in field order, at most `limit` of them. Bitwise, as the digest
-/// sees it: 0 and -0 differ, equal NaNs don't.
+/// The first `limit` scalars whose bits differ, in field order. Bitwise, like the digest: 0 and -0
+/// differ, equal NaNs don't.
 template <class T>
 std::vector<FieldDifference> diff_fields(const T& left, const T& right, std::size_t limit = 64) {
   std::vector<FieldDifference> differences;
@@ -158,9 +158,9 @@ void describe(const T& value, std::size_t& offset, std::string& path, std::strin
 }
 }  // namespace detail
 
-/// The byte layout in words, one line a scalar or array of scalars: "byte-offset type path". It is
-/// the schema of a trace's channels: two builds can exchange images of T exactly when their
-/// descriptions are equal.
+/// The byte layout as text, one line per scalar or array of scalars: "byte-offset type path". It is
+/// the schema of a trace's channels: two builds can exchange images of T only if their descriptions
+/// are equal.
 template <class T>
 std::string describe_layout(const char* name) {
   const T value{};

@@ -7,8 +7,8 @@
 
 namespace verp::record {
 
-/// Each joint's speed, from its last two readings and the ticks between them: servos are not asked
-/// for it. 0 until there are two.
+/// Joint speeds from each joint's last two readings, because servos are not asked for speed. 0
+/// until there are two.
 class JointSpeeds {
  public:
   explicit JointSpeeds(const Params& params) : params_(params) {}

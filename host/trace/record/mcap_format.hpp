@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-/// MCAP, the container format of traces: https://mcap.dev/spec (version 0). Opcodes and the few
-/// helpers that writer and reader share.
+/// MCAP, the container format of traces: https://mcap.dev/spec (version 0). Opcodes and helpers of
+/// writer and reader.
 namespace verp::record::mcap {
 
 inline constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
@@ -42,7 +42,7 @@ struct Channel {
   std::string_view topic, encoding;
 };
 
-/// CRC-32 as in zip and zlib (reflected 0x04C11DB7). Feed pieces in order: value = crc32(piece,
+/// CRC-32 as in zip and zlib (reflected 0x04C11DB7). For pieces, in order: value = crc32(piece,
 /// value).
 std::uint32_t crc32(std::string_view bytes, std::uint32_t value = 0);
 

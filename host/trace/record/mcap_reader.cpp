@@ -7,7 +7,7 @@
 namespace verp::record::mcap {
 namespace {
 
-/// Reads little-endian values; past the end everything is zero and good() is false.
+/// Reads little-endian values. Beyond the end, values are zero and good() is false.
 class Cursor {
  public:
   explicit Cursor(std::string_view bytes) : bytes_(bytes) {}
@@ -127,7 +127,7 @@ class Parser {
         return footer(in, content, start);
       default:
         if (opcode > Opcode::kDataEnd || opcode == Opcode{0}) fail(start, "unknown record type");
-        return;  // indexes and statistics repeat what the data section says; CRCs cover them
+        return;  // indexes and statistics repeat the data section; CRCs cover them
     }
     if (!in.good() || !in.at_end()) fail(start, "edited or damaged: a record's fields overrun it");
   }
@@ -234,11 +234,11 @@ class Parser {
     fail(at_, cut ? "the file ends inside its last 8 bytes" : "bytes follow the footer", cut);
   }
 
-  /// Messages of an incomplete chunk: whole ones, and the one the cut goes through.
+  /// Number of messages in an incomplete chunk, including the one that is cut.
   static std::uint64_t count_lost(std::string_view begun) {
     Cursor in(begun);
     in.take(8 + 8 + 8 + 4);
-    if (!in.text().empty()) return 0;  // compressed: nobody knows
+    if (!in.text().empty()) return 0;  // compressed: unknown
     in.u64();
     std::uint64_t messages = 0;
     while (in.good() && !in.at_end()) {

@@ -16,24 +16,23 @@ struct Message {
   std::uint32_t sequence = 0;
   std::uint64_t time_ns = 0;
   std::string_view data;
-  std::uint64_t offset = 0;  ///< of the record in the file; of its chunk if that is compressed
+  std::uint64_t offset = 0;  ///< of the record, or of its compressed chunk
 };
 struct Attachment {
   std::string_view media_type, data;
   std::uint64_t offset = 0;
 };
 
-/// Where a file stops being what its writer wrote.
+/// The first place where a file is not what its writer wrote.
 struct Flaw {
   std::uint64_t offset = 0;
   std::string what;
-  bool truncated = false;  ///< the bytes up to offset are whole; the end is missing
-  std::uint64_t lost_messages =
-      0;  ///< whole or begun in the incomplete chunk, as far as the file shows
+  bool truncated = false;  ///< true: the bytes before the offset are intact and the end is missing
+  std::uint64_t lost_messages = 0;  ///< messages of the incomplete chunk, as far as known
 };
 
-/// Everything readable before the first flaw. Views point into the bytes given to parse(), and into
-/// `unpacked`: not to be copied.
+/// All that is readable before the first flaw. Views point into the bytes given to parse() and into
+/// `unpacked`, so a File cannot be copied.
 struct File {
   File() = default;
   File(File&&) = default;
@@ -45,16 +44,16 @@ struct File {
   std::vector<Message> messages;
   std::map<std::string, StringMap> metadata;
   std::map<std::string, Attachment> attachments;
-  std::deque<std::string> unpacked;  ///< the compressed chunks
+  std::deque<std::string> unpacked;  ///< contents of the compressed chunks
   std::optional<Flaw> flaw;
 
   const Channel* find_channel(std::string_view topic, std::uint16_t& id) const;
 };
 
-/// Total: any bytes give a File, with a flaw when they are not a whole, unchanged file of our
-/// Writer. Covers every byte: chunk and attachment CRCs say where, the CRCs of the data section and
-/// of the summary say that. Chunks compressed otherwise than by zstd and files without CRCs are
-/// flaws: our writer makes none.
+/// Total: any bytes give a File; it has a flaw unless the bytes are an intact file of our Writer.
+/// Every byte is covered. CRCs of chunks and attachments locate damage; those of the data section
+/// and summary only detect it. Compression other than zstd and missing CRCs are flaws, because our
+/// writer makes no such files.
 File parse(std::string_view bytes);
 
 }  // namespace verp::record::mcap

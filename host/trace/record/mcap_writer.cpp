@@ -16,8 +16,8 @@
 namespace verp::record::mcap {
 
 namespace {
-/// Opens a file nobody else has: the process id tells programs apart, the counter tells writers of
-/// one program.
+/// Opens a new file of a unique name: process id for other programs, counter for writers of this
+/// one.
 std::FILE* open_part(const std::filesystem::path& path, std::filesystem::path& part) {
   for (int attempt = 0; attempt < 1000; ++attempt) {
     part = path;
@@ -25,14 +25,14 @@ std::FILE* open_part(const std::filesystem::path& path, std::filesystem::path& p
     const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0 && errno != EEXIST) return nullptr;
     if (descriptor < 0) continue;
-    // For writer_of(); it goes with the process, however that ends.
+    // For writer_of(). The lock ends with the process, even after a crash.
     ::flock(descriptor, LOCK_EX | LOCK_NB);
     return ::fdopen(descriptor, "wb");
   }
   return nullptr;
 }
 
-/// A robot's file, a report's page: whatever does not begin as a trace does.
+/// Whether the file is something other than a trace, such as a robot's file or a report.
 bool holds_something_else(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::string start(kMagic.size(), '\0');
@@ -40,7 +40,7 @@ bool holds_something_else(const std::filesystem::path& path) {
   start.resize(static_cast<std::size_t>(in.gcount()));
   return !start.empty() && start != kMagic;
 }
-/// Somebody has it open as open_part() does.
+/// Whether a process has it open by open_part().
 bool is_written(const std::filesystem::path& part) {
   const int descriptor = ::open(part.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return false;
@@ -72,7 +72,7 @@ Writer::Writer(std::filesystem::path path, std::string_view profile, std::string
   if (std::filesystem::is_directory(path_)) {
     throw TraceError(path_, "is a folder", "name a file, such as run.mcap");
   }
-  // The finished trace takes this name: a device or pipe of that name would be gone.
+  // Closing would replace a device or pipe of this name by the finished trace.
   if (std::filesystem::exists(path_) && !std::filesystem::is_regular_file(path_)) {
     throw TraceError(path_, "is not a regular file", "name another file, such as run.mcap");
   }
@@ -93,7 +93,7 @@ Writer::~Writer() {
   if (file_ == nullptr) return;
   try {
     flush();
-  } catch (const TraceError&) {  // a destructor has nobody to tell; what was flushed earlier stays
+  } catch (const TraceError&) {  // a destructor cannot report it; flushed chunks remain
   }
   std::fclose(file_);
 }

@@ -13,8 +13,8 @@ namespace verp::record::mcap {
 
 enum class Compression : std::uint8_t { kNone, kZstd };
 
-/// Who hears what a Writer is given, as soon as it is given: host/trace/live. The views are valid
-/// for the call only.
+/// Receives all that a Writer is given, at once (host/trace/live). Views are valid during the call
+/// only.
 class Listener {
  public:
   virtual ~Listener() = default;
@@ -23,21 +23,20 @@ class Listener {
   virtual void message(std::uint16_t channel, std::uint64_t time_ns, std::string_view data) = 0;
 };
 
-/// Who writes a file of that name now: a process, or 0.
+/// The process that is writing a file of that name, or 0.
 int writer_of(const std::filesystem::path& path);
 
-/// Writes one MCAP file, append-only: chunks with CRC and message indexes, summary and footer. What
-/// has been flushed stays readable whatever happens later; only the open chunk is lost in a crash.
-/// The file grows under a name of its own (`part_path()`) and takes its final name in close(), so
-/// two writers of one path never mix and a reader never meets a half-written file under the final
-/// name. Every member throws TraceError when the disk refuses.
+/// Writes one MCAP file, append-only: chunks with CRC and message indexes, summary and footer.
+/// Flushed chunks stay readable; a crash loses only the open chunk. The file grows under its own
+/// name (`part_path()`) and gets its final name in close(). Two writers of one path therefore never
+/// mix, and a reader never finds a partial file. Every member throws TraceError on a disk error.
 class Writer {
  public:
-  /// kZstd: of every chunk that gets shorter by it. With an empty path there is no file, and all
-  /// goes to the listener only, which must outlive this.
+  /// kZstd compresses each chunk that becomes shorter. With an empty path there is no file, and all
+  /// data goes to the listener, which must outlive the writer.
   Writer(std::filesystem::path path, std::string_view profile, std::string_view library,
          Compression compression = Compression::kNone, Listener* listener = nullptr);
-  ~Writer();  ///< without close(): flushes the open chunk and leaves the part file, without summary
+  ~Writer();  ///< without close(): flushes the open chunk and leaves the part file without summary
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
@@ -47,14 +46,14 @@ class Writer {
   void add_message(std::uint16_t channel, std::uint64_t time_ns, std::string_view data);
   void add_metadata(std::string_view name, const StringMap& entries);
   void add_attachment(std::string_view name, std::string_view media_type, std::string_view data);
-  /// Ends the open chunk and hands it to the operating system.
+  /// Ends the open chunk and passes it to the operating system.
   void flush();
-  /// Summary, footer, final name. Nothing may be added afterwards.
+  /// Writes summary and footer and renames the file. Add nothing afterwards.
   void close();
-  /// Removes the part file: there was nothing worth keeping. Nothing may be added afterwards.
+  /// Removes the part file. Add nothing afterwards.
   void discard();
 
-  std::size_t open_bytes() const { return chunk_.size(); }  ///< of the open chunk
+  std::size_t open_bytes() const { return chunk_.size(); }  ///< size of the open chunk
   const std::filesystem::path& path() const { return path_; }
   const std::filesystem::path& part_path() const { return part_; }
 
@@ -67,7 +66,7 @@ class Writer {
     std::string record;
     std::uint32_t sequence = 0;
     std::vector<Entry> entries;  ///< of the open chunk
-    bool announced = false;      ///< schema and channel records stand in a flushed or open chunk
+    bool announced = false;      ///< schema and channel records are in some chunk
     std::uint16_t schema = 0;
   };
 
@@ -81,7 +80,7 @@ class Writer {
   const Compression compression_;
   Listener* listener_;
   std::FILE* file_ = nullptr;
-  bool whole_ = false;  ///< close() has written all of it
+  bool whole_ = false;  ///< close() has written everything
   std::uint64_t position_ = 0;
   std::uint32_t data_crc_ = 0;
   std::string chunk_;

@@ -12,23 +12,22 @@ namespace verp::record {
 
 using StepFunction = std::function<void(const Params&, State&, const Inputs&, Outputs&)>;
 
-/// The first tick at which two runs are not the same bits, and where in it.
+/// The first tick whose bits differ between two runs, and the field.
 struct Divergence {
   std::size_t index = 0;   ///< into Trace::ticks
   std::uint32_t tick = 0;  ///< Inputs::tick there
-  std::string stage;  ///< of kStageNames; "inputs", "params" or "chain" when no stage is to blame
+  std::string stage;       ///< of kStageNames; otherwise "inputs", "params" or "chain"
   std::string left_digest, right_digest;
-  /// What differs, first in field order; empty when no State was kept at or after the divergence.
+  /// The first differing fields; empty if no State was kept at or after the divergence.
   std::vector<FieldDifference> fields;
-  std::uint32_t fields_tick =
-      0;  ///< the tick whose fields those are: this one, or the next kept State's
+  std::uint32_t fields_tick = 0;  ///< tick of `fields`: this one, or that of the next kept State
 };
 
-/// The first stage whose digests differ, or the chain alone; nothing when the ticks are equal. Has
-/// no tick and no fields yet.
+/// The first stage whose digests differ, or only the chain; nullopt: equal. Leaves tick and fields
+/// unset.
 std::optional<Divergence> compare_digests(const TickDigest& left, const TickDigest& right);
 
-/// Differences of two States without the digests themselves, which differ as a consequence.
+/// Differences of two States, without the digests, which only follow.
 std::vector<FieldDifference> diff_states(const State& left, State right);
 
 struct ReplayResult {
@@ -39,17 +38,16 @@ struct ReplayResult {
 };
 
 /// Runs the controller over the recorded inputs and compares every stage of every tick. `other`
-/// replaces the trace's own robot; `core` replaces this program's step(). With either, the trace's
-/// own robot is run along, so that the field can be named at the very tick.
+/// replaces the trace's robot; `core` replaces this program's step(). With either, the trace's own
+/// robot runs along, so that the field is named at the divergent tick.
 ReplayResult replay(const Trace& trace, const Params* other = nullptr,
                     const StepFunction& core = nullptr);
 
-/// The first difference of two traces: robots, inputs (field by field), then the controller's
-/// stages. Also set when one trace is a prefix of the other: stage "length".
+/// The first difference of two traces: robots, inputs by field, then controller stages. If one
+/// trace is a prefix of the other: stage "length".
 std::optional<Divergence> diff(const Trace& left, const Trace& right);
 
-/// One line: tick, time, stage, field and both values. `left` and `right` say whose values they
-/// are.
+/// One line: tick, time, stage, field and both values. `left` and `right` label the values.
 std::string text(const Divergence& divergence, const Params& params, const char* left,
                  const char* right);
 

@@ -1,13 +1,13 @@
-# cmake -DSOURCE=FOLDER [-DOUTPUT=FILE] -P revision.cmake: the revision of the sources in FOLDER, as OUTPUT for the compiler
-# (left alone when nothing changed), else on stdout.
+# cmake -DSOURCE=FOLDER [-DOUTPUT=FILE] -P revision.cmake: writes the revision of the sources in FOLDER to OUTPUT as C++
+# (untouched if equal), or else to stdout.
 #   HASH            as committed
-#   HASH-dirty      with edits that are not committed
-#   HASH-unchecked  whether there are edits cannot be told: git is not installed, or refuses this folder
+#   HASH-dirty      with uncommitted edits
+#   HASH-unchecked  edits unknown: git is not installed, or refuses this folder
 #   unknown         not from a repository (a tarball), or nothing is committed yet
 set(revision unknown)
 find_program(git git NO_CACHE)
 if(git AND EXISTS ${SOURCE}/.git)
-  # No locks: somebody may be committing. Tags are not looked at: one name for one revision.
+  # No locks, because a commit may be running. No tags, so that one revision has one name.
   execute_process(
     COMMAND ${git} -C ${SOURCE} --no-optional-locks describe --always --dirty --abbrev=40 --exclude *
     OUTPUT_VARIABLE described OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)

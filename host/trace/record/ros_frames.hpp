@@ -7,22 +7,22 @@
 
 #include "host/trace/record/cdr.hpp"
 
-/// Frames in ROS 2 messages of any type, by the type's definition. Private to this folder.
+/// Renames frames in ROS 2 messages of any type, by the type's definition. Private to this folder.
 namespace verp::record::ros {
 
-/// Which fields a message has, in the order of its bytes.
+/// The fields of a message type, in byte order.
 class Definition {
  public:
-  /// Of the text that MCAP's "ros2msg" encoding has: the type, then those it is made of.
+  /// Parses a "ros2msg" schema of MCAP: the type, then its dependencies.
   explicit Definition(std::string_view schema);
-  /// The message with `prefix` before every frame but "world". Nothing: it is no such message.
+  /// The message with `prefix` before every frame except "world"; nullopt: not of this type.
   std::optional<std::string> with_frames(std::string_view message, std::string_view prefix) const;
 
  private:
   struct Field {
     std::string_view type, name;
-    bool list = false;                 ///< any number of it, or
-    std::optional<std::size_t> count;  ///< that many
+    bool list = false;                 ///< a list of any length, or
+    std::optional<std::size_t> count;  ///< an array of this length
   };
   using Fields = std::vector<Field>;
 
@@ -36,7 +36,7 @@ class Definition {
   std::map<std::string_view, Fields> types_;
 };
 
-/// A URDF with `prefix` before the name of every link, as frames have it.
+/// A URDF with `prefix` before every link name, to match the frames.
 std::string urdf_with_links(std::string urdf, std::string_view prefix);
 
 }  // namespace verp::record::ros

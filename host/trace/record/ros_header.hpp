@@ -1,7 +1,7 @@
 #pragma once
 
-/// What a message definition with a header carries of it: a macro, as only literals join to one
-/// text at compile time. Private to this folder.
+/// Definition of the header in a message schema. A macro, because only literals can be joined at
+/// compile time. Private to this folder.
 #define VERP_ROS_HEADER                                                                \
   "================================================================================\n" \
   "MSG: std_msgs/Header\n"                                                             \

@@ -139,7 +139,7 @@ std::optional<std::string> read_string(std::string_view message) {
 }
 
 std::string imu(const Params& params, const Inputs& inputs, std::uint64_t time_ns) {
-  constexpr std::array<double, 9> kUnknown{-1};  // sensor_msgs/Imu: -1 says "no such measurement"
+  constexpr std::array<double, 9> kUnknown{-1};  // in sensor_msgs/Imu, -1 means "not measured"
   constexpr std::array<double, 9> kNotGiven{};
   const ImuParams& p = params.imu;
   Cdr out;

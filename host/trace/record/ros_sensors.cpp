@@ -16,7 +16,7 @@ namespace {
   VERP_ROS_BREAK        \
   "MSG: geometry_msgs/Wrench\ngeometry_msgs/Vector3 force\ngeometry_msgs/Vector3 torque\n"
 
-/// COLLISION of ros_gz_interfaces/Entity.
+/// ros_gz_interfaces/Entity: COLLISION.
 constexpr std::uint8_t kEntityIsCollision = 5;
 
 void put_entity(Cdr& out, std::string_view name) {

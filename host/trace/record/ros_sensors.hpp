@@ -7,7 +7,7 @@
 
 #include "host/trace/record/ros_messages.hpp"
 
-/// What force-torque, contact and truth sensors measure, as ROS 2 messages in CDR.
+/// Force-torque, contact and truth sensors as ROS 2 messages in CDR.
 namespace verp::record::ros {
 
 extern const MessageType kWrenchStamped;  ///< geometry_msgs/msg/WrenchStamped
@@ -21,26 +21,26 @@ struct Wrench {
 };
 std::string wrench(const Wrench& wrench, std::string_view frame, std::uint64_t time_ns);
 
-/// One point at which something touches a link; in the world.
+/// A contact point of a link, world frame.
 struct ContactPoint {
   std::string other;
-  Three position_m{}, force_n{};  ///< force: on the link
+  Three position_m{}, force_n{};  ///< force on the link
 };
-/// One contact for each thing that touches, with its points in a row. Normals and depths are not
-/// measured and left empty.
+/// A contact per touching object; the points of each object are consecutive. Normals and depths are
+/// not measured, and left empty.
 std::string contacts(std::string_view link, const std::vector<ContactPoint>& points,
                      std::uint64_t time_ns);
 
 struct Motion {
   BodyPose pose;                       ///< in the world
-  Three velocity_m_s{}, rate_rad_s{};  ///< in its own axes
-  /// Variances of each axis.
+  Three velocity_m_s{}, rate_rad_s{};  ///< body axes
+  /// Variance of each axis.
   double position_m2 = 0, angle_rad2 = 0, velocity_m2_s2 = 0, rate_rad2_s2 = 0;
 };
 std::string odometry(const Motion& motion, std::string_view frame, std::uint64_t time_ns,
                      std::string_view parent = "world");
-/// Where the controller has its own body, in the frame "odom" (common/balance/estimator.hpp).
-/// Nobody knows the variances.
+/// The controller's estimate of its body pose, in the frame "odom" (common/balance/estimator.hpp).
+/// Its variances are unknown.
 std::string estimated_odometry(const Params& params, const Inputs& inputs, const State& state,
                                std::uint64_t time_ns);
 

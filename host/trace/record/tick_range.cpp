@@ -7,7 +7,7 @@
 namespace verp::record {
 namespace {
 
-constexpr double kRounding_s = 1e-9;  // 0.07 is not quite 7 times 0.01
+constexpr double kRounding_s = 1e-9;  // 0.07 is not exactly 7 times 0.01
 
 }  // namespace
 

@@ -23,18 +23,19 @@ inline constexpr const char* kTickTopic =
 inline constexpr const char* kStateTopic =
     "/verp/state";  ///< State bytes after the tick of the same log time
 inline constexpr const char* kChangedTopic =
-    "/verp/changed";  ///< what a person did to the twin after the tick of the same log time
+    "/verp/changed";  ///< a person's change to the twin after the tick of the same log time
 inline constexpr const char* kObjectsTopic =
-    "/objects";  ///< where a twin's world had what can move in it, as transforms
+    "/objects";  ///< poses of the movable objects in a twin's world, as transforms
 inline constexpr const char* kParamsAttachment = "params";
 inline constexpr const char* kActionsAttachment = "actions";
 inline constexpr const char* kStateAttachment =
-    "state";  ///< State before the first tick, of a run whose beginning was cut off
+    "state";  ///< State before the first tick, if the run's beginning was cut off
 inline constexpr const char* kStateLayoutAttachment = "state.layout";
 inline constexpr const char* kMetadataName = "verp";
 inline constexpr const char* kTraceFormat = "1";
 
-/// A run's State is kept this often (design.md section 8), and at every change of the fault bits.
+/// Period of the kept States (design.md section 8). One is also kept at every change of the fault
+/// bits.
 inline constexpr std::uint64_t kKeyframeTicks = 125;
 
 /// State after the tick at `index` of Trace::ticks.
@@ -43,70 +44,71 @@ struct Keyframe {
   State state;
 };
 
-/// What a person did to the twin after that tick; replay does not need it.
+/// A person's change to the twin after that tick; replay does not need it.
 struct Change {
   std::uint32_t tick = 0;
   std::string what;
 };
 
-/// Where the body was at the tick at `index`, as a twin knew.
+/// True pose of a twin's body at the tick at `index`.
 struct BodyAt {
   std::size_t index = 0;
   ros::BodyPose pose;
 };
 
-/// Where the world's things were at the tick at `index`.
+/// Poses of the world's objects at the tick at `index`.
 struct ObjectsAt {
   std::size_t index = 0;
   std::vector<ros::ObjectPose> objects;
 };
 
-/// One run of the controller: everything replay needs, in memory.
+/// One run of the controller, in memory: all that replay needs.
 struct Trace {
   std::filesystem::path file;
   Params params;
-  std::vector<std::uint32_t> actions;  ///< image of the library; empty: the robot had none
+  std::vector<std::uint32_t> actions;  ///< image of the action library; empty: the robot had none
   mcap::StringMap metadata;
-  std::optional<State> before;  ///< the first tick; none: the controller had just started
+  std::optional<State>
+      before;  ///< State before the first tick; nullopt: the controller had just started
   std::vector<TickRecord> ticks;
-  std::vector<Keyframe> keyframes;  ///< empty when the writer's State had another layout
+  std::vector<Keyframe> keyframes;  ///< empty if the State layout of the writer differs from ours
   std::vector<Change> changes;
-  std::vector<BodyAt> bodies;      ///< of some ticks; empty: no twin was there
-  std::vector<ObjectsAt> objects;  ///< of some ticks; empty: nothing could move
-  std::string warning;             ///< read with Read::kRecover: what is missing; else empty
+  std::vector<BodyAt> bodies;      ///< of some ticks; empty: no twin
+  std::vector<ObjectsAt> objects;  ///< of some ticks; empty: nothing is movable
+  std::string warning;             ///< with Read::kRecover: what is missing; else empty
 
-  /// The 64-bit value that names the whole run; the chain's seed when there are no ticks.
+  /// The 64-bit value that identifies the run; without ticks, the chain's seed.
   std::uint64_t digest() const {
     return ticks.empty() ? start().digest.chain : ticks.back().digest.chain;
   }
-  /// With which the controller met the first tick.
+  /// The controller's State before the first tick.
   State start() const { return before.value_or(State{}); }
-  /// Valid while `actions` are. Checks all of them: once a run, not once a tick.
+  /// Valid while `actions` exists. Checks all actions, so call it once per run, not per tick.
   action::Library library() const { return {actions.data(), 4 * actions.size()}; }
   double period_s() const { return params.period_us * 1e-6; }
 };
 
 enum class Read {
   kStrict,   ///< any flaw is an error
-  kRecover,  ///< takes what stands before the flaw, and says so in Trace::warning
+  kRecover,  ///< keeps all before the flaw, and sets Trace::warning
 };
 
-/// Throws TraceError: missing, truncated, edited, foreign or of another layout.
+/// Throws TraceError if the file is missing, truncated, edited, foreign or of another layout.
 Trace read_trace(const std::filesystem::path& file, Read mode = Read::kStrict);
 
-/// Version of the core that decided these ticks; empty: not known.
+/// Version of the core that decided these ticks; empty: unknown.
 std::string core_of(const Trace& trace);
 
-/// Source revision, version of the core, compiler and flags of this program, for metadata.
+/// This program's source revision, core version, compiler and flags, for metadata.
 mcap::StringMap build_info();
 
-/// What a camera saw, as its trace has it.
+/// A camera picture of a trace.
 struct RecordedPicture {
   std::string topic;
   std::uint64_t time_ns = 0;
   ros::Picture picture;
 };
-/// Each picture in a trace, in the order of the file; returns how many there were. Throws
+/// Calls `show` with each picture of a trace, in file order; returns their number. Throws
 /// TraceError.
 std::size_t for_each_picture(const std::filesystem::path& file,
                              const std::function<void(const RecordedPicture&)>& show);

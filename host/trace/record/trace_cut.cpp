@@ -12,9 +12,9 @@ namespace verp::record {
 namespace {
 
 constexpr std::uint64_t kCutChunkTicks = 125;
-constexpr std::string_view kStaticTopic = "/tf_static";  ///< where cameras sit, of the whole run
+constexpr std::string_view kStaticTopic = "/tf_static";  ///< camera poses, valid for the whole run
 
-/// Copies what is between two ticks of a trace into a new file.
+/// Copies the messages between two ticks of a trace into a new file.
 class Copy {
  public:
   Copy(const Trace& trace, const mcap::File& from, TickRange ticks, mcap::Writer& to)
@@ -31,7 +31,7 @@ class Copy {
     for (const mcap::Message& message : from_.messages) {
       if (message.channel == tick_) count_tick();
       if (!is_wanted(message)) continue;
-      // What stands before the first tick is of the whole run, such as the robot's description.
+      // Messages before the first tick belong to the whole run, such as the robot's description.
       to_.add_message(channels_.at(message.channel), std::max(message.time_ns, first_ns_),
                       message.data);
     }
@@ -57,7 +57,8 @@ class Copy {
     if (seen_++ > ticks_.first && (seen_ - 1 - ticks_.first) % kCutChunkTicks == 0) to_.flush();
   }
 
-  /// Ours by their place, behind their tick; a camera's come when they are drawn.
+  /// Our messages are selected by file position, as they follow their tick. Others are selected by
+  /// time, because a camera's message comes late, when it is drawn.
   bool is_wanted(const mcap::Message& message) const {
     const mcap::Channel& channel = from_.channels.at(message.channel);
     if (seen_ == 0 || channel.topic == kStaticTopic) return true;
@@ -73,7 +74,7 @@ class Copy {
   const std::uint64_t first_ns_, last_ns_;
   std::uint16_t tick_ = 0;
   std::map<std::uint16_t, std::uint16_t> channels_;
-  std::size_t seen_ = 0;  ///< ticks, with the one that was read last
+  std::size_t seen_ = 0;  ///< ticks read so far
 };
 
 void add_heads(const Trace& trace, const mcap::File& from, const Cut& cut,
@@ -83,7 +84,7 @@ void add_heads(const Trace& trace, const mcap::File& from, const Cut& cut,
   metadata["cut"] = fmt::format("ticks {} to {}, {:.3f} s to {:.3f} s", cut.first_tick,
                                 cut.last_tick, cut.first_s, cut.last_s);
   to.add_metadata(kMetadataName, metadata);
-  // How the whole run ended is not what is in the part.
+  // The "result" metadata is left out: it describes the whole run.
   for (const auto& [name, attachment] : from.attachments) {
     if (name == kStateAttachment || name == kStateLayoutAttachment) continue;
     to.add_attachment(name, attachment.media_type, attachment.data);

@@ -6,8 +6,8 @@
 
 namespace verp::record {
 
-/// A trace that cannot be read or written. what() is one line: file, byte offset if it is about
-/// one, what is wrong, how to fix it.
+/// A trace cannot be read or written. what() is one line: file, byte offset if known, problem,
+/// remedy.
 class TraceError : public std::runtime_error {
  public:
   TraceError(const std::filesystem::path& file, std::uint64_t offset, const std::string& problem,
@@ -16,7 +16,7 @@ class TraceError : public std::runtime_error {
                            "; " + remedy),
         file_(file),
         offset_(offset) {}
-  /// Of the file itself: no byte of it is to blame.
+  /// For problems of the file as a whole.
   TraceError(const std::filesystem::path& file, const std::string& problem,
              const std::string& remedy)
       : std::runtime_error(file.string() + ": " + problem + "; " + remedy), file_(file) {}

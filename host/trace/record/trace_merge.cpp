@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kChunkMessages = 2000;
 
-/// One of the traces, with where its messages go.
+/// An input trace, and the output channels of its messages.
 class Source {
  public:
   explicit Source(const NamedTrace& named)
@@ -26,7 +26,7 @@ class Source {
     return file_.find_channel(kObjectsTopic, id) != nullptr;
   }
 
-  /// `common`: channels that all robots share, by topic.
+  /// `common`: the robots' shared channels, by topic.
   void add_to(mcap::Writer& to, std::map<std::string, std::uint16_t>& common, bool objects) {
     to.add_metadata(std::string(kMetadataName) + "/" + named_.robot,
                     file_.metadata.at(kMetadataName));
@@ -47,7 +47,7 @@ class Source {
     }
   }
 
-  /// False: it is no message of the merged file.
+  /// False: the merged file does not have this message.
   bool write(const mcap::Message& message, mcap::Writer& to) const {
     const auto channel = channels_.find(message.channel);
     if (channel == channels_.end()) return false;

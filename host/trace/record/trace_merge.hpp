@@ -7,16 +7,16 @@
 
 namespace verp::record {
 
-/// A trace, and what its robot is called among others: letters, digits, _.
+/// A trace and its robot's name: letters, digits, _.
 struct NamedTrace {
   std::string robot;
   std::filesystem::path file;
 };
 
-/// Several robots' traces as one MCAP file for viewers: each message under /ROBOT/..., its frames
-/// as ROBOT/frame, all in the frame "world" and on one time. Transforms are on one topic, /tf, as
-/// ROS has them; the world's things are the first's that has any. Returns how many messages. Throws
-/// TraceError.
+/// Merges several robots' traces into one MCAP file for viewers, on one time axis. Topics become
+/// /ROBOT/..., frames ROBOT/frame; all share the frame "world". Transforms are on one topic, /tf,
+/// as in ROS. World objects are those of the first trace that has any. Returns the number of
+/// messages. Throws TraceError.
 std::size_t merge_traces(const std::vector<NamedTrace>& traces, const std::filesystem::path& output,
                          mcap::Compression compression = mcap::Compression::kNone);
 

@@ -5,8 +5,8 @@
 
 namespace verp::record {
 
-/// The robot as URDF for viewers: link `body` and one link for each joint, of the joint's name,
-/// with masses and limits; each is drawn as sticks to the joints that it carries.
+/// The robot as URDF for viewers: a link `body`, and a link per joint with the joint's name, masses
+/// and limits. Each link is drawn as sticks to the joints on it.
 std::string urdf(const Params& params);
 
 }  // namespace verp::record
