@@ -28,9 +28,9 @@ namespace verp::tool {
 namespace {
 
 constexpr double kDegreesOfRad = 180 / std::numbers::pi;
-constexpr double kStand_m = 1;  ///< no leg of such a robot reaches the floor from there
+constexpr double kStand_m = 1;  ///< no leg of such a robot reaches the floor
 
-/// What the library says of an action, in a line.
+/// What the library knows of an action.
 cli::Json facts(const action::Made& made, int number) {
   const action::Library library = made.library();
   const action::Action& own = library.action(number);
@@ -111,7 +111,7 @@ int check(const ActionWords& words) {
                         checked.length_s, checked.whole ? "" : ", and on: not checked further");
     text += fmt::format("  {:>6} {:>6} {:>6} {:>6} {:<18} {:>6} {:<18} {:>5}\n", "line", "from s",
                         "to s", "speed%", "of", "weight%", "on", "ZMPmm");
-    std::set<std::pair<int, std::string>> told;  // a frame played again with nothing new is not
+    std::set<std::pair<int, std::string>> told;  // skips repeats of a frame with the same problem
     for (const action::FrameCheck& each : checked.frames) {
       if (told.insert({each.frame, each.problem}).second) text += in_a_line(each);
       frames.push_back(
@@ -141,7 +141,7 @@ int check(const ActionWords& words) {
   return bad == 0 ? cli::kGood : cli::kRunFailed;
 }
 
-/// Empty: it stayed about where it was.
+/// Empty if the robot stayed where it was.
 std::string way_in_words(const action::Played& played) {
   constexpr double kStayed_m = 0.05, kStayed_rad = 0.1;
   if (played.went_m.norm() < kStayed_m && std::abs(played.turned_rad) < kStayed_rad) return "";

@@ -7,10 +7,11 @@ namespace verp::tool {
 
 struct SendWords {
   std::string link;
-  int id = -1;  ///< unless it is given, the controller's on that link
+  int id = -1;  ///< default: the controller on that link
 };
 
-/// `verp action send`: all of the robot's actions to a controller that runs. Exit status.
+/// `verp action send`: sends all of the robot's actions to a running controller. Returns the exit
+/// status.
 int send_actions(const ActionWords& words, const SendWords& send);
 
 }  // namespace verp::tool

@@ -5,16 +5,16 @@
 #include "host/author/action/compile.hpp"
 #include "host/robot/model/entity.hpp"
 
-/// What every subcommand of `verp action` is told, and the robot that it means.
+/// Options common to all subcommands of `verp action`, and the robot that they name.
 namespace verp::tool {
 
 struct ActionWords {
-  std::string action;  ///< its name, or a file
+  std::string action;  ///< name or file
   std::string model = "generic21";
   bool json = false;
   WalkOptions walk;         ///< of the twin
-  bool held = false;        ///< by its trunk, all the time
-  int gains_percent = 100;  ///< of the servos' position loops
+  bool held = false;        ///< by its trunk, throughout
+  int gains_percent = 100;  ///< gains of the servos' position loops
 };
 
 struct ActionRobot {
@@ -23,19 +23,19 @@ struct ActionRobot {
   action::Made made;
 };
 
-/// With the actions beside its file; a file that was named is one of them, in place of one of its
-/// name, and so are those that it leads to in its own folder. Throws LoadError.
+/// Loads the robot with the actions beside its file. A named action file joins them and replaces
+/// one of the same name, as do the files in its own folder that it links to. Throws LoadError.
 ActionRobot load_action_robot(const ActionWords& words);
 
-/// Number of the action that was named. Throws LoadError.
+/// Number of the named action. Throws LoadError.
 int require_action(const ActionRobot& robot, const ActionWords& words);
 
-/// The same of a robot that is loaded already. `named`: an action of its own, or a file.
+/// The same for a loaded robot. `named`: one of its actions, or a file.
 action::Made make_actions(const model::Entity& entity, const Params& params,
                           const std::string& named);
 int require_action(const model::Entity& entity, const action::Made& made, const std::string& named);
 
-/// The position loops of all servos at so many percent of what they were.
+/// Scales the position gains of all servos to `percent`.
 void soften(model::Entity& entity, int percent);
 
 }  // namespace verp::tool

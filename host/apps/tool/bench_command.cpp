@@ -27,24 +27,25 @@
 #include "host/os/files/whole.hpp"
 #include "host/os/process/child.hpp"
 
-/// `verp bench`: runs the programs of tests/bench and sets their numbers beside what is promised.
+/// `verp bench`: runs the programs of tests/bench and compares their numbers with the promised
+/// limits.
 namespace verp::tool {
 namespace {
 
 constexpr double kMostTick_us = 3;
 constexpr double kLeastTimesFasterThanKdl = 100;
-/// Where CAN sockets are. The answers of several minutes of walking take their time.
+/// Runs where CAN sockets exist; allows for several minutes of walking.
 constexpr const char* kWithCan = " --timeout 600 --memory 1500M ";
 constexpr const char* kTiming = " --benchmark_format=json --benchmark_min_time=0.1";
 
 struct BenchOptions {
   bool json = false, pc = false;
   int repetitions = 7;
-  std::string only;  ///< "languages", or what pictures cost: "frames" or "window"
+  std::string only;  ///< "languages", or the cost of pictures: "frames" or "window"
 };
 
-/// Runs a program of this build tree, after `where`, and gives each line of its stdout to `take`.
-/// Throws ToolError with its last words if it fails.
+/// Runs a program of this build tree, prefixed with `where`, and passes each line of its stdout to
+/// `take`. Throws ToolError with its last output if it fails.
 template <class Take>
 void run_program(const std::string& program, const std::string& arguments, Take take,
                  const std::string& where = "") {
@@ -76,7 +77,7 @@ void run_program(const std::string& program, const std::string& arguments, Take 
 
 using Samples = std::map<std::string, std::vector<double>>;
 
-/// One run of a Google Benchmark program: CPU times in ns and counters, added to the samples.
+/// One run of a Google Benchmark program: adds CPU times in ns and counters to the samples.
 void sample(const std::string& program, const std::string& folder, Samples& samples) {
   std::string text;
   run_program(program, " " + files::shell_word(folder) + kTiming,
@@ -109,7 +110,7 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
 
 void add_pc_rows(const Samples& samples, std::vector<BenchRow>& rows) {
   const std::vector<double>&ours = samples.at("leg_ik"), &kdl = samples.at("kdl_leg_ik");
-  std::vector<double> times;  // paired: the two ran one after the other
+  std::vector<double> times;  // paired: the two ran in succession
   for (std::size_t n = 0; n < ours.size(); ++n) times.push_back(kdl.at(n) / ours[n]);
   rows.push_back(timed("tick_us", "one tick, digest included", "µs",
                        scaled(samples.at("tick"), 1e-3), Bar::kAtMost, kMostTick_us));
@@ -133,7 +134,7 @@ void add_pc_rows(const Samples& samples, std::vector<BenchRow>& rows) {
                   .exact = true});
 }
 
-/// One of target_bench's lines: a board's exact cost, or its link's speed.
+/// Adds a line of target_bench: a board's exact cost, or its link's speed.
 void add_board_rows(const cli::Json& line, std::vector<BenchRow>& rows, cli::Json& headings) {
   const std::string where = line.at("board");
   const Bar promised = where == board::kPromisedBoard ? Bar::kAtMost : Bar::kNone;
@@ -176,7 +177,7 @@ void add_board_rows(const cli::Json& line, std::vector<BenchRow>& rows, cli::Jso
   add("image_bytes", "code and constants of the replay image", "bytes", Bar::kNone, 0, true);
 }
 
-/// One of window_bench's lines.
+/// Adds a line of window_bench.
 void add_picture_rows(const cli::Json& line, std::vector<BenchRow>& rows) {
   const int robots = line.at("robots");
   const std::string kind = line.value("antialias", false) ? "antialiased" : "as a window draws it";
@@ -203,7 +204,7 @@ void add_picture_rows(const cli::Json& line, std::vector<BenchRow>& rows) {
     add("apart", fmt::format("  its pixels from those of 64 samples, rms"), "of 255");
     return;
   }
-  // On two idle cores that draw in software.
+  // Limits for two idle cores with software rendering.
   add("frames_per_s", fmt::format("the window with {}", of), "1/s", robots == 1 ? 20 : 10);
   add("real_time_factor", "the twin beside it, of real time", "times", 0.99);
   add("cores", "cores busy with both", "");

@@ -10,7 +10,7 @@ namespace verp::tool {
 void add_language_row(const cli::Json& line, std::vector<BenchRow>& rows) {
   struct Language {
     const char* what;
-    double at_least;  ///< ticks a second; 0: nothing is promised
+    double at_least;  ///< ticks per second; 0: no limit
   };
   static const std::map<std::string, Language> kLanguages = {
       {"cpp", {"C++, libverp in the process", 0}},

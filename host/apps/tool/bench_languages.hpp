@@ -6,7 +6,7 @@
 
 namespace verp::tool {
 
-/// A row for one of language_bench's lines, beside what is promised of that language.
+/// Adds a row for one output line of language_bench, with the promise for that language.
 void add_language_row(const cli::Json& line, std::vector<BenchRow>& rows);
 
 }  // namespace verp::tool

@@ -6,8 +6,8 @@
 
 namespace verp::tool {
 
-/// Of every command that meets a robot on a CAN interface: throws ToolError if that runs at another
-/// bit rate than the robot's bus, and tells what else its user should know.
+/// For commands that use a robot's CAN interface. Throws ToolError if the interface has another bit
+/// rate than the robot's bus; prints other advice.
 void check_bit_rate(const std::string& command, const link::CanInterface& interface,
                     const Params& params);
 

@@ -8,12 +8,11 @@
 
 namespace verp::tool {
 
-/// Reads of one device, one after the other, and how long each took from its first byte sent to
-/// its last one received.
+/// Successive reads of one device, each timed from the first byte sent to the last byte received.
 struct BusBench {
   std::uint64_t good = 0;
   double duration_s = 0;
-  std::uint64_t payload_bytes = 0;  ///< what was read
+  std::uint64_t payload_bytes = 0;  ///< bytes read
   double median_us = 0, p99_us = 0, worst_us = 0;
   std::uint32_t crc_errors = 0, timeouts = 0, errors = 0;
   hal::LinkErrors link;
@@ -23,17 +22,17 @@ struct BusBench {
   }
 };
 
-/// Ends early when interrupted.
+/// Ends early on interruption.
 BusBench run_bus_bench(bus::Client& client, std::uint8_t id, std::uint16_t address,
                        std::uint16_t size, double seconds);
-/// Of any bus: `read` makes one read of `size` bytes and says whether it was answered. What was not
+/// For any bus: `read` makes one read of `size` bytes and returns false if it got no answer, which
 /// counts as a timeout.
 BusBench run_bus_bench(const std::function<bool()>& read, std::uint16_t size, double seconds);
 
 std::string to_text(const BusBench& result);
 cli::Json to_json(const BusBench& result);
 
-/// Says on stderr if the adapter behind `device` keeps bytes back.
+/// Warns on stderr if the adapter behind `device` delays received bytes.
 void advise_latency(const std::string& device);
 
 }  // namespace verp::tool

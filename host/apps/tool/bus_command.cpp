@@ -37,7 +37,7 @@ void add_id(CLI::App* app, const std::shared_ptr<BusOptions>& options) {
                               dxl::controller::kDefaultId, canopen::plan::kControllerNode));
 }
 
-/// Which ids there are depends on the link.
+/// The range of ids depends on the link.
 void check_id(const BusOptions& options, bool can) {
   if (can && !canopen::is_node(static_cast<unsigned>(options.id))) {
     throw cli::ToolError(cli::kBadInput,
@@ -62,7 +62,7 @@ void add_registers(CLI::App* app, const std::shared_ptr<BusOptions>& options, co
       ->excludes(name);
 }
 
-/// Words that mean something on serial links only, and what is to be done on CAN.
+/// Rejects options for serial links and names the alternative on CAN.
 void refuse_on_can(const std::vector<CLI::App*>& commands, const CLI::App* bench) {
   constexpr struct {
     const char *word, *instead;
@@ -122,7 +122,7 @@ cli::Subcommand add_bus(CLI::App& root) {
   return {app, [=] {
             const bool can = on_can(*options);
             if (can) refuse_on_can({find, show, put, measure}, measure);
-            bool named = false;  // the device
+            bool named = false;  // --id is given
             for (const CLI::App* each : {call, show, put, measure}) {
               named = named || each->get_option("--id")->count() > 0;
             }

@@ -1,12 +1,12 @@
 #pragma once
 #include "host/apps/tool/bus_options.hpp"
 
-/// `verp bus scan|ping|read|write|bench` on CAN: nodes instead of devices, objects instead of
-/// registers. An object that stands in one of our data sheets (host/twin/eds) has a name and a
-/// type; any other is shown as the bytes it has.
+/// `verp bus scan|ping|read|write|bench` on CAN, with nodes and objects instead of devices and
+/// registers. Objects in our EDS data (host/twin/eds) have a name and a type; others print as
+/// bytes.
 namespace verp::tool {
 
-/// Whether --link names a CAN interface; throws link::EndpointError if it names nothing.
+/// True if --link names a CAN interface; throws link::EndpointError if it names nothing.
 bool on_can(const BusOptions& options);
 
 int scan_can(const BusOptions& options);

@@ -4,11 +4,11 @@
 
 namespace verp::tool {
 
-/// The words of `verp bus scan|ping|read|write|bench`, on any link.
+/// Options of `verp bus scan|ping|read|write|bench`, on any link.
 struct BusOptions {
   std::string link;
   double timeout_ms = 100;
-  int id = -1;  ///< unless it is given, the controller's on that link
+  int id = -1;  ///< default: the controller on that link
   std::vector<std::string> names;
   int address = -1;
   std::string object;  ///< on CAN: INDEX:SUBINDEX

@@ -5,16 +5,16 @@
 
 namespace verp::tool {
 
-/// What a person asked `verp bus camera` for.
+/// Options of `verp bus camera`.
 struct CameraWords {
   std::string device = "/dev/video0";
   std::string size, format, picture, record;
-  double rate_hz = 0;  ///< 0: as it is
+  double rate_hz = 0;  ///< 0: the camera's setting
   double seconds = 2;
   bool list = false, json = false, compress = false;
 };
 
-/// Watches a camera of this PC; returns the exit status. Throws ToolError, LinkError, TraceError,
+/// Runs a camera of this PC; returns the exit status. Throws ToolError, LinkError, TraceError,
 /// ReportError.
 int run_camera(const CameraWords& words, link::VideoCalls& calls = link::kernel_video_calls());
 

@@ -13,10 +13,10 @@
 namespace verp::tool {
 namespace {
 
-/// What may follow one command, by its words ("bus read"; the root's are empty).
+/// Words that may follow one command ("bus read"; empty for the root).
 struct ShellWords {
   std::string command;
-  std::vector<std::pair<std::string, std::string>> commands, options;  ///< with what each does
+  std::vector<std::pair<std::string, std::string>> commands, options;  ///< with their descriptions
   bool takes_robot = false;
 };
 
@@ -24,7 +24,7 @@ std::string first_line_of(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }
 
-/// A command may have a second name.
+/// A command may have aliases.
 std::vector<std::string> names_of(const CLI::App& app) {
   std::vector<std::string> names = app.get_aliases();
   names.insert(names.begin(), app.get_name());
@@ -107,7 +107,7 @@ complete -o default -F _verp verp ./verp
       commands, cases, board_names(), fmt::join(model::model_names(), " "));
 }
 
-/// zsh speaks bash's completion, once it is asked to.
+/// zsh can load bash's completion.
 std::string zsh_words(const CLI::App& root) {
   return "autoload -U +X compinit && compinit\nautoload -U +X bashcompinit && bashcompinit\n" +
          bash_words(root);

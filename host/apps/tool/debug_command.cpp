@@ -40,13 +40,13 @@ bool is_emulated(const std::string& board) {
   return std::any_of(all.begin(), all.end(), [&](const auto& each) { return each.name == board; });
 }
 
-/// The board whose emulated core replays a trace in the place of this one's.
+/// The emulated board that replays a trace for this one.
 std::string replay_board(const std::string& board) {
   return is_emulated(board) ? board : flash::find_recipe(board).replay_board;
 }
 
-/// Like the firmware that is flashed, but gdb knows its lines and variables. Images of
-/// $VERP_FIRMWARE_DIR are taken as they are.
+/// Builds the usual firmware with debug information. Uses the images of $VERP_FIRMWARE_DIR
+/// unchanged if that is set.
 void build_for_gdb(const std::string& board, const std::string& target, const fs::path& folder) {
   if (std::getenv("VERP_FIRMWARE_DIR") != nullptr) return;
   const fs::path tree = files::source_dir() / "build" / ("debug-" + board);
@@ -93,7 +93,7 @@ flash::DebugPlan plan_replay(const DebugWords& words, const fs::path& folder) {
                              static_cast<std::uint32_t>(at - inputs.begin()), folder);
 }
 
-/// What runs on a board that is only ever emulated has no end that a twin could be plugged into.
+/// True unless the board exists only in emulation: its programs have no link for a twin.
 bool has_loop_of_its_own(const std::string& board) {
   const auto& rows = flash::recipes();
   return !is_emulated(board) || std::any_of(rows.begin(), rows.end(), [&](const auto& row) {
@@ -131,7 +131,7 @@ void tell_links(const flash::DebugPlan& plan) {
   }
 }
 
-/// Becomes gdb, so that the terminal and its Ctrl-C are gdb's alone.
+/// Replaces this process with gdb, so that gdb owns the terminal and Ctrl-C.
 [[noreturn]] void become(const std::vector<std::string>& command) {
   std::vector<std::string> words = command;
   std::vector<char*> argv;

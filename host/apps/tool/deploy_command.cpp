@@ -39,14 +39,13 @@ struct DeployOptions {
   bool no_build = false, json = false;
 };
 
-/// What one step has to say when it went well.
+/// Result of a successful step.
 struct StepAnswer {
   std::string text;
   cli::Json json = cli::Json::object();
 };
 
-/// One step of the way from a model to a robot; each throws, or answers. A dry run only says what
-/// each would do.
+/// The steps from a model to a robot. Each returns a result or throws; a dry run only describes it.
 class Deployment {
  public:
   explicit Deployment(const DeployOptions& options)
@@ -75,7 +74,7 @@ class Deployment {
     return {images};
   }
 
-  /// Walks in the twin, this PC being the controller, and keeps what it saw.
+  /// Walks in the twin, with this PC as the controller, and records the inputs.
   StepAnswer walk() {
     if (dry()) return {fmt::format("would walk {:g} s in the twin", plan_.walk_s)};
     const fs::path file = folder() / "walk.mcap";
@@ -97,7 +96,7 @@ class Deployment {
              {"trace", file.string()}}};
   }
 
-  /// The same inputs on a core like the board's must give the same bits.
+  /// The same inputs must give the same bits on a core like the board's.
   StepAnswer replay() {
     const std::string board = recipe_.replay_board;
     if (dry()) return {"would replay that walk on emulated " + board};
@@ -134,7 +133,7 @@ class Deployment {
 
  private:
   bool dry() const { return options_.flash.dry_run; }
-  /// What is wrong with an image now need not be so when it is flashed.
+  /// In a dry run, a later build may still correct the image.
   bool builds_later() const { return dry() && !options_.no_build; }
 
   const fs::path& folder() const {
@@ -186,7 +185,7 @@ void tell(const DeployOptions& options, const std::string& line) {
   }
 }
 
-/// Up to the first step that fails. Returns the exit status.
+/// Stops at the first step that fails. Returns the exit status.
 int run_steps(const DeployOptions& options, Deployment& deployment, cli::Json& rows,
               std::string& failure) {
   using Clock = std::chrono::steady_clock;

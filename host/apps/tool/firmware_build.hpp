@@ -10,19 +10,19 @@ namespace verp::tool {
 /// One target of a board's firmware.
 struct FirmwareBuild {
   std::string board, target;
-  std::filesystem::path tree;              ///< empty: that of the preset fw-<board>
-  std::vector<std::string> settings = {};  ///< further words for CMake when it configures
-  std::filesystem::path log;               ///< gets all that was said, if it fails
-  std::filesystem::path lock = {};         ///< empty: ./verp's
+  std::filesystem::path tree;              ///< build tree; empty: the preset fw-<board>
+  std::vector<std::string> settings = {};  ///< further CMake arguments at configure time
+  std::filesystem::path log;               ///< receives all output after a failure
+  std::filesystem::path lock = {};         ///< empty: the lock of ./verp
 };
 
-/// One command of a build, alone as long as it holds the lock. `log` gets all that was said if it
-/// fails. Throws ToolError with the compiler's words.
+/// Runs one build command while it holds the lock. After a failure, `log` receives all output.
+/// Throws ToolError with the compiler's messages.
 void run_build(const std::vector<std::string>& command, const std::filesystem::path& lock,
                const std::filesystem::path& log, cli::Progress& progress);
 
-/// Builds it, one at a time with ./verp, whose lock this takes as well. Throws ToolError with the
-/// compiler's words.
+/// Builds the target under the lock that ./verp also takes. Throws ToolError with the compiler's
+/// messages.
 void build_firmware(const FirmwareBuild& build, cli::Progress& progress);
 
 }  // namespace verp::tool

@@ -6,11 +6,11 @@
 
 namespace verp::tool {
 
-/// What to check before a robot's servos are powered for the first time, one line a point.
+/// What to check before the servos first get power, one item per line.
 std::string first_power_checklist(const Params& params);
 
-/// Shows the checklist on standard error and has it confirmed in a word; `agreed`: it was, on the
-/// command line. Throws ToolError if it is not confirmed.
+/// Prints the checklist on stderr and asks the user to confirm it. `agreed`: confirmed on the
+/// command line. Throws ToolError without confirmation.
 void confirm_first_power(const Params& params, bool agreed, cli::Answers& answers);
 
 }  // namespace verp::tool

@@ -15,7 +15,7 @@ namespace {
 
 struct FlashWords {
   FlashOptions flash;
-  std::string controller;  ///< a folder; empty: the core decides
+  std::string controller;  ///< a folder; empty: the core's controller
   bool code = false, json = false;
 };
 

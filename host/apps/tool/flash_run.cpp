@@ -26,7 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whose buses --bus names where no robot is given, as for every command that has a usual MODEL.
+/// The robot whose buses --bus names if the command line gives no robot, as in commands with a
+/// default MODEL.
 constexpr const char* kUsualRobot = "generic21";
 
 void write_piece(const fs::path& file, const void* bytes, std::size_t size) {
@@ -35,16 +36,16 @@ void write_piece(const fs::path& file, const void* bytes, std::size_t size) {
                           file.string() + ": cannot be written; free space, or set VERP_FLASH_DIR");
 }
 
-/// Leaves what is in the board's flash, as a robot's actions.
+/// Value of --actions that leaves the actions in the board's flash unchanged.
 constexpr const char* kNoActions = "none";
 
-/// The robot that --params names, and its actions.
+/// The robot of --params, and its actions.
 struct RobotFiles {
   fs::path params;
-  fs::path actions;  ///< empty: none are written
+  fs::path actions;  ///< empty: do not write any
 };
 
-/// As they were named, or made of the robot that --params names.
+/// The named files, or files made from the robot of --params.
 RobotFiles robot_files(const FlashOptions& options, const flash::MemoryMap& map,
                        const fs::path& folder) {
   const std::string& word = options.params;
@@ -77,14 +78,14 @@ RobotFiles robot_files(const FlashOptions& options, const flash::MemoryMap& map,
   return made;
 }
 
-/// What goes where, and which image drives that robot. Every file is sound.
+/// The checked pieces with their addresses, and the image that drives the robot.
 struct Cargo {
   std::vector<flash::Piece> pieces;
   BusProtocol protocol = BusProtocol::kDynamixel2;
   std::string image;
 };
 
-/// `code`: with the image itself.
+/// `code`: include the image itself.
 Cargo load(const FlashOptions& options, const flash::Recipe& recipe, const flash::MemoryMap& map,
            const fs::path& folder, bool code) {
   Cargo cargo;
@@ -113,8 +114,7 @@ Cargo load(const FlashOptions& options, const flash::Recipe& recipe, const flash
   return cargo;
 }
 
-/// A robot or firmware that goes alone: what the chip must have beside it, which does not show
-/// here.
+/// After writing only a robot or only firmware: what the chip must already hold.
 std::string beside(const FlashOptions& options, const Cargo& cargo) {
   if (!options.params.empty() && !options.code) {
     return fmt::format("; this robot takes firmware {}, which --code writes too", cargo.image);
@@ -162,7 +162,7 @@ FlashAnswer flash_silicon(const FlashOptions& options, const flash::Recipe& reci
     if (options.dry_run) answer.text += line + "\n";
   }
   if (options.dry_run) return answer;
-  const std::string what = to_text(job.pieces);  // one that was kept is gone afterwards
+  const std::string what = to_text(job.pieces);  // removes temporary files below; so this precedes
   flash::run(
       job, steps,
       {.progress = [&](const flash::Step& step, double share) { progress.show(share, step.label); },
@@ -175,7 +175,7 @@ FlashAnswer flash_silicon(const FlashOptions& options, const flash::Recipe& reci
   return answer;
 }
 
-/// What can be done with a board that runs in QEMU.
+/// What the user can do with a board in QEMU.
 std::string to_text(const FlashOptions& options, const flash::EmulationPlan& plan,
                     const std::string& told) {
   std::string text =
@@ -195,7 +195,7 @@ std::string to_text(const FlashOptions& options, const flash::EmulationPlan& pla
                             plan.links[0].place, plan.links[1].place);
 }
 
-/// Until somebody interrupts.
+/// Runs until an interrupt.
 void run_on(flash::Emulation& emulation) {
   while (!cli::interrupted()) {
     if (!emulation.running()) throw board::BoardError(emulation.described("the emulator ended"));
@@ -213,7 +213,7 @@ FlashAnswer emulate(const FlashOptions& options, const flash::Recipe& recipe,
   }
   const flash::Workspace workspace(options.board);
   const flash::MemoryMap map = flash::read_memory_map(options.board);
-  // QEMU takes the code as an image of its own, no piece.
+  // QEMU takes the code as an image, not as a piece.
   const Cargo cargo = load(options, recipe, map, workspace.path(), false);
   const flash::EmulationPlan plan =
       flash::plan_emulation(recipe, cargo.protocol, cargo.pieces, workspace.path());

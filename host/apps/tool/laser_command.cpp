@@ -23,7 +23,7 @@ struct LaserWords {
 };
 
 struct Nearest {
-  std::uint16_t range_mm = 0;  ///< 0: nothing within range
+  std::uint16_t range_mm = 0;  ///< 0: nothing in range
   std::size_t step = 0, seen = 0;
 };
 
@@ -48,7 +48,7 @@ std::string in_words(const hal::RangeScan& scan, int first) {
                                     static_cast<std::size_t>(first) + found.step));
 }
 
-/// Any range finder, for so long; returns how many scans came.
+/// Runs any range finder for the given time; returns the number of scans.
 template <hal::RangeFinder Finder>
 std::size_t watch(Finder& finder, const LaserWords& words, cli::Json& scans) {
   hal::RangeScan scan;

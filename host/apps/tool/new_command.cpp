@@ -45,8 +45,7 @@ void check_robot_name(const std::string& name) {
                   name, kNameLength - 1));
 }
 
-/// Shipped ones are found by name before what stands here: changes of a new one's table would do
-/// nothing.
+/// Rejects names of shipped robots: they are found first, so a new table would have no effect.
 void refuse_shipped(const std::string& name, const fs::path& sdf) {
   std::string found;
   try {
@@ -62,7 +61,7 @@ void refuse_shipped(const std::string& name, const fs::path& sdf) {
                                    name, found));
 }
 
-/// The table that a robot of this name was generated from, or the table itself.
+/// The table that the named robot was generated from, or the given table.
 fs::path table_of(const std::string& from) {
   if (from.ends_with(".table")) return from;
   const fs::path folder = fs::path(model::find_model(from)).parent_path();
@@ -76,7 +75,7 @@ fs::path table_of(const std::string& from) {
                   from));
 }
 
-/// The table with its name, and the comment before it, of the new robot.
+/// The table with the new robot's name and opening comment.
 std::string table_for(const std::string& table, const NewRobotWords& options) {
   std::string out = fmt::format(
       "# {0}: lengths, masses and servos; begun as a copy of {1}. Change them here, then\n"
@@ -86,7 +85,7 @@ std::string table_for(const std::string& table, const NewRobotWords& options) {
       "the zero pose.\n",
       options.name, options.from);
   std::istringstream lines(table);
-  bool begun = false;  // the comment before the first entry is about the other robot
+  bool begun = false;  // skips the old robot's opening comment
   for (std::string line; std::getline(lines, line);) {
     begun |= !line.empty() && line.front() != '#';
     if (!begun) continue;
@@ -137,7 +136,7 @@ int new_robot(const NewRobotWords& options) {
   try {
     write_text(sdf, sdf_of(table));
   } catch (const model::LoadError&) {
-    if (!again) fs::remove(table, error);  // nothing is left of what can't be made
+    if (!again) fs::remove(table, error);  // leaves nothing behind on failure
     if (!again) fs::remove(folder, error);
     throw;
   }

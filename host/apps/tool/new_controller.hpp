@@ -3,7 +3,7 @@
 
 namespace verp::tool {
 
-/// `verp new controller`, below `new`.
+/// `verp new controller`, a subcommand of `new`.
 cli::Subcommand add_new_controller(CLI::App& parent);
 
 }  // namespace verp::tool

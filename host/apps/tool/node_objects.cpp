@@ -19,7 +19,7 @@ using canopen::Address;
 using dxl::controller::Access;
 using dxl::controller::Type;
 
-/// Nothing: bytes.
+/// Empty: bytes.
 std::optional<Type> type_of(eds::DataType type) {
   using enum eds::DataType;
   constexpr std::pair<eds::DataType, Type> kTypes[] = {
@@ -39,7 +39,7 @@ bool parse_hex(std::string_view word, unsigned most, unsigned& value) {
   return error == std::errc() && last == end && value <= most;
 }
 
-// Elements of an array, in a sheet "joint_velocity 1" and the following.
+// Elements of an array; the EDS data names them "joint_velocity 1" and so on.
 std::vector<NodeObject> elements_of(const std::vector<NodeObject>& known, const std::string& name) {
   std::vector<NodeObject> elements;
   for (const NodeObject& each : known) {
@@ -50,8 +50,8 @@ std::vector<NodeObject> elements_of(const std::vector<NodeObject>& known, const 
   return elements;
 }
 
-// Names are the sheet's, and a sheet has as many COB-IDs as PDOs: none of them is meant more than
-// another. An array's is all of its elements.
+// EDS names need not be unique: there are as many COB-IDs as PDOs. Rejects ambiguous names; an
+// array's name selects all its elements.
 std::vector<NodeObject> by_name(const std::vector<NodeObject>& known, const std::string& name) {
   std::vector<std::string> names, places;
   const NodeObject* found = nullptr;
@@ -81,7 +81,7 @@ bool fits(const NodeObject& object, const std::vector<std::uint8_t>& bytes) {
          (*object.type == Type::kText || bytes.size() == dxl::controller::type_bytes(*object.type));
 }
 
-/// In 1000h to 1FFFh 32 bits are fields side by side: a node and flags, an address and a length.
+/// 32-bit objects in 1000h to 1FFFh hold fields: a node and flags, or an address and a length.
 bool is_fields(const NodeObject& object) {
   return object.type == Type::kU32 && object.at.index >= 0x1000 && object.at.index <= 0x1FFF;
 }

@@ -10,37 +10,35 @@
 #include "host/twin/bus/register_names.hpp"
 #include "host/twin/can/client.hpp"
 
-/// Objects of CANopen nodes as people name them and read their values.
+/// Objects of CANopen nodes: names and values.
 namespace verp::tool {
 
-/// One value of a node, with the name and type that a sheet has for it.
+/// One object of a node, with its name and type from the EDS data.
 struct NodeObject {
   canopen::Address at;
-  std::string name;                           ///< its address if no sheet has it
-  std::optional<dxl::controller::Type> type;  ///< nothing: bytes
+  std::string name;                           ///< its address if the EDS data lacks it
+  std::optional<dxl::controller::Type> type;  ///< empty: bytes
   bool writable = true;
 
-  /// With a type only; this outlives what is returned.
+  /// Needs `type`. The result refers to this object.
   bus::NamedRegister as_register() const;
 };
 
-/// What the node's sheet names; nothing if it has none here.
+/// The objects that the EDS data names for this node; empty if it does not know the node.
 std::vector<NodeObject> objects_of(const can::NodeIdentity& identity);
 
-/// Of the controller's registers, and of what CiA 402 gives a unit for all drives alike; else
-/// empty.
+/// Unit of a controller register, or of an object for which CiA 402 fixes the unit; else empty.
 std::string_view unit_of(canopen::Address at);
 
 /// INDEX:SUBINDEX; throws ToolError.
 canopen::Address parse_object(const std::string& text);
 
-/// What the words ask for, an array's name for its elements; all that is known of the node if they
-/// name nothing. Throws ToolError if
-/// nothing has that name, or more than one object.
+/// The objects that `options` names; an array's name selects its elements, no name selects all
+/// known ones. Throws ToolError if no object, or more than one, has that name.
 std::vector<NodeObject> wanted(const BusOptions& options, const std::vector<NodeObject>& known);
 
-/// As its type has it, else as bytes. For people what is made of fields, as COB-IDs and mapping
-/// entries are, is hexadecimal.
+/// Formats by type, else as bytes. Objects made of bit fields, such as COB-IDs and mapping entries,
+/// print as hexadecimal.
 std::string show_value(const NodeObject& object, const std::vector<std::uint8_t>& bytes);
 cli::Json json_value(const NodeObject& object, const std::vector<std::uint8_t>& bytes);
 

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder as it is named everywhere, with a build/ that can be written.
+/// The folder's canonical path; ensures a writable build/.
 fs::path checked(const std::string& words) {
   std::error_code error;
   if (!fs::exists(files::source_dir() / "toolchains" / "own_controller.cmake", error)) {

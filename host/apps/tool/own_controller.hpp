@@ -15,11 +15,11 @@ namespace verp::tool {
 /// --controller.
 void declare_controller(CLI::App& app, std::string& folder);
 
-/// The controller in that folder, built for this PC: makes one for each run. Throws ToolError, with
-/// the compiler's words if it does not compile.
+/// Builds the controller in that folder for this PC. The result makes one controller per run.
+/// Throws ToolError, with the compiler's messages if it does not compile.
 std::function<session::Decide()> own_controller(const std::string& folder, bool show);
 
-/// Builds a target of the board's firmware with it: the folder of its images.
+/// Builds a firmware target of the board with it; returns the folder of its images.
 std::string build_firmware_of(const std::string& folder, const std::string& board,
                               const std::string& target, cli::Progress& progress);
 

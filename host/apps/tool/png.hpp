@@ -5,8 +5,8 @@
 
 namespace verp::tool {
 
-/// Rows of red, green and blue from the top as a PNG file. Nothing is compressed: that would want a
-/// library that this program needs for nothing else.
+/// Encodes rgb rows, from the top, as a PNG file. It does not compress, because that would need a
+/// library that this program uses nowhere else.
 std::string png_of_rgb(std::uint32_t width_px, std::uint32_t height_px,
                        std::span<const std::uint8_t> rgb);
 

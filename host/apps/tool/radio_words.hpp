@@ -5,11 +5,11 @@
 
 namespace verp::tool {
 
-/// What --radio takes, for help.
+/// Help text of --radio.
 inline constexpr const char* kRadioWords =
     "numbers of the radio: 'range_m=5 loss=0.3' (also fade, fade_s, delay_s, jitter_s, bytes_s)";
 
-/// NAME=VALUE, with spaces between. Throws ToolError, of `command`.
+/// Parses NAME=VALUE pairs separated by spaces. Throws ToolError in the name of `command`.
 radio::Conditions radio_of(const std::string& command, const std::string& text);
 
 }  // namespace verp::tool

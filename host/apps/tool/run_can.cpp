@@ -18,7 +18,7 @@
 namespace verp::tool {
 namespace {
 
-/// The interface as a CanBus whose nodes' answers may be held up on their way.
+/// A CanBus that allows extra delay for the nodes' answers.
 class PatientCan {
  public:
   explicit PatientCan(link::CanPort& port) : port_(port) {}
@@ -30,7 +30,7 @@ class PatientCan {
   std::uint64_t now_us() { return port_.now_us(); }
   hal::CanErrors errors() const { return port_.errors(); }
 
-  /// From now on, beyond the time that the frames take.
+  /// Sets the allowance, beyond the time of the frames.
   void set_held(std::uint32_t held_us) { held_us_ = held_us; }
 
  private:
@@ -39,8 +39,8 @@ class PatientCan {
 };
 static_assert(hal::CanBus<PatientCan>);
 
-/// CiA 402 drives on an interface, and this PC's controller as a node beside them, which takes
-/// orders with `--take-orders` only: else whoever started the run gives them.
+/// CiA 402 drives on an interface, and this PC's controller as a node beside them. The node takes
+/// orders only with `--take-orders`; else the program that started the run gives them.
 class CanRobot {
   using Ticks = app::TickLog<>;
 

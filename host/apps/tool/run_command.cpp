@@ -33,7 +33,7 @@
 namespace verp::tool {
 namespace {
 
-constexpr std::uint32_t kArrival_us = 10'000'000;  // for whom `pty:` or a listener waits
+constexpr std::uint32_t kArrival_us = 10'000'000;  // wait for the other end of `pty:` or a listener
 
 struct RunWords {
   WalkOptions walk;
@@ -46,7 +46,7 @@ struct RunWords {
   bool lockstep = false;
 };
 
-/// Orders that come from elsewhere are not planned beforehand: what limits them is the tuning.
+/// Orders from another source are not planned beforehand; tuning limits them.
 void require_followed_orders(const Params& params) {
   const Command longest = session::longest_order(params);
   const session::Followed followed = session::within_servo_speed(params, longest);
@@ -63,7 +63,7 @@ void require_followed_orders(const Params& params) {
           std::floor(1000 * share * static_cast<double>(params.tuning.gait.max_step_m)) / 1000));
 }
 
-/// Without an IMU nobody knows that it lies, nor on which side.
+/// Without an IMU the robot cannot sense that it lies, nor on which side.
 void let_robot_get_up(const RunWords& words, WalkPlan& walk) {
   if (!words.params.has_imu()) {
     throw cli::ToolError(
@@ -226,7 +226,7 @@ int tell(const RunWords& words, const RunPlan& plan, WalkFiles& files, LiveStrea
   return result.walk.good() && files.lost().empty() ? cli::kGood : cli::kRunFailed;
 }
 
-/// What is done with a robot, however it is reached.
+/// The run itself, for every kind of link.
 template <class Link>
 int run_on(Link& link, const RunWords& words, const RunPlan& plan, WalkFiles& files,
            LiveStream& live) {
@@ -238,15 +238,15 @@ int run_on(Link& link, const RunWords& words, const RunPlan& plan, WalkFiles& fi
         "off, and a fall is not noticed");
   }
   cli::Answers answers;
-  // On any link: behind tcp: or pty: may be a forwarded port as well as a twin, and a twin answers
-  // as the servos do.
+  // Asks on every link: tcp: or pty: may lead to a real robot as well as to a twin, and both answer
+  // alike.
   confirm_first_power(plan.walk.params, words.yes, answers);
   live.run_beside_real_time();
   cli::Progress progress(!words.walk.json);
   return tell(words, plan, files, live, drive(link, plan, fit, files.trace(), progress));
 }
 
-/// A twin in lockstep waits for its controllers, and they for it: either may be started first.
+/// Retries, because a lockstep twin and its controllers may start in any order.
 link::Link open_link(const RunPlan& plan) {
   using Kind = link::Endpoint::Kind;
   constexpr std::uint32_t kTry_us = 100'000;

@@ -12,15 +12,15 @@
 namespace verp::tool {
 namespace {
 
-constexpr std::uint64_t kGone_ns = 5'000'000'000;    // a link that is lost so long stays lost
-constexpr std::uint64_t kSilent_ns = 2'000'000'000;  // a twin that is free answers at once
+constexpr std::uint64_t kGone_ns = 5'000'000'000;    // a link lost for this long stays lost
+constexpr std::uint64_t kSilent_ns = 2'000'000'000;  // an idle twin answers at once
 
-/// What this program does while it waits for the twin: gives up when the person says so twice, or
-/// when the twin has been gone for long.
+/// Runs while this program waits for the twin. Gives up after a second interrupt, or when the twin
+/// has been gone for kGone_ns.
 struct Waiting {
   link::Link* link;
-  bool* answered;             ///< somebody has, or it was told that nobody does
-  std::uint64_t lost_ns = 0;  ///< since when; 0: it is there
+  bool* answered;             ///< answered, or the user was warned of silence
+  std::uint64_t lost_ns = 0;  ///< time of the loss; 0: connected
   std::uint64_t asked_ns = link::monotonic_ns();
 
   bool operator()() {
@@ -53,7 +53,7 @@ class TwinInLockstep {
   }
 
   Bus& bus() { return bus_; }
-  /// The twin wants no further tick, or is gone.
+  /// The twin ended or is gone.
   bool stopped() const { return bus_.stopped(); }
   void set_held(std::uint32_t) {}
   bool connected() const { return link_.connected(); }
@@ -66,7 +66,7 @@ class TwinInLockstep {
   }
   void report(const app::LoopHealth&) {}
 
-  // Nothing is lost in lockstep: what was sent has arrived.
+  // Lockstep loses nothing: what was sent has arrived.
   LetGo let_go(int) const { return torque_ ? LetGo::kNo : LetGo::kYes; }
 
  private:

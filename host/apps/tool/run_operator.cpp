@@ -35,7 +35,7 @@ void RunOperator::fail(const std::string& why) {
   sitting_ = true;
 }
 
-// Who gives the orders may have the robot let go as well.
+// The source of the orders may release torque without a failure.
 void RunOperator::observe_obeying(std::uint32_t faults) {
   constexpr std::uint32_t kStopping = 0xFFFF;
   obeyed_s_ += period_s_;
@@ -51,7 +51,7 @@ void RunOperator::observe_playing(const State& state, const Outputs& outputs) {
   if (player_->done()) fail(player_->failed());
 }
 
-// One that may get up has the walker's patience: its tries are counted there.
+// With get-ups, the walker counts the attempts.
 void RunOperator::observe_mode(Mode from, const State& state, const Outputs& outputs) {
   const std::string story = story_.observe(state, outputs);
   if (mode_ != from) told_(from, mode_, outputs.faults, story);
@@ -66,7 +66,7 @@ void RunOperator::observe_mode(Mode from, const State& state, const Outputs& out
 void RunOperator::observe(const State& state, const Outputs& outputs) {
   const auto mode = static_cast<Mode>(outputs.mode);
   observe_mode(std::exchange(mode_, mode), state, outputs);
-  // What the robot does by itself takes none of the operator's patience.
+  // The robot's automatic actions do not use up the operator's patience.
   const bool by_itself = mode == Mode::kHolding || mode == Mode::kSitting ||
                          (mode == Mode::kRising && walker_.walked_s() > 0);
   if (orders_ && !sitting_) {

@@ -14,48 +14,48 @@
 
 namespace verp::tool {
 
-/// The person at the desk during `verp run`: has the robot stand, walk (or act) and stop, and in
-/// the end, whatever happened, sit down and let go. Waits while the robot holds; a robot that let
-/// go by itself is not made to rise again.
+/// The operator during `verp run`: orders the robot to stand, walk (or act) and stop, and at the
+/// end always to sit down and release torque. Waits while the robot holds. Does not raise a robot
+/// that released torque by itself.
 class RunOperator {
  public:
-  /// Called when the robot's mode has changed. `story`: of one that fell, in words; or empty.
+  /// Called when the robot's mode has changed. `story`: how a fall went, in words; or empty.
   using Told = std::function<void(safety::Mode from, safety::Mode to, std::uint32_t faults,
                                   const std::string& story)>;
 
-  /// `get_ups`: how often in a row it is asked to get up once it lies; 0: a fall ends the walk.
+  /// `get_ups`: attempts in a row to get up after a fall; 0: a fall ends the walk.
   RunOperator(const Params& params, const Command& velocity, double walk_s, Told told,
               int get_ups = 0);
 
   app::OperatorOrder order(std::uint32_t tick);
-  /// What the controller put out in the tick just done.
+  /// Observes the controller's outputs of the last tick.
   void observe(const State& state, const Outputs& outputs);
 
-  /// Orders come from there, for so long as the walk was to take; not from who started the run.
+  /// Takes orders from another source for the planned length of the walk.
   using Orders = std::function<app::OperatorOrder(std::uint32_t tick)>;
   void obey(Orders orders) { orders_ = std::move(orders); }
 
-  /// Instead of a walk: this action of its library, once.
+  /// Plays this action of the robot's library once, instead of a walk.
   void play(int number) { player_.emplace(number, period_s_); }
 
-  /// From now on: sit down, then let go.
+  /// From now on: sit down, then release torque.
   void sit_down() { sitting_ = true; }
   /// From now on: no torque.
   void let_go() { limp_ = true; }
 
-  /// Torque is off, and was so for as long as it takes to tell every servo.
+  /// Torque has been off long enough for every servo to receive that.
   bool over() const { return quiet_ticks_ >= kQuietTicks; }
   double walked_s() const { return orders_ ? walked_s_ : walker_.walked_s(); }
-  /// How often it came to lie, and got up.
+  /// Number of falls, and of recoveries.
   int falls() const { return story_.falls(); }
   int get_ups() const { return story_.get_ups(); }
-  /// Of the action, so far.
+  /// Time played of the action.
   double played_s() const { return player_ ? player_->played_s() : 0; }
-  /// Why the walk is no good, in words; empty: it is.
+  /// Why the walk failed; empty: it did not.
   const std::string& failure() const { return failure_; }
 
  private:
-  static constexpr int kQuietTicks = 10;  ///< over three times App's repeats of a change of torque
+  static constexpr int kQuietTicks = 10;  ///< over three times App's repeats of a torque change
 
   void fail(const std::string& why);
   void observe_mode(safety::Mode from, const State& state, const Outputs& outputs);

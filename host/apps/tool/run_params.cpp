@@ -10,8 +10,7 @@
 namespace verp::tool {
 namespace {
 
-// Goals that are reached when the next ones come are joined by straight lines: a servo's profile
-// that was as long as the period stays so.
+// Keeps profiles of one period that long: such a servo joins successive goals by straight lines.
 void set_period(Params& params, double period_ms) {
   const std::uint32_t before_us = params.period_us;
   params.period_us = static_cast<std::uint32_t>(std::lround(1000 * period_ms));
@@ -21,7 +20,7 @@ void set_period(Params& params, double period_ms) {
   }
 }
 
-/// What the IMU would feed has no say; stays in the trace, as the Params that were in force.
+/// Removes the IMU and its feedback. The trace records these Params.
 void do_without_imu(Params& params) {
   params.imu.device_id = 0;
   params.tuning.balance.feedback_enable = 0;

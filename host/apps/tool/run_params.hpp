@@ -9,7 +9,7 @@ class App;
 
 namespace verp::tool {
 
-/// What `verp run` changes of a model's Params besides its tuning, and `verp shadow` beside it.
+/// Changes to a model's Params, besides tuning, that `verp run` and `verp shadow` share.
 struct RunParams {
   std::string imu = "bus";
   double period_ms = 0;  ///< 0: the model's

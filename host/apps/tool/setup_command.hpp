@@ -3,7 +3,7 @@
 
 namespace verp::tool {
 
-// Below `verp bus`.
+// Subcommands of `verp bus`.
 cli::Subcommand add_bus_setup(CLI::App& bus);
 cli::Subcommand add_bus_checklist(CLI::App& bus);
 cli::Subcommand add_bus_load(CLI::App& bus);

@@ -13,9 +13,9 @@
 namespace verp::tool {
 namespace {
 
-constexpr std::int32_t kMoved = 60;  // counts, 5 degrees: no tremble, and no joint is that stiff
+constexpr std::int32_t kMoved = 60;  // counts, 5 degrees: above tremor, and every joint yields
 
-/// The right hand's thumb for a positive turn. Robots look ahead along x, y is their left, z up.
+/// Direction of the right thumb for a positive turn. Robots face x; y is their left, z up.
 std::string thumb(const JointParams& joint) {
   constexpr const char* kWords[] = {"ahead", "to its left", "up", "back", "to its right", "down"};
   const auto kind = static_cast<std::size_t>(joint.axis_kind);
@@ -57,7 +57,7 @@ bool SetupGuide::run() {
       const std::string name = params_.joint[j].name;
       const bool wanted = choice_.joint.empty() ? !report_.done(name) : choice_.joint == name;
       if (!wanted) continue;
-      if (!open) line_.at(params_.baud);  // not only when a person has wired the first servo up
+      if (!open) line_.at(params_.baud);  // fails before the user connects a servo
       open = true;
       all = joint(j) && all;
     }
@@ -126,7 +126,7 @@ void SetupGuide::note(const JointParams& joint, const bus::Change& change, cli::
 }
 
 void SetupGuide::skip(const JointParams& joint) {
-  if (report_.done(joint.name)) return;  // it stays so
+  if (report_.done(joint.name)) return;  // stays done
   cli::Json entry = report_.of(joint.name);
   entry["outcome"] = "skipped";
   entry["id"] = joint.servo_id;

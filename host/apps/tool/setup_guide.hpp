@@ -10,33 +10,34 @@ namespace verp::tool {
 
 struct SetupChoice {
   std::string joint;     ///< only this one; empty: all that are not done
-  bool wired = false;    ///< all servos stay on the bus, under the ids they have
-  bool dry_run = false;  ///< nothing is written
+  bool wired = false;    ///< all servos stay on the bus with their ids
+  bool dry_run = false;  ///< write nothing
 };
 
-/// Leads a person through the servos of a robot, one joint at a time: who is there, what it is,
-/// what it is to be; then zero and direction, by hand, torque off.
+/// Guides the user through the servos of a robot, one joint at a time. It finds, identifies and
+/// configures the servo. Then the user moves it by hand, with torque off, to set zero and
+/// direction.
 class SetupGuide {
  public:
   SetupGuide(const Params& params, const link::Endpoint& endpoint, const SetupChoice& choice,
              SetupReport& report, cli::Answers& answers);
 
-  /// False: the person stopped, or joints are left to do.
+  /// False: the user stopped, or joints remain.
   bool run();
 
  private:
-  /// What a person answers when a joint comes up, or something is wrong with it.
+  /// The user's answer when a joint's turn comes, or after an error.
   enum class Answer { kGoOn, kSkip };
-  /// Thrown when the input ends, somebody interrupts, or says q.
+  /// Thrown at the end of input, on interruption, or when the user enters q.
   struct Stop {};
 
   Answer ask(const std::string& question);
-  /// False: something is left to do.
+  /// False: something remains to do.
   bool joint(int index);
-  /// What is known of a joint whose turn it is: what earlier tries changed in its servo.
+  /// Starts the joint's entry with the changes that earlier attempts made to its servo.
   cli::Json begun(const JointParams& joint) const;
   void set_up(const JointParams& joint, cli::Json& entry);
-  /// Keeps what was just written to a servo, before anything else may fail.
+  /// Saves a change just written to a servo, because a later step may fail.
   void note(const JointParams& joint, const bus::Change& change, cli::Json& entry);
   void skip(const JointParams& joint);
   bus::FoundServo meet(const JointParams& joint);

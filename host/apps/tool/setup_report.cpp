@@ -21,7 +21,7 @@ namespace {
                        fmt::format("{}: {}; choose another file with --report", file, why));
 }
 
-/// What line_of() and done() read has its types; returns what has not, or nothing.
+/// Checks the types of the fields that line_of() and done() read. Returns the wrong one, or "".
 std::string wrong_in(const cli::Json& entry) {
   if (!entry.is_object()) return "it";
   for (const char* name : {"outcome", "todo"}) {
@@ -37,14 +37,14 @@ std::string wrong_in(const cli::Json& entry) {
   return all ? "" : "changes";
 }
 
-constexpr std::size_t kMost = 1 << 20;      // no report is that long
-constexpr std::size_t kRoomOfEntry = 2048;  // more than a joint takes
+constexpr std::size_t kMost = 1 << 20;      // longer than any report
+constexpr std::size_t kRoomOfEntry = 2048;  // more than one joint needs
 
 std::string part_of(const std::string& file) {
   return file + ".part";
 }
 
-/// All of it, or nothing: then errno.
+/// Writes all of it or leaves no file; returns errno.
 int write_part(const std::string& file, const std::string& text) {
   const std::string part = part_of(file);
   errno = 0;
@@ -58,7 +58,7 @@ int write_part(const std::string& file, const std::string& text) {
   return error == 0 ? EIO : error;
 }
 
-/// The same of the file itself, which is then the new one or still the old one.
+/// Replaces the file atomically; returns errno.
 int write_file(const std::string& file, const std::string& text) {
   if (const int error = write_part(file, text); error != 0) return error;
   if (std::rename(part_of(file).c_str(), file.c_str()) == 0) return 0;
@@ -71,8 +71,8 @@ int write_file(const std::string& file, const std::string& text) {
   refuse(file, std::string("cannot be written: ") + std::strerror(error));
 }
 
-/// Known before a servo is written to, whose entry would then be lost. `now`: what the file holds,
-/// if it is there; `room`: what may be added to it.
+/// Fails before a servo is changed, because its entry would be lost. `now`: the file's content;
+/// `room`: bytes that may be added.
 void check_place(const std::string& file, const std::string& now, std::size_t room) {
   int error = write_part(file, now + std::string(room, ' '));
   if (error == 0) ::unlink(part_of(file).c_str());

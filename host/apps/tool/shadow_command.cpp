@@ -32,16 +32,16 @@ namespace {
 struct ShadowWords {
   std::string model, bus, link;
   RunParams params;
-  WalkOptions tuning;     ///< no more of it than that
-  double for_s = 0;       ///< 0: until it is told to end
-  double patience_s = 5;  ///< with a controller that says nothing
+  WalkOptions tuning;     ///< only its tuning is used
+  double for_s = 0;       ///< 0: until an interrupt
+  double patience_s = 5;  ///< with a silent controller
   bool json = false;
 };
 
-/// The robot's bus that is named, or else its first that has what the link is on.
+/// The robot on the named bus, or on its first bus of the link's kind.
 model::Entity robot_on(const ShadowWords& words, bool can) {
   const std::string file = model::find_model(words.model);
-  if (!can) return model::load_robot(file, words.bus);  // what is read there has no bus in it
+  if (!can) return model::load_robot(file, words.bus);  // the result does not depend on the bus
   model::Entity entity = model::load_robot_on_can(file, words.bus);
   if (entity.protocol == BusProtocol::kCia402) {
     model::require_bus(entity, model::make_params(entity));
@@ -54,7 +54,7 @@ model::Entity robot_on(const ShadowWords& words, bool can) {
                   entity.file, entity.name, model::protocol_name(entity.protocol), words.link));
 }
 
-/// The bus of the controller's drives, where it tells of its ticks.
+/// On the bus of the controller's drives, where it reports its ticks.
 class CanSide {
  public:
   static constexpr const char* kRemedy =
@@ -75,7 +75,7 @@ class CanSide {
   bool connected() const { return port_.connected(); }
 
  private:
-  static constexpr std::uint32_t kIdle_us = 20'000;  ///< how long Ctrl-C may have to wait
+  static constexpr std::uint32_t kIdle_us = 20'000;  ///< longest delay of Ctrl-C
   link::CanPort port_;
   link::CanClaim claim_;
 
@@ -83,7 +83,7 @@ class CanSide {
   shadow::LiveCheck check;
 };
 
-/// The port of its operator, where its ticks are fetched.
+/// On the controller's operator port, from which ticks are fetched.
 class SerialSide {
  public:
   static constexpr const char* kRemedy =
@@ -104,7 +104,7 @@ class SerialSide {
   shadow::PolledCheck check;
 };
 
-/// One controller, until the end.
+/// Shadows one controller until the end.
 template <class Side>
 class ShadowRun {
  public:
@@ -177,7 +177,7 @@ class ShadowRun {
     cli::Json json = {{"model", params_.name},
                       {"link", words_.link},
                       {"compared_ticks", check_.compared()},
-                      {"tick", nullptr},  // of nothing compared; below, of the last
+                      {"tick", nullptr},  // last compared tick; null: none
                       {"digest", nullptr},
                       {"gaps", check_.gaps()},
                       {"controller_resets", check_.boots()},
@@ -224,7 +224,7 @@ class ShadowRun {
   bool connected_ = true;
 };
 
-/// Those of the model, and of what `verp run` was told besides.
+/// Params of the model, with the changes given to `verp run`.
 Params params_of(const ShadowWords& words, const model::Entity& entity) {
   Params params = model::make_params(entity);
   apply_tuning(words.tuning, params.tuning);

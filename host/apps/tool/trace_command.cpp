@@ -66,8 +66,7 @@ int recover(const TraceWords& words) {
   record::TraceWriter writer(
       words.output, trace.params, run,
       {.actions = trace.actions, .compress = words.compress, .before = trace.before});
-  // States are kept again where they stand; a damaged trace's fault bits are not known, so only
-  // those.
+  // Keeps states only at their old places, because a damaged trace's fault bits are unknown.
   std::size_t next = 0, change = 0;
   const auto write = [&] {
     for (std::size_t i = 0; i < trace.ticks.size(); ++i) {
@@ -84,7 +83,7 @@ int recover(const TraceWords& words) {
   };
   try {
     write();
-  } catch (const record::TraceError&) {  // all of it still stands where it was taken from
+  } catch (const record::TraceError&) {  // the original is intact
     writer.discard();
     throw;
   }

@@ -9,7 +9,7 @@
 
 namespace verp::tool {
 
-/// What is typed after `verp trace`: each of its commands uses some of it.
+/// Options of all subcommands of `verp trace`.
 struct TraceWords {
   std::string file, output;
   bool json = false, recover = false;
@@ -20,14 +20,14 @@ struct TraceWords {
   std::vector<std::string> files;  ///< merge
   std::optional<double> from_s, to_s;
   LiveOptions live;  ///< play
-  double rate = 1;   ///< play: times as fast as it was
+  double rate = 1;   ///< play: times real time
 };
 
-/// The trace; complains of what is missing in it, if that is wanted to be read.
+/// Loads the trace and prints its warnings; `recover` accepts a damaged trace.
 record::Trace load_trace(const TraceWords& words);
-/// Throws ToolError: -o names the trace itself.
+/// Throws ToolError if -o names the trace itself.
 void refuse_same_file(const TraceWords& words);
-/// Says from which tick on it is not known what the controller made of a trace; nothing: of all.
+/// Warns that goals and phases are unknown from `tick` on; empty: no warning.
 void tell_of_other_decisions(const record::Trace& trace, const std::optional<std::uint32_t>& tick);
 
 record::mcap::Compression compression_of(const TraceWords& words);

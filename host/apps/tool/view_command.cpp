@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The words that this process was started with, from the second on.
+/// This process's arguments, from the second on.
 std::vector<std::string> own_words() {
   const std::string all = files::read("/proc/self/cmdline").value_or("");
   std::vector<std::string> words;
@@ -27,7 +27,7 @@ std::vector<std::string> own_words() {
   return words;
 }
 
-/// Qt and OpenGL are of the window's program alone: this one starts without them.
+/// Only the window's program uses Qt and OpenGL, so this one starts without them.
 int become_window() {
   std::error_code error;
   const fs::path self = fs::read_symlink("/proc/self/exe", error);
@@ -55,7 +55,7 @@ CLI::App* declare_view(CLI::App& root, ViewOptions& words) {
   options.command = "verp view";
   options.walk_s = 20;
   declare(*app, options);
-  // What is of a run that nobody watches.
+  // Removes the options of unattended runs.
   for (const char* name :
        {"--report", "--record-state", "--compress", "--json", "--sweep-step", "--seeds", "--on",
         "--list-quantities", "--cameras", "--real-time", "--patience", "--if-lost-go-on"}) {

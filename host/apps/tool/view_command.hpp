@@ -6,13 +6,14 @@
 
 namespace verp::tool {
 
-/// The command line of `verp view`.
+/// Options of `verp view`.
 struct ViewOptions {
   WalkOptions walk;
   std::string link, gamepad = "/dev/input/js0";
 };
 
-/// `verp view` as both programs take it: this one, which hands it to the window's, and that.
+/// Declares `verp view` for both programs: this one, which starts the window's program, and that
+/// one.
 CLI::App* declare_view(CLI::App& root, ViewOptions& options);
 
 }  // namespace verp::tool
