@@ -4,10 +4,10 @@
 
 namespace verp::model {
 
-/// The joints that swing left_arm and right_arm fore and aft (the first of each with an axis along
-/// y that has a servo), and by how much they have to, in the stand pose, to turn about the vertical
-/// against the legs: Params::arm and arm_rad_per_m. Robots without two arms or two legs have none.
-/// `params` has its joints and legs already.
+/// Sets Params::arm and arm_rad_per_m. The joints are the first in left_arm and right_arm with an
+/// axis along y and a servo. The factors make the arms, in the stand pose, cancel the legs' angular
+/// momentum about the vertical. Robots without two arms and two legs have none. `params` must
+/// already contain joints and legs.
 void find_arms(const Entity& entity, Params& params);
 
 }  // namespace verp::model

@@ -8,9 +8,9 @@
 
 namespace verp::model {
 
-/// Turns a model that libsdformat has read, and the facts beside it, into an Entity: lumps fixed
-/// joints, brings all frames to the body's axes at the zero pose, joins servos to joints, finds the
-/// limbs. `names`: what its import changed. Throws LoadError.
+/// Makes an Entity from a model read by libsdformat and its facts. Lumps fixed joints, transforms
+/// all frames to the body's axes at the zero pose, assigns servos to joints and finds the limbs.
+/// `names`: the import's renamings. Throws LoadError.
 Entity assemble(const XmlSource& source, const Facts& facts, const sdf::Model& model,
                 const UrdfNames& names);
 

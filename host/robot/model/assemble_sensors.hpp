@@ -8,8 +8,8 @@
 
 namespace verp::model {
 
-/// All sensors of a robot whose nodes stand: what SDF declares on links and in joints, and what
-/// <verp:imu>, <verp:feet>, <verp:truth> and <verp:latency> say of it. Throws LoadError.
+/// Adds all sensors of a robot whose nodes exist: SDF's on links and in joints, and the facts of
+/// <verp:imu>, <verp:feet>, <verp:truth> and <verp:latency>. Throws LoadError.
 void assemble_sensors(const XmlSource& source, const Facts& facts, const sdf::Model& model,
                       const LinkTree& tree, Entity& entity);
 

@@ -1,18 +1,18 @@
 #pragma once
 #include <string>
 
-/// How large or small a robot's numbers may be. What lies outside is a slip of the pen or units:
-/// the controller computes in float32, whose 24 bits hold 1 um in 10 m, and in sums of mass times
-/// length squared a heavier or longer part would drown the digits of all others. The servos we know
-/// move far less.
+/// Bounds of a robot's numbers; values outside are typing or unit errors. The controller uses
+/// float32, whose 24 bits resolve 1 um in 10 m. In sums of mass times length squared, heavier or
+/// longer parts would drown the digits of all others. The servos we know move far less.
 namespace verp::model {
 
 constexpr double kMostMass_kg = 1000;
 constexpr double kLeastMass_kg = 1e-6;
 constexpr double kMostLength_m = 10;
 constexpr double kLeastLength_m = 1e-4;
-constexpr double kMostAngle = 1000;  ///< degrees are allowed in some places, whole turns too
-/// No body of that mass or more has a smaller one: a ball of tungsten of 1 mg has 0.15 mm.
+constexpr double kMostAngle = 1000;  ///< some places allow degrees, and whole turns
+/// Least radius of gyration for a body of kLeastMass_kg or more: a 1 mg ball of tungsten has 0.15
+/// mm.
 constexpr double kLeastGyration_m = 1e-4;
 constexpr double kLeastSpeed_rad_s = 0.01;  ///< a joint that is meant to move
 constexpr double kMostFriction = 100;

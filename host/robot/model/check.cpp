@@ -24,7 +24,7 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-/// Box around all collision shapes' corners and joint centres at the zero pose.
+/// Bounding box of all collision shapes and joint centres at the zero pose.
 Vec3 measures(const Entity& entity) {
   const auto origins = node_origins(entity);
   Eigen::AlignedBox3d box;
@@ -46,7 +46,7 @@ Vec3 measures(const Entity& entity) {
   return box.sizes();
 }
 
-/// Where the robot's weight acts, from the body frame, at the zero pose.
+/// Centre of mass in the body frame at the zero pose.
 Vec3 center_of_mass(const Entity& entity) {
   const auto origins = node_origins(entity);
   Vec3 sum = Vec3::Zero();
@@ -82,7 +82,7 @@ std::string leg_text(const Limb& limb, const LegGeometry& g) {
       1000 * (limb.sole_max_m.y() - limb.sole_min_m.y()), -1000 * limb.tip.translation().z());
 }
 
-/// What gearbox friction takes of the motor's torque when it stalls against nothing but itself.
+/// Gearbox friction torque when the motor stalls against the gearbox alone.
 double stall_friction_n_m(const Servo& servo) {
   const Gearbox& g = servo.gearbox;
   return g.f_base_n_m + g.f_strib_n_m + servo.stall_torque_n_m * (g.l_base + g.l_strib);
@@ -113,7 +113,7 @@ std::string joint_rows(const Entity& entity) {
   return text;
 }
 
-/// One line per servo type: what is known of its rotor and gears, and from where.
+/// One line per servo type: facts about rotor and gears, and their source.
 std::string servo_type_rows(const Entity& entity) {
   std::map<std::string, const Servo*> used;
   for (const Joint& joint : entity.joints) used.insert({joint.servo.type, &joint.servo});
@@ -136,7 +136,7 @@ std::string servo_type_rows(const Entity& entity) {
   return text;
 }
 
-/// Of one that is sampled.
+/// Latency of a sampled sensor.
 std::optional<double> latency_of(const Entity& entity, const std::string& name) {
   std::optional<double> latency_s;
   const auto look = [&](const auto& sensors) {

@@ -10,11 +10,10 @@
 
 #include "common/model/params.hpp"
 
-/// The robot as the PC knows it, after loading and checking an SDF file (load.hpp). Double
-/// precision, SI units. Frames as in common/model/params.hpp: body frame at the trunk's centre;
-/// every link frame is parallel to the body frame at the zero pose with its origin on the joint
-/// that moves it (node 0: the body frame itself). Fixed joints of the file are already lumped into
-/// the link that carries them.
+/// The robot on the PC, loaded and checked from an SDF file (load.hpp). Double precision, SI units.
+/// Frames as in common/model/params.hpp; the body frame is at the trunk's centre. Every link frame
+/// is parallel to the body frame at the zero pose. Its origin is on the joint that moves it (node
+/// 0: the body frame itself). The file's fixed joints are already lumped into their links.
 namespace verp::model {
 
 using Vec3 = Eigen::Vector3d;
@@ -31,15 +30,15 @@ struct Collision {
   double damping_n_s_m = 500;  ///< <ode><kd>
 };
 
-/// What a link looks like. Physics never sees it.
+/// Appearance of a link; not used by physics.
 struct Visual {
   enum class Shape { kBox, kSphere, kCapsule, kCylinder, kMesh } shape = Shape::kBox;
   Transform pose = Transform::Identity();  ///< in the link frame
   Vec3 size_m = Vec3::Zero();              ///< as Collision's; mesh: scale of each axis
   std::string name;
-  std::string mesh;      ///< file; empty: of what the robot's file names, nothing is there
-  std::string mesh_uri;  ///< as the robot's file names it
-  std::optional<std::array<float, 4>> rgba;  ///< sRGB; none: the file says nothing of it
+  std::string mesh;                          ///< file; empty: a file named by the robot is missing
+  std::string mesh_uri;                      ///< as named in the robot's file
+  std::optional<std::array<float, 4>> rgba;  ///< sRGB; none: not given
   std::optional<std::array<float, 3>> emissive_rgb;
   std::string texture;  ///< file of its albedo map; empty: none
 };
@@ -53,20 +52,21 @@ struct Node {
   std::vector<Visual> visuals;
 };
 
-/// What is between a motor and its joint, seen from the joint: the model of Duclusaud and Passault,
+/// Gearbox between a motor and its joint, seen from the joint: the model of Duclusaud and Passault,
 /// arXiv 2410.08650 (M4). The friction that may oppose motion is a budget,
 ///   f_base + s * f_strib + load * (l_base + s * l_strib) + f_visc * |speed|,
 ///   s = exp(-|speed / w_s|^alpha),
-/// where load is the torque through the gears; the joint stands while the budget covers the rest.
+/// where load is the torque through the gears. The joint stands while the budget covers the
+/// remaining torque.
 struct Gearbox {
-  double armature_kg_m2 = 0;  ///< the rotor's inertia times the gear ratio squared
+  double armature_kg_m2 = 0;  ///< rotor inertia times the gear ratio squared
   double f_base_n_m = 0, f_strib_n_m = 0;
-  double l_base = 0, l_strib = 0;  ///< parts of the load
+  double l_base = 0, l_strib = 0;  ///< shares of the load
   double w_s_rad_s = 1, alpha = 1;
   double f_visc_n_m_s = 0;
 };
 
-/// A servo as its datasheet gives it, and where it sits.
+/// A servo's datasheet values and its place on the bus.
 struct Servo {
   std::string type;   ///< row of the servo table (servo_types.hpp), e.g. "xm430_w210"
   int id = 0;         ///< bus address
@@ -76,24 +76,24 @@ struct Servo {
   double stall_torque_n_m = 0;
   double no_load_speed_rad_s = 0;
   double stall_current_a = 0;
-  double nominal_v = 12;  ///< supply at which torque, speed and current above are
+  double nominal_v = 12;  ///< supply voltage of the values above
   double counts_per_rev = 4096;
   double encoder_noise_deg = 0.03;  ///< rms
-  double loop_s = 0.001;            ///< period of its firmware's position loop
-  double loop_delay_s = 0;          ///< age of the angle that the loop acts on
-  double goal_delay_s = 0;          ///< from a goal's arrival until it acts on it
+  double loop_s = 0.001;            ///< period of the firmware's position loop
+  double loop_delay_s = 0;          ///< age of the angle that the loop uses
+  double goal_delay_s = 0;          ///< from a goal's arrival until the servo acts on it
   Gearbox gearbox;
-  /// The real numbers lie within these parts of the ones above: 0.5 is half to one and a half
+  /// The real values lie within these shares of the ones above: 0.5 means half to one and a half
   /// times. 0: identified on a bench.
   double armature_band = 0, friction_band = 0;
-  std::string source;              ///< where armature and friction are from: one line for people
-  std::uint16_t model_number = 0;  ///< Params' ServoProfile says what it is on which bus
+  std::string source;              ///< source of armature and friction: one line for people
+  std::uint16_t model_number = 0;  ///< Params' ServoProfile says what it means on which bus
   bool fast_sync_read = false;
   std::uint16_t p_gain = 0, i_gain = 0, d_gain = 0;  ///< written at arming
   std::uint16_t profile_ms = 0;
 };
 
-/// joint[j] moves node[j + 1]. Those that follow another's servo stand last, as in Params.
+/// joint[j] moves node[j + 1]. Followers of another joint's servo are last, as in Params.
 struct Joint {
   std::string name;
   int parent = 0;                ///< node index
@@ -103,10 +103,10 @@ struct Joint {
   double velocity_limit_rad_s = 0;
   double friction_n_m = 0, damping_n_m_s = 0;
   double stand_rad = 0, sit_rad = 0;
-  /// That of its driver, if it follows one.
+  /// For a follower: its driver's servo.
   Servo servo;
-  int follows = -1;  ///< its driver, the joint whose servo moves it; -1: its own does
-  double ratio = 1, offset_rad = 0;  ///< its angle is ratio times its driver's, plus offset
+  int follows = -1;  ///< index of the driver, whose servo moves this joint; -1: own servo
+  double ratio = 1, offset_rad = 0;  ///< angle is ratio times the driver's, plus offset
 };
 
 struct Limb {
@@ -125,7 +125,7 @@ struct ImuSensor {
   double gyro_rad_s_per_count = 0, accel_m_s2_per_count = 0;
   double gyro_noise_rad_s_rthz = 0, accel_noise_m_s2_rthz = 0;  ///< densities, per sqrt(Hz)
   double gyro_bias_rad_s = 0, accel_bias_m_s2 = 0;              ///< 1-sigma of the constant bias
-  double latency_s = 0;                                         ///< age of what it tells
+  double latency_s = 0;                                         ///< age of its readings
 };
 
 struct FootSensor {
@@ -133,7 +133,7 @@ struct FootSensor {
   double newton_per_count = 0;
 };
 
-/// A laser range finder that turns about its z axis; one sample: a single ray along x.
+/// A laser range finder that scans about its z axis; one sample: a single ray along x.
 struct LaserSensor {
   std::string name;
   int node = 0;
@@ -142,18 +142,18 @@ struct LaserSensor {
   int samples = 1;
   double first_rad = 0, last_rad = 0;
   double min_m = 0, max_m = 1, resolution_m = 0;
-  double noise_mean_m = 0, noise_stddev_m = 0;  ///< of each ray
-  double latency_s = 0;  ///< from the moment that it measures until somebody can have it
+  double noise_mean_m = 0, noise_stddev_m = 0;  ///< per ray
+  double latency_s = 0;                         ///< from the measurement until it is available
 
   double step_rad() const { return samples > 1 ? (last_rad - first_rad) / (samples - 1) : 0; }
   double angle_rad(int sample) const { return first_rad + sample * step_rad(); }
 };
 
-/// A camera: looks along x, z is up in its picture. What it sees in direction (x, y, 1) of its
-/// lens' axes (x right, y down) is at pixel (fx x' + cx, fy y' + cy), whole numbers at pixels'
-/// centres, where (x', y') is (x, y) through the distortion.
+/// A camera looks along x; z is up in its picture. Direction (x, y, 1) in the lens axes (x right, y
+/// down) maps to pixel (fx x' + cx, fy y' + cy). Pixel centres have whole numbers; (x', y') is (x,
+/// y) after distortion.
 struct CameraSensor {
-  enum class Kind { kColour, kDepth, kColourAndDepth, kLabels };  ///< labels: of links and things
+  enum class Kind { kColour, kDepth, kColourAndDepth, kLabels };  ///< labels: of links and objects
   std::string name;
   Kind kind = Kind::kColour;
   int node = 0;
@@ -164,56 +164,56 @@ struct CameraSensor {
   double fx_px = 0, fy_px = 0, cx_px = 0, cy_px = 0;
   /// k1, k2, p1, p2, k3 of Brown and Conrady, in the order of OpenCV and ROS ("plumb_bob").
   std::array<double, 5> distortion{};
-  double noise_mean = 0, noise_stddev = 0;  ///< of each pixel: parts of white; of depth: m
-  double latency_s = 0;  ///< from the moment that it looks until somebody can have the picture
+  double noise_mean = 0, noise_stddev = 0;  ///< per pixel: share of white; depth: m
+  double latency_s = 0;                     ///< from the exposure until the picture is available
 
   bool has_colour() const { return kind == Kind::kColour || kind == Kind::kColourAndDepth; }
   bool has_depth() const { return kind == Kind::kDepth || kind == Kind::kColourAndDepth; }
   double horizontal_fov_rad() const { return 2 * std::atan(width_px / (2 * fx_px)); }
 };
 
-/// Force and torque between a link and what carries it, at the sensor's point and in its axes.
+/// Force and torque between a link and its parent, at the sensor's origin and in its axes.
 struct ForceTorqueSensor {
   std::string name, topic;
-  int node = 0;                            ///< its joint is that which moves this node
+  int node = 0;                            ///< the sensor is on the joint that moves this node
   Transform pose = Transform::Identity();  ///< in that link's frame
   double rate_hz = 100, latency_s = 0;
-  bool on_child = false;  ///< what the link is given; else what it gives
-  Vec3 force_mean_n = Vec3::Zero(), force_stddev_n = Vec3::Zero();  ///< noise of each axis
+  bool on_child = false;  ///< the load on the link; otherwise the load that it exerts
+  Vec3 force_mean_n = Vec3::Zero(), force_stddev_n = Vec3::Zero();  ///< noise per axis
   Vec3 torque_mean_n_m = Vec3::Zero(), torque_stddev_n_m = Vec3::Zero();
 };
 
-/// What touches a link, where, and how hard.
+/// Contacts of a link: partner, point and force.
 struct ContactSensor {
   std::string name, topic;
   int node = 0;
   double rate_hz = 100, latency_s = 0;
 };
 
-/// Where a point of a link really is and how it moves: no robot has such a sensor.
+/// True pose and motion of a point on a link; no real robot has this sensor.
 struct TruthSensor {
   std::string name;
   int node = 0;
   Transform pose = Transform::Identity();  ///< in the link frame
   double rate_hz = 100, latency_s = 0;
-  /// Noise of each axis, standard deviations; 0: the truth.
+  /// Noise per axis, standard deviation; 0: the truth.
   double position_noise_m = 0, angle_noise_rad = 0, velocity_noise_m_s = 0, rate_noise_rad_s = 0;
 };
 
-/// Any sensor of the file: described and checked.
+/// Any other sensor of the file: described and checked.
 struct OtherSensor {
   std::string name, type, link;
   int node = 0;
   Transform pose = Transform::Identity();  ///< in the link frame
 };
 
-/// Two links that never collide, though they are no neighbours.
+/// Two links that never collide, though they are not neighbours.
 struct NoCollide {
   int link = 0, other = 0;  ///< nodes, link < other
   std::string reason;       ///< one line for people
 };
 
-/// What a robot may use of its servos' strength while it stands up, if its file does not say.
+/// Default share of the servos' torque for standing up, in percent.
 inline constexpr std::uint8_t kRiseTorquePercent = 60;
 
 struct Entity {
@@ -229,22 +229,22 @@ struct Entity {
   std::vector<LaserSensor> lasers;               ///< also among the sensors
   std::vector<CameraSensor> cameras;             ///< likewise
   std::vector<ForceTorqueSensor> force_torques;  ///< likewise
-  std::vector<ContactSensor> contacts;           ///< likewise: those that are recorded
+  std::vector<ContactSensor> contacts;           ///< likewise: recorded ones
   std::vector<TruthSensor> truths;
-  std::string bus;                 ///< name of the one of its buses that is used
-  std::string bus_file;            ///< where its <verp:bus> stands
-  int bus_line = 1;                ///< there
-  std::vector<std::string> buses;  ///< names of all it has, in the order of the file
+  std::string bus;                 ///< name of the bus in use
+  std::string bus_file;            ///< file of its <verp:bus>
+  int bus_line = 1;                ///< line in that file
+  std::vector<std::string> buses;  ///< names of all buses, in file order
   BusProtocol protocol = BusProtocol::kDynamixel2;
   std::uint32_t baud = 2000000;
   std::uint32_t period_us = 10000;
   std::uint8_t rise_torque_percent = kRiseTorquePercent;
   std::vector<std::pair<std::string, double>>
       tuning;  ///< overrides of Tuning's defaults: "gait.lift_m" -> value
-  /// What the file leaves open and is taken from legs, soles, mass and servos: a line each.
+  /// Values derived from legs, soles, mass and servos because the file omits them: one line each.
   std::vector<std::string> defaults;
   std::vector<std::string>
-      notes;  ///< what the file declares about third-party data: one line each, for people
+      notes;  ///< the file's declarations about third-party data: one line each, for people
 };
 
 inline double total_mass(const Entity& entity) {
@@ -253,7 +253,7 @@ inline double total_mass(const Entity& entity) {
   return sum;
 }
 
-/// All joints, each behind the one that carries it.
+/// All joints, parents first.
 inline std::vector<std::size_t> outward(const Entity& entity) {
   std::vector<std::size_t> order;
   std::vector<bool> placed(entity.nodes.size(), false);
@@ -269,7 +269,7 @@ inline std::vector<std::size_t> outward(const Entity& entity) {
   return order;
 }
 
-/// As a file has it: protocol="...".
+/// Value of protocol="..." in a file.
 const char* protocol_name(BusProtocol protocol);
 
 }  // namespace verp::model

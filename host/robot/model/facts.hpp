@@ -6,9 +6,9 @@
 #include "host/robot/model/entity.hpp"
 #include "host/robot/model/xml_source.hpp"
 
-/// The verp: elements of a robot's <model>, read and range-checked one by one, each with its XML
-/// element for error messages. Names are not resolved here (load.cpp does): robot-file.md of the
-/// guide lists every element and attribute.
+/// The verp: elements of a robot's <model>, read and range-checked, each with its XML element for
+/// error messages. load.cpp resolves the names. robot-file.md of the guide lists every element and
+/// attribute.
 namespace verp::model {
 
 struct BodyFact {
@@ -25,15 +25,15 @@ struct ServoFact {
   std::string joint;
   Servo servo;
   std::optional<double> lower_rad, upper_rad;
-  bool gives_p_gain = true;  ///< else the servo has its type's, until the robot is known
-  bool gives_d_gain = true;  ///< else none, until then
+  bool gives_p_gain = true;  ///< otherwise the type's, until the robot is known
+  bool gives_d_gain = true;  ///< otherwise none, until then
 };
 struct ImuFact {
   XmlElement at;
   std::string sensor, link;
   ImuSensor imu;
 };
-/// How late an SDF sensor is.
+/// Latency of an SDF sensor.
 struct LatencyFact {
   XmlElement at;
   std::string sensor;
@@ -42,7 +42,7 @@ struct LatencyFact {
 struct TruthFact {
   XmlElement at;
   std::string link;
-  TruthSensor truth;  ///< its pose is in that link's frame
+  TruthSensor truth;  ///< pose in that link's frame
 };
 struct FeetFact {
   XmlElement at;
@@ -69,22 +69,22 @@ struct BoxFact {
   std::string frame;
   Collision box;
 };
-/// Declared differences between the file and what is used of it.
+/// A part of the file that is declared as ignored.
 struct DropFact {
   XmlElement at;
   std::string what;  ///< mesh_collision, collision, massless_link, mimic
   std::string name;  ///< link or joint; "*": all
 };
 
-/// A joint that doesn't turn, though the file says that it could.
+/// A moving joint of the file that is declared as fixed.
 struct FixFact {
   XmlElement at;
-  std::string joint;  ///< ends in *: all that begin like this
+  std::string joint;  ///< a final * matches any ending
   double rad = 0;
   bool fixes(const std::string& name) const;
 };
 
-/// A joint that another's motor turns.
+/// A joint turned by another joint's motor.
 struct MimicFact {
   XmlElement at;
   std::string joint, driver;
@@ -96,7 +96,7 @@ struct NoCollideFact {
   std::string link, other;
 };
 
-/// One way to reach all servos; sensors of the robot have the same ids on each.
+/// One way to reach all servos; the robot's sensors have the same ids on each bus.
 struct BusFact {
   XmlElement at;
   std::string name;
@@ -111,7 +111,7 @@ struct Facts {
   std::optional<BodyFact> body;
   std::vector<LimbFact> limbs;
   std::vector<BusFact> buses;  ///< at least one
-  std::size_t used = 0;        ///< of them
+  std::size_t used = 0;        ///< index of the bus in use
   std::optional<ImuFact> imu;
   std::optional<FeetFact> feet;
   std::vector<LatencyFact> latencies;
@@ -122,7 +122,7 @@ struct Facts {
   std::vector<BoxFact> boxes;
   std::vector<DropFact> drops;
   std::vector<FixFact> fixes;
-  std::vector<MimicFact> mimics;  ///< also those of the URDF, once they are read
+  std::vector<MimicFact> mimics;  ///< includes the URDF's once they are read
   std::vector<NoCollideFact> no_collides;
 
   const BusFact& bus() const { return buses[used]; }
@@ -131,8 +131,8 @@ struct Facts {
   const MimicFact* mimic_of(const std::string& joint) const;  ///< nullptr: it has a servo
 };
 
-/// Throws LoadError for an unknown element or attribute, a missing one, a bad number, an id used
-/// twice. `bus` names the bus to be used, empty: the first; all are checked.
+/// Throws LoadError for an unknown or missing element or attribute, a bad number, or a duplicate
+/// id. `bus` names the bus to use; empty: the first. All buses are checked.
 Facts read_facts(const XmlElement& model, const std::string& bus);
 
 }  // namespace verp::model

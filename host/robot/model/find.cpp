@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folders of a variable such as PATH.
+/// Folders of a variable such as PATH.
 std::vector<std::string> folders_in(const char* variable) {
   std::vector<std::string> folders;
   std::string rest = variable == nullptr ? "" : variable;
@@ -28,7 +28,7 @@ std::vector<std::string> folders_in(const char* variable) {
   return folders;
 }
 
-/// A robot of the project is not replaced by what happens to stand in the working folder.
+/// A file in the working folder must not replace the project's robot, so "." is last.
 std::vector<fs::path> robot_folders() {
   std::vector<fs::path> folders;
   for (const std::string& each : folders_in(std::getenv("VERP_ROBOT_PATH")))

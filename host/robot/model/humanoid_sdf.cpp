@@ -13,7 +13,7 @@ struct Point {
   double x, y, z;
 };
 
-/// A link is one box of even density; com is the box's mass centre, usually its middle.
+/// A link is one box of uniform density; com is its centre of mass, usually its middle.
 struct Part {
   std::string name;
   double mass_kg;
@@ -238,7 +238,7 @@ class HumanoidWriter {
           {p + "hip_yaw_link", mass("hip_yaw"), {0.03, 0.03, 0.03}, {0, 0, 0}, {0, 0, 0}});
     hinge({p + "hip_roll", p + "hip_yaw_link", {0, 0, 0}, "1 0 0", inward, outward, 9 + id, 1},
           {p + "hip_cross", mass("hip_roll"), cross, {-0.01, 0, 0}, {-0.01, 0, 0}});
-    // A link's box leaves 23 mm free for the joints at its ends; the knee servo sits in the lower
+    // A link's box leaves 23 mm free for the joints at its ends; the knee servo is in the lower
     // thigh.
     const Point thigh_com{0, 0, -thigh_ * 0.54};
     hinge({p + "hip_pitch", p + "hip_cross", {0, 0, 0}, "0 1 0", -1.9, 0.7, 11 + id, side},
@@ -302,7 +302,7 @@ class HumanoidWriter {
 
   void poses() {
     const double height = number("hip_height_per_leg") * (thigh_ + shank_);
-    // Standing bends the knee until the hip is at its walking height, above the ankle (law of
+    // The stand pose bends the knee until the hip is at its walking height above the ankle (law of
     // cosines).
     const double knee =
         std::acos((height * height - thigh_ * thigh_ - shank_ * shank_) / (2 * thigh_ * shank_));

@@ -135,7 +135,7 @@ void gather_leg_frames(Entity& entity) {
       const Vec3 axis = entity.joints[static_cast<std::size_t>(node - 1)].axis;
       shift_frame(entity, node, axis * axis.dot((k < 3 ? g.hip_m : g.ankle_m) - origin));
     }
-    // The knee goes where thigh and shank lie in the leg's own plane.
+    // The knee moves to where thigh and shank lie in the leg's plane.
     const int knee = leg->joints[3] + 1;
     const Vec3 origin = node_origins(entity)[static_cast<std::size_t>(knee)];
     shift_frame(entity, knee, Vec3(0, g.hip_m.y() - origin.y(), 0));

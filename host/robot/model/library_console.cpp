@@ -8,13 +8,13 @@
 namespace verp::model {
 namespace {
 
-/// libsdformat makes ~/.sdformat/sdformat.log the first time it is used, and complains where it
-/// cannot. Without HOME it does not try: nobody asked for that file.
+/// On first use libsdformat creates ~/.sdformat/sdformat.log, and complains if it cannot. Without
+/// HOME it does not try.
 void start_without_a_log() {
   std::optional<std::string> home;
   if (const char* value = std::getenv("HOME")) home = value;
   ::unsetenv("HOME");
-  sdf::Console::Instance()->SetQuiet(true);  // its messages come back as errors, or name no line
+  sdf::Console::Instance()->SetQuiet(true);  // its messages return as errors, or name no line
   if (home) ::setenv("HOME", home->c_str(), 1);
 }
 

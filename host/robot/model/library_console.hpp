@@ -5,7 +5,7 @@
 
 namespace verp::model {
 
-/// While it lives, what libraries print to std::cerr goes nowhere: users get one line, ours.
+/// Discards what libraries print to std::cerr while it lives, so that users get only our one line.
 class LibraryConsole {
  public:
   LibraryConsole();

@@ -19,11 +19,11 @@ class PictureFiles;
 [[noreturn]] void fail_at(const XmlSource& source, const std::string& about,
                           const std::string& message, const std::string& fix);
 
-/// Makes nodes and joints of a model's links: lumps what is fixed together, brings all frames to
-/// the body's axes at the zero pose, attaches collision shapes, checks masses. Throws LoadError.
+/// Makes nodes and joints from a model's links: lumps fixed links, transforms all frames to the
+/// body's axes at the zero pose, attaches collision shapes and checks masses. Throws LoadError.
 class LinkTree {
  public:
-  /// All must outlive the tree.
+  /// All arguments must outlive the tree.
   LinkTree(const XmlSource& source, const Facts& facts, const sdf::Model& model,
            const UrdfNames& names, Entity& entity)
       : source_(source), facts_(facts), model_(model), names_(names), e_(entity) {}
@@ -35,11 +35,11 @@ class LinkTree {
     int node;
     Transform pose;  ///< in the node's frame
   };
-  /// A link or frame by name; fails at `at` if there is none.
+  /// A link or frame by name; fails at `at` if it does not exist.
   Located locate(const std::string& name, const XmlElement& at) const;
 
  private:
-  /// A link before it is lumped: everything in the body frame at the zero pose.
+  /// A link before lumping, in the body frame at the zero pose.
   struct RawLink {
     const sdf::Link* sdf = nullptr;
     Transform pose = Transform::Identity();

@@ -29,10 +29,10 @@
 namespace verp::model {
 namespace {
 
-using Text = std::optional<std::string>;  // none: what is in the file
+using Text = std::optional<std::string>;  // none: the file's content
 
-/// Until it ends, this thread's working directory is one that has no file of any robot's name.
-/// Where a container's rules allow no thread a directory of its own, it is every thread's.
+/// While it lives, this thread's working directory has no file with a robot's name. If a container
+/// forbids a directory per thread, this applies to all threads.
 class NoFilesHere {
  public:
   NoFilesHere() {
@@ -55,8 +55,8 @@ class NoFilesHere {
   int before_ = -1;
 };
 
-/// libsdformat takes a relative <uri> for a file of the working directory before it asks us: of two
-/// people, one would stand in the robot's folder and get another robot.
+/// libsdformat looks for a relative <uri> in the working directory before it asks us. A user in the
+/// robot's folder would then get another robot than other users.
 void where_no_file_is(const std::function<void()>& work) {
   std::exception_ptr failure;
   std::thread([&] {
@@ -86,7 +86,7 @@ sdf::Errors read(const XmlSource& source, const Text& text, const PreparedUrdfs&
   config.SetWarningsPolicy(sdf::EnforcementPolicy::ERR);
   sdf::Errors errors;
   where_no_file_is([&] { errors = text ? root.LoadSdfString(*text) : root.Load(whole); });
-  // The copies are about to vanish.
+  // The copies are deleted soon.
   config.SetFindCallback([path](const std::string& uri) { return resolve_model_uri(uri, path); });
   return errors;
 }
@@ -140,7 +140,7 @@ void cross_check(const XmlSource& source, const Facts& facts, const sdf::Model& 
   for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
     mass_kg += model.LinkByIndex(i)->Inertial().MassMatrix().Mass();
   }
-  // The wrapper may add links and joints of its own, never fewer.
+  // The wrapper may add links and joints, but not remove any.
   if (moving_joints < expected.moving_joints || mass_kg < expected.mass_kg * (1 - 1e-6)) {
     source.urdfs().front().fail(
         "libsdformat's import lost joints or mass: " + std::to_string(moving_joints) + " of " +
@@ -160,7 +160,7 @@ Entity load_robot(const std::string& path, const std::string& bus) {
 
 namespace {
 
-/// Without these nobody walks, and nothing would say why.
+/// Without these the robot cannot walk, and no message would explain why.
 void require_legs_and_imu(const XmlElement& model, const Facts& facts) {
   for (const std::string leg : {"left_leg", "right_leg"}) {
     const bool has = std::any_of(facts.limbs.begin(), facts.limbs.end(),

@@ -19,7 +19,7 @@ Color to_color(const ignition::math::Color& c) {
           static_cast<double>(c.A())};
 }
 
-/// One world: from libsdformat's, and from the XML what that has no classes for.
+/// Loads one world from libsdformat's classes, and from the XML where it has none.
 class WorldLoader {
  public:
   explicit WorldLoader(const std::string& path) : xml_(path) { out_.file = path; }
@@ -231,7 +231,7 @@ class WorldLoader {
     WorldVisual out;
     out.name = sdf.Name();
     out.pose = resolved(sdf.SemanticPose(), link.Name());
-    if (const auto* mesh = sdf.Geom()->MeshShape()) {  // who draws it reads it
+    if (const auto* mesh = sdf.Geom()->MeshShape()) {  // the renderer reads it
       out.shape.kind = Shape::Kind::kMesh;
       Mesh named;
       named.file = file_at(mesh->Uri(), sdf.Name());

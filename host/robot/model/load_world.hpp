@@ -7,20 +7,19 @@
 
 namespace verp::model {
 
-/// Loads and checks the <world> of an SDF file. Nothing is guessed: what the twin could not make of
-/// it throws LoadError with file, line and remedy. Not thread-safe, as load_robot().
+/// Loads and checks the <world> of an SDF file. It guesses nothing: what the twin cannot simulate
+/// throws LoadError with file, line and remedy. Not thread-safe, like load_robot().
 World load_world(const std::string& path);
 
-/// The file of a world given as a path, or as a name NAME that stands for
-/// common/worlds/NAME/world.sdf, where find_model() looks for robots. Throws LoadError with the
-/// names that exist.
+/// File of a world given as a path or as a NAME, which means common/worlds/NAME/world.sdf; searched
+/// where find_model() searches. Throws LoadError with the existing names.
 std::string find_world(const std::string& name_or_path);
-/// Whether find_world() would find a world: the name of one, or a file with a <world> in it.
+/// True for the name of a world, or a file with a <world> in it.
 bool is_world(const std::string& name_or_path);
 /// Names of the worlds in common/worlds, sorted.
 std::vector<std::string> world_names();
 
-/// What `verp check` says of a world. For people, or as one JSON object.
+/// Output of `verp check` for a world. For people, or as one JSON object.
 std::string describe(const World& world);
 std::string describe_json(const World& world);
 

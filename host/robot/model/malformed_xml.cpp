@@ -51,7 +51,7 @@ class Tags {
     return "<" + tag.name + "> of line " + std::to_string(line_of(tag.at));
   }
 
-  /// Where it goes on behind the tag.
+  /// Position after the tag.
   std::size_t tag(std::size_t at) {
     const bool closes = text_.compare(at, 2, "</") == 0;
     const std::size_t begin = at + (closes ? 2 : 1);
@@ -96,15 +96,15 @@ class Tags {
     }
   }
 
-  // As people indent.
-  /// Behind its beginning the first tag that stands as far left.
+  // These two assume the usual indentation.
+  /// The first later tag that is indented no more than `unclosed`.
   std::size_t should_be_closed_at(const Tag& unclosed) const {
     for (const std::size_t at : tags_) {
       if (at > unclosed.at && is_first(at) && column(at) <= column(unclosed.at)) return at;
     }
     return unclosed.at;
   }
-  /// Before its end all that stands further right: the first tag of that.
+  /// The first tag of the more indented block before `end`.
   std::size_t should_be_opened_at(const Tag& end) const {
     std::size_t begin = end.at;
     for (auto at = tags_.rbegin(); at != tags_.rend() && is_first(end.at); ++at) {
@@ -132,7 +132,7 @@ class Tags {
 
 Malformed find_malformed(const std::string& text) {
   Malformed found = Tags(text).check();
-  // A file that is no text at all has tags that no terminal should be shown.
+  // Hide control bytes of a binary file from the terminal.
   std::replace_if(
       found.why.begin(), found.why.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   return found;

@@ -5,10 +5,10 @@
 
 namespace verp::model {
 
-/// Where and why a text is no well-formed XML, as a person would say it. tinyxml2 names the line of
-/// the element that something is missing in: of a whole robot, its first.
+/// Place and reason of malformed XML, in a user's terms. For a missing end, tinyxml2 names the line
+/// of the enclosing element: for a robot, the first line.
 struct Malformed {
-  int line = 0;  ///< 0: nothing is wrong with its tags
+  int line = 0;  ///< 0: the tags are correct
   std::string why;
 };
 Malformed find_malformed(const std::string& text);

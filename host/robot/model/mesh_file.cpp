@@ -31,7 +31,7 @@ std::string bytes_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Triangles as they come; equal corners become one.
+/// Collects triangles and merges equal corners.
 class MeshBuilder {
  public:
   MeshBuilder(const std::string& path, const Vec3& scale) : scale_(scale) { mesh_.file = path; }
@@ -133,7 +133,7 @@ const Vec3& obj_named(const std::string& word, const std::vector<Vec3>& corners)
   return corners[static_cast<std::size_t>(at)];
 }
 
-/// Faces of more than three corners are fans, as in any reader of flat convex ones.
+/// Reads faces with more than three corners as fans, like any reader of flat convex faces.
 void read_obj(const std::string& bytes, MeshBuilder& out) {
   std::istringstream in(bytes);
   std::vector<Vec3> corners;

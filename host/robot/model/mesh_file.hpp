@@ -6,11 +6,12 @@
 
 namespace verp::model {
 
-/// An .stl file, text or binary, or an .obj file, its corners scaled. Throws std::runtime_error
-/// that says what is wrong with it.
+/// Reads an .stl file (text or binary) or an .obj file and scales its corners. Throws
+/// std::runtime_error with the reason.
 std::shared_ptr<const Mesh> read_mesh_to_touch(const std::string& path, const Vec3& scale);
 
-/// A portable graymap (.pgm, P2 or P5): black is 0, white is size_z_m. Its first row is at +y.
+/// Reads a portable graymap (.pgm, P2 or P5): black is 0, white is size_z_m. Its first row is at
+/// +y.
 std::shared_ptr<const Heightfield> read_pgm(const std::string& path, const Vec3& size_m);
 
 }  // namespace verp::model

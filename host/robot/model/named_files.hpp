@@ -7,15 +7,14 @@ namespace verp::model {
 
 bool is_file(const std::filesystem::path& path);
 
-/// Files that a person gives as a path, or as a name NAME that stands for NAME/KIND.sdf in one of
-/// some folders: robots and worlds.
+/// Robot or world files, given as a path or as a NAME that means NAME/KIND.sdf in one of `folders`.
 struct NamedFiles {
   std::string kind;
   std::vector<std::filesystem::path> folders;
 
-  /// Those that are there, sorted.
+  /// Names of the existing files, sorted.
   std::vector<std::string> names() const;
-  /// Throws LoadError with what is wrong, and the names that exist.
+  /// Throws LoadError with the reason and the existing names.
   std::string find(const std::string& name_or_path) const;
 };
 

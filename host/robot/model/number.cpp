@@ -24,7 +24,7 @@ std::optional<double> parse_number(std::string_view text) {
   double value = 0;
   const char* end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, value);
-  // What the robot's float32 can't hold is no number to it.
+  // Reject numbers beyond the robot's float32.
   if (result.ec != std::errc() || result.ptr != end || !(std::abs(value) <= kLargestFloat)) {
     return std::nullopt;
   }

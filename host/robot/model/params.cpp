@@ -59,7 +59,7 @@ std::uint8_t profile_index(const Entity& entity, const Servo& servo, Params& par
                   "use the same type, gains and profile_ms for more joints");
 }
 
-/// The servo, its counts and its sag as they are seen through the coupling.
+/// Servo counts and compliance, seen through the coupling.
 void follow(const Joint& joint, JointParams& p) {
   const double counts_per_rad =
       joint.servo.direction * joint.servo.counts_per_rev / (2 * std::numbers::pi);
@@ -134,7 +134,7 @@ ImuParams imu_params(const ImuSensor& imu) {
   return p;
 }
 
-/// The head joints that turn it left and right, up and down.
+/// The pan and tilt joints of the head.
 void find_head(const Entity& entity, Params& params) {
   const Limb* const head = find_limb(entity, "head");
   if (!head) return;

@@ -4,13 +4,13 @@
 #include "host/robot/model/link_tree.hpp"
 #include "host/robot/model/xml_source.hpp"
 
-/// What is to be said of a robot's sensors beside what SDF has words for.
+/// Sensor facts for which SDF has no elements.
 namespace verp::model {
 
-/// Of <verp:truth> and <verp:latency>. Throws LoadError.
+/// Applies <verp:truth> and <verp:latency>. Throws LoadError.
 void add_truths_and_latencies(const Facts& facts, const LinkTree& tree, Entity& entity);
 
-/// Each sensor that is recorded has a channel of its own in a trace. Throws LoadError.
+/// Requires a separate trace channel for each recorded sensor. Throws LoadError.
 void check_channels(const XmlSource& source, const Facts& facts, const Entity& entity);
 
 }  // namespace verp::model

@@ -6,28 +6,27 @@
 
 namespace verp::model {
 
-/// A `key = value` file: one entry a line, `#` starts a comment. Every key must be read exactly
-/// once by the program that uses the table, so that a misspelt one is an error, not a silent
-/// default.
+/// A `key = value` file: one entry per line, `#` starts a comment. The program must read every key,
+/// so that a misspelt key is an error, not a silent default.
 class RobotTable {
  public:
-  /// Throws LoadError for a missing file, a line that is not `key = value`, or a key given twice.
+  /// Throws LoadError for a missing file, a line that is not `key = value`, or a duplicate key.
   explicit RobotTable(const std::string& path);
 
-  /// Throws LoadError when the key is missing, or the value is not one finite number.
+  /// Throws LoadError if the key is missing, or the value is not one finite number.
   double number(const std::string& key);
   std::string text(const std::string& key);
-  /// Of a value in parts, `a | b c | d`: one part, counted from 0, as it stands, or as that many
-  /// numbers. Throws LoadError where they are not.
+  /// One part, counted from 0, of a value such as `a | b c | d`: as text, or as `count` numbers.
+  /// Throws LoadError if it is not.
   std::string part(const std::string& key, std::size_t which);
   std::vector<double> numbers(const std::string& key, std::size_t which, std::size_t count);
   bool has(const std::string& key) const { return entries_.contains(key); }
-  /// All that begin like this, in the table's order.
+  /// All keys with this prefix, in table order.
   std::vector<std::string> keys(const std::string& beginning) const;
   /// Throws LoadError at the key's line.
   [[noreturn]] void fail(const std::string& key, const std::string& message,
                          const std::string& fix) const;
-  /// Throws LoadError naming the first key that nobody read.
+  /// Throws LoadError with the first unread key.
   void require_all_read() const;
 
  private:
@@ -40,15 +39,14 @@ class RobotTable {
   std::set<std::string> read_;
 };
 
-/// `tuning.NAME = VALUE` of a table as a robot's <verp:tuning>.
+/// Converts `tuning.NAME = VALUE` entries to <verp:tuning>.
 std::string tuning_lines(RobotTable& table);
 
-/// The SDF text of a 21-DOF humanoid of these proportions. Throws LoadError.
+/// SDF text of a 21-DOF humanoid with these proportions. Throws LoadError.
 std::string generate_humanoid_sdf(RobotTable& table);
-/// The SDF text of a robot whose table lists links and joints one by one. Throws
-/// LoadError.
+/// SDF text of a robot whose table lists links and joints one by one. Throws LoadError.
 std::string generate_tree_sdf(RobotTable& table);
-/// Either: `layout = tree` in the table chooses the second.
+/// One of the two: `layout = tree` in the table selects the second.
 std::string generate_sdf(RobotTable& table);
 
 }  // namespace verp::model

@@ -12,22 +12,22 @@
 
 #include "host/robot/model/entity.hpp"
 
-/// Small conversions from libsdformat's types, and the geometry checks that need no file.
+/// Conversions from libsdformat's types, and geometry checks that need no file.
 namespace verp::model {
 
 Vec3 to_vector(const ignition::math::Vector3d& v);
 Mat3 to_matrix(const ignition::math::Matrix3d& m);
 Transform to_transform(const ignition::math::Pose3d& pose);
 
-/// A pose seen from frame `from`. Throws LoadError-free std::runtime_error when libsdformat cannot
-/// resolve it, which its own checks exclude.
+/// A pose seen from frame `from`. Throws std::runtime_error, not LoadError, if libsdformat cannot
+/// resolve it; its own checks exclude this.
 Transform resolved(const sdf::SemanticPose& pose, const std::string& from);
 inline Transform model_pose(const sdf::SemanticPose& pose) {
   return resolved(pose, "__model__");
 }
 
-/// A box, sphere, cylinder or capsule, and its size as Collision has it; false: another shape. Kind
-/// is one of our enumerations, which all have these four.
+/// Reads a box, sphere, cylinder or capsule, with its size as in Collision; false: another shape.
+/// Kind is one of our enumerations with these four values.
 template <class Kind>
 bool read_solid(const sdf::Geometry& geometry, Kind& kind, Vec3& size_m) {
   if (const auto* box = geometry.BoxShape()) {
@@ -48,23 +48,23 @@ bool read_solid(const sdf::Geometry& geometry, Kind& kind, Vec3& size_m) {
   return true;
 }
 
-/// The child of that name; none: there is none, nor of no parent.
+/// Child by name; null if it is missing or `parent` is null.
 sdf::ElementPtr inner(const sdf::ElementPtr& parent, const char* name);
-/// Its value, where there is one: what libsdformat 12 has no classes for.
+/// Reads its value, if it exists, where libsdformat 12 has no class.
 void read_leaf(const sdf::ElementPtr& parent, const char* name, double& value);
 
-/// Shape, size and surface; false for shapes that contacts cannot use (meshes, planes, ellipsoids).
+/// Shape, size and surface; false for shapes unusable for contacts (meshes, planes, ellipsoids).
 bool read_shape(const sdf::Collision& sdf, Collision& collision);
 
-/// The smallest extent of a shape: edge, radius or length.
+/// Smallest extent of a shape: edge, radius or length.
 double least_measure(const Collision& collision);
 
-/// Empty, or what is wrong with a node's mass and inertia. `extent_m`: the robot's diagonal, which
-/// no link's radius of gyration can exceed.
+/// Error in a node's mass and inertia, or empty. `extent_m`: the robot's diagonal, an upper bound
+/// for each link's radius of gyration.
 std::string implausible(const Node& node, double extent_m);
 
-/// Widens `sole` by the lower face of a box (given in the sole's frame) if that face lies in the
-/// sole's plane.
+/// Extends `sole` by the lower face of a box (in the sole's frame) if that face lies in the sole's
+/// plane.
 void extend_sole(Eigen::AlignedBox3d& sole, const Transform& box_sole, const Vec3& size_m);
 
 }  // namespace verp::model

@@ -21,7 +21,7 @@ double rate_of(const sdf::Sensor& sensor, double if_none_hz, const WrongSensor& 
   return rate_hz;
 }
 
-/// What a picture costs to make, to send and to keep grows with it.
+/// The cost to render, send and store a picture grows with its size.
 void read_size(const sdf::Camera& lens, CameraSensor& camera, const WrongSensor& wrong) {
   constexpr unsigned kLeast = 8, kMost = 4096;
   if (lens.ImageWidth() < kLeast || lens.ImageWidth() > kMost || lens.ImageHeight() < kLeast ||
@@ -66,7 +66,7 @@ void read_lens(const sdf::Camera& lens, CameraSensor& camera, const WrongSensor&
     wrong("its <clip> is none", "give <near> of at least 0.001 m and a <far> beyond it");
 }
 
-/// The whole picture's edge has a direction: inside of it distortion is milder.
+/// Each point of the picture's edge must have a direction; distortion is milder inside.
 void check_distortion(const CameraSensor& camera, const WrongSensor& wrong) {
   constexpr int kParts = 64;
   const double right = camera.width_px - 1.0, bottom = camera.height_px - 1.0;
@@ -104,7 +104,7 @@ CameraSensor::Kind kind_of(const sdf::Sensor& sensor) {
   }
 }
 
-/// As the file names the channel, without a slash before it.
+/// Channel name from the file, without a leading slash.
 std::string topic_of(const sdf::Sensor& sensor) {
   const std::string topic = sensor.Topic();
   return topic.starts_with('/') ? topic.substr(1) : topic;

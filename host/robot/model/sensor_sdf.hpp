@@ -5,22 +5,22 @@
 
 #include "host/robot/model/entity.hpp"
 
-/// A robot's sensors as libsdformat read them, checked.
+/// Checks and converts a robot's sensors from libsdformat.
 namespace verp::model {
 
-/// Throws LoadError at the sensor: what is wrong, and what to do about it.
+/// Throws LoadError at the sensor with the error and the remedy.
 using WrongSensor = std::function<void(const std::string& what, const std::string& fix)>;
 
 /// `pose` is in the link frame of `node`.
 LaserSensor read_laser(const sdf::Sensor& sensor, int node, const Transform& pose,
                        const WrongSensor& wrong);
 
-/// Of type camera, depth_camera, rgbd_camera or segmentation_camera.
+/// True for camera, depth_camera, rgbd_camera and segmentation_camera.
 bool is_camera(const sdf::Sensor& sensor);
 CameraSensor read_camera(const sdf::Sensor& sensor, int node, const Transform& pose,
                          const WrongSensor& wrong);
 
-/// `link` is the link's own frame in that of `node`, whose axes SDF takes if no others are named.
+/// `link` is the link's own frame in that of `node`; SDF uses its axes by default.
 ForceTorqueSensor read_force_torque(const sdf::Sensor& sensor, int node, const Transform& link,
                                     const Transform& pose, const WrongSensor& wrong);
 

@@ -12,13 +12,13 @@ namespace verp::model {
 namespace {
 
 constexpr double kRevMin = 60 / (2 * std::numbers::pi);
-// Wide enough for a servo of a watch and of a horse: what lies outside is a slip of the pen.
+// Bounds from watch servos to horse-sized ones; values outside are typing errors.
 constexpr double kMostTorque_n_m = 1e4;
 constexpr double kMostArmature_kg_m2 = 100;
-constexpr double kMostLoad = 0.99;  // part of it that friction takes: at 1 the gears would lock
+constexpr double kMostLoad = 0.99;  // share lost to friction: at 1 the gears would lock
 constexpr double kMostSpeed_rev_min = 1e5;
 
-/// Numbers of one element: missing ones are those of the type that it is like, if it is.
+/// Numbers of one element; missing ones come from the type it is like, if any.
 class Reader {
  public:
   Reader(const XmlElement& e, const ServoType* like) : e_(e), like_(like) {}
@@ -52,14 +52,15 @@ void read_motor(const XmlElement& e, ServoType& type) {
         e.number_within("stall_torque_n_m", 1e-6, kMostTorque_n_m, " N m, like 3.0");
     type.no_load_rev_min =
         e.number_within("no_load_rev_min", 1e-3, kMostSpeed_rev_min, " rev/min, like 77");
-    // An ideal machine turns all it does not heat into motion: kt is V s as well as N m/A.
+    // An ideal machine converts all power that it does not heat to motion: kt is V s as well as N
+    // m/A.
     type.stall_current_a = type.stall_torque_n_m * type.no_load_rev_min / kRevMin / type.nominal_v;
   }
   type.stall_current_a =
       e.number_within("stall_current_a", 1e-6, 1e4, " A, like 2.3", type.stall_current_a);
 }
 
-// A number of one's own is as it is, and what is left out stays as doubtful as it was.
+// An own number is exact; an inherited one keeps its band.
 void read_bands(const XmlElement& e, ServoType& type) {
   const auto given = [&](std::initializer_list<const char*> names) {
     return std::any_of(names.begin(), names.end(), [&](const char* name) { return e.has(name); });

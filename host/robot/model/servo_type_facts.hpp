@@ -6,11 +6,11 @@
 
 namespace verp::model {
 
-/// The shipped servo types and those that the robot's own <verp:servo_type> elements describe, all
-/// in the units of host/guide/robot-file.md. Throws LoadError.
+/// The shipped servo types and those of the robot's <verp:servo_type> elements, in the units of
+/// host/guide/robot-file.md. Throws LoadError.
 std::vector<ServoType> read_servo_types(const XmlElement& model);
 
-/// What speaks that protocol, as in a file.
+/// Value of the attribute `protocol`.
 BusProtocol read_protocol(const XmlElement& element);
 
 }  // namespace verp::model

@@ -8,13 +8,13 @@
 
 namespace verp::model {
 
-/// One servo type: what <verp:servo type="..."> names. The twin's motor and gearbox, Params and
-/// `verp check` all use these. A type that is not shipped is described in the robot's own file
-/// (<verp:servo_type>, servo_type_facts.hpp).
+/// A servo type, named by <verp:servo type="...">. The twin's motor and gearbox, Params and `verp
+/// check` all use it. The robot's own file describes types that are not shipped (<verp:servo_type>,
+/// servo_type_facts.hpp).
 struct ServoType {
-  std::string name;                                 ///< as in <verp:servo type="...">
-  std::string title;                                ///< as its maker calls it
-  BusProtocol protocol = BusProtocol::kDynamixel2;  ///< what it speaks
+  std::string name;   ///< as in <verp:servo type="...">
+  std::string title;  ///< the maker's name
+  BusProtocol protocol = BusProtocol::kDynamixel2;
   std::uint16_t model_number = 0;  ///< control table address 0; product code of a CiA 402 drive
   double stall_torque_n_m = 0;     ///< of the motor's line, at nominal_v, before friction
   double no_load_rev_min = 0;
@@ -30,7 +30,7 @@ struct ServoType {
   std::string source;
 };
 
-/// Of rows as these, for a person to choose from.
+/// Comma-separated names, for error messages.
 template <class Type>
 std::string names_of(const std::vector<Type>& types) {
   std::string list;
@@ -38,18 +38,18 @@ std::string names_of(const std::vector<Type>& types) {
   return list;
 }
 
-/// The types that are shipped.
+/// The shipped types.
 const std::vector<ServoType>& servo_types();
-/// nullptr when there is no such type among these.
+/// nullptr: no such type.
 const ServoType* find_servo_type(const std::vector<ServoType>& types, std::string_view name);
 
-/// One row per IMU type: scales of its registers and noise, from the datasheet.
+/// One row per IMU type: register scales and noise, from the datasheet.
 struct ImuType {
   const char* name;
   double gyro_rad_s_per_count;
   double accel_m_s2_per_count;
   double gyro_noise_rad_s_rthz;  ///< density, one-sided: rad/s/sqrt(Hz)
-  double gyro_bias_rad_s;        ///< 1-sigma, what remains after calibration
+  double gyro_bias_rad_s;        ///< 1-sigma, remaining after calibration
   double accel_noise_m_s2_rthz;
   double accel_bias_m_s2;
 };

@@ -16,19 +16,20 @@ namespace {
 
 constexpr double kGravity_m_s2 = 9.80665;
 
-// The robot that Tuning's defaults are tuned for, generic21: leg of 186 mm, hip at 0.81 of it, feet
-// 1.4 mm inside the hips. Lengths go with the leg, times with the root of it, as a pendulum's do.
+// The robot for which Tuning's defaults are tuned, generic21: leg 186 mm, hip at 0.81 of it, feet
+// 1.4 mm inside the hips. Lengths scale with the leg, times with its square root, like a
+// pendulum's.
 constexpr double kItsLeg_m = 0.186;
 constexpr double kUsual_v = 12;  // of its servos
 constexpr double kHipShare = 0.808;
 constexpr double kFeetInside = 0.0014 / kItsLeg_m;
 // Between the inner edges of soles that pass each other.
 constexpr double kSolesApart_m = 0.005;
-// Stiffness over weight times leg, 1/rad: generic21 has 9.0, op3 12.5, darwin_op 7.4, all tuned.
+// Stiffness over weight times leg, 1/rad. Tuned robots: generic21 9.0, op3 12.5, darwin_op 7.4.
 constexpr double kStiffness = 9.03;
-// Beyond it a servo buzzes on its own noise; the control table ends at 16383.
+// Above it a servo buzzes from its own noise; the control table ends at 16383.
 constexpr double kMostGain = 8000;
-// What a walk's values have ranges for (tuning_ranges.hpp): a hip 5 cm to 1 m above the ankle.
+// Range of the walk's values (tuning_ranges.hpp): a hip 5 cm to 1 m above the ankle.
 constexpr double kLeastLeg_m = 0.06, kMostLeg_m = 1.2;
 constexpr double kMostTilt_rad = 0.2, kMostUneven_m = 0.02;
 
@@ -41,7 +42,7 @@ const char* leg_name(int side) {
   return side == 0 ? "left_leg" : "right_leg";
 }
 
-/// Poses of the links of a leg in the body frame, hip to ankle, at the joints' standing angles.
+/// Link poses of a leg in the body frame, hip to ankle, at the joints' standing angles.
 std::vector<Transform> standing_links(const Entity& entity, const Limb& leg) {
   std::vector<int> chain;
   for (int node = leg.joints.back() + 1; node != 0;
@@ -61,7 +62,7 @@ std::vector<Transform> standing_links(const Entity& entity, const Limb& leg) {
   return links;
 }
 
-/// Level soles under the hips, as far apart as in the walk.
+/// Level sole under the hip, at the walk's lateral distance.
 Pose sole_at(const Params& params, int side, double height_m) {
   const LegParams& leg = params.leg[side];
   Pose sole;
@@ -142,7 +143,7 @@ class Settler {
     e_.defaults.push_back(fmt::format("{} {:.4g}, from its {}", name, value, from));
   }
 
-  /// As the file's standing pose has it, if it bends the legs; else the usual share of the leg.
+  /// Height of the file's standing pose if it sets the legs; otherwise the usual share of the leg.
   double hip_height() const {
     if (given("gait.hip_height_m")) return tuned("gait.hip_height_m");
     if (poses_leg("stand")) return stand_of(e_, *leg_[0]).hip_height_m;
@@ -159,7 +160,7 @@ class Settler {
   void fill_gait() {
     const Tuning usual;
     const double longer = leg_m_ / kItsLeg_m, slower = std::sqrt(longer);
-    // The supply that is low for servos of 12 V, three lithium cells', is as low a part of another.
+    // Scale the low-voltage threshold of 12 V servos (three lithium cells) to the nominal voltage.
     const double nominal_v = e_.joints.empty() ? kUsual_v : e_.joints[0].servo.nominal_v;
     if (nominal_v != kUsual_v) {
       put("safety.voltage_low_v", usual.safety.voltage_low_v / kUsual_v * nominal_v, "servos");
@@ -195,7 +196,7 @@ class Settler {
     return nullptr;
   }
 
-  /// Knees ahead of the straight line from hip to ankle, as people have them.
+  /// True if the knee is ahead of the line from hip to ankle, as a person's.
   bool bends_forward(const Params& params, int side, const float* angle_rad) const {
     const LegParams& leg = params.leg[side];
     const kinematics::LegChain chain = kinematics::leg_chain(params, leg, Pose{}, angle_rad);
@@ -204,7 +205,7 @@ class Settler {
     return knee.x() > leg.hip_body_m.x + share * (ankle.x() - leg.hip_body_m.x) - 1e-4F;
   }
 
-  /// From a few crouches to either side: Newton finds the one that is nearest.
+  /// Starts Newton from a few crouches in both directions, because it finds the nearest solution.
   bool solve(const Params& params, int side, const Pose& sole, float* angle_rad) const {
     const LegParams& leg = params.leg[side];
     for (const double bend : {0.6, 0.3, 1.0, -0.6, -1.0}) {
@@ -225,8 +226,8 @@ class Settler {
     return false;
   }
 
-  /// A pose whose legs the file doesn't give: found for the height, or the lowest above it that the
-  /// limits allow.
+  /// Finds leg angles that the file omits, for this height or the lowest one above it within the
+  /// limits.
   void fill_pose(const std::string& pose, double height_m) {
     if (poses_leg(pose)) return;
     const double stand_m = hip_height();
@@ -267,7 +268,7 @@ class Settler {
                         kHipShare * leg_m_));
   }
 
-  /// The pose that the file gives: soles level, and both on one floor.
+  /// Checks the file's pose: soles level, and both on one floor.
   void check_pose() const {
     const PoseFact* const fact = poses_leg("stand");
     if (!fact) return;
@@ -288,7 +289,7 @@ class Settler {
                   "correct its angles, or leave the legs out: they are found");
   }
 
-  /// The posture in which the gait stands, from the standing pose on.
+  /// Checks that the legs reach the gait's standing posture from the standing pose.
   void check_stand() const {
     const Params params = make_params(e_);
     if (!can_stand(params)) refuse_height(static_cast<double>(params.tuning.gait.hip_height_m));
@@ -342,7 +343,7 @@ Stand stand_of(const Entity& entity, const Limb& leg) {
   const Vec3 ankle = links[4].translation(), knee = links[3].translation();
   Stand stand;
   stand.hip_height_m = g.hip_m.z() - ankle.z();
-  // On one leg the weight acts above its ankle, halfway to the hip at worst.
+  // On one leg the weight acts above its ankle, at worst halfway to the hip.
   const double arm_m = std::abs(knee.x() - (ankle.x() + g.hip_m.x()) / 2);
   stand.knee_n_m = total_mass(entity) * kGravity_m_s2 * arm_m;
   return stand;

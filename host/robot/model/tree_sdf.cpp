@@ -19,8 +19,7 @@ std::string join(const std::vector<double>& values) {
   return text;
 }
 
-/// The edges of a box of even density with these moments (kg m2): what there is to see of a link
-/// whose shape nobody gave.
+/// Edges of a box of uniform density with these moments (kg m2), to draw a link without a shape.
 std::vector<double> even_box(double mass_kg, const std::vector<double>& moments) {
   std::vector<double> edges;
   const double sum = moments[0] + moments[1] + moments[2];
@@ -31,7 +30,7 @@ std::vector<double> even_box(double mass_kg, const std::vector<double>& moments)
   return edges;
 }
 
-/// Writes any robot whose links and joints a table lists one by one.
+/// Writes a robot whose table lists its links and joints one by one.
 class TreeWriter {
  public:
   explicit TreeWriter(RobotTable& table) : t_(table) {}
@@ -99,7 +98,7 @@ class TreeWriter {
     line("    </link>");
   }
 
-  /// centre | edges, and | roll pitch yaw where it is turned
+  /// centre | edges [| roll pitch yaw]
   void shape(const std::string& link, const std::string& key) {
     const std::string text = t_.text(key);
     const bool turned = std::count(text.begin(), text.end(), '|') > 1;
@@ -117,7 +116,7 @@ class TreeWriter {
     line("      <visual name=\"{}_shape\"><pose>{}</pose>{}</visual>", name, pose, geometry);
   }
 
-  /// parent | where, from the parent's joint | axis | lower upper | servo id
+  /// parent | position from the parent's joint | axis | lower upper | servo id
   void joint(const std::string& name) {
     const std::string key = "joint." + name;
     const std::string parent = t_.part(key, 0);

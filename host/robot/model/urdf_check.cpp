@@ -17,7 +17,7 @@
 namespace verp::model {
 namespace {
 
-/// The line of <kind name="...">, or that of the root.
+/// The element <kind name="...">, or the root.
 XmlElement element_of(const XmlElement& robot, const char* kind, const std::string& name) {
   for (const XmlElement& child : robot.children(kind)) {
     if (child.text("name", "") == name) return child;
@@ -25,13 +25,13 @@ XmlElement element_of(const XmlElement& robot, const char* kind, const std::stri
   return robot;
 }
 
-/// What urdfdom says while it reads: the cause first, and then what could not be read for it.
+/// Collects urdfdom's errors: first the cause, then what could not be read.
 class UrdfErrors : public console_bridge::OutputHandler {
  public:
   void log(const std::string& text, console_bridge::LogLevel level, const char* /*file*/,
            int /*line*/) override {
     if (level < console_bridge::CONSOLE_BRIDGE_LOG_ERROR) return;
-    if (cause_.empty()) cause_ = text.substr(0, text.find(".  "));  // then comes advice, in lines
+    if (cause_.empty()) cause_ = text.substr(0, text.find(".  "));  // multi-line advice follows
     all_ += text + '\n';
   }
   const std::string& cause() const { return cause_; }
@@ -50,7 +50,7 @@ void refuse_duplicates(const XmlElement& robot, const char* kind) {
   }
 }
 
-/// urdfdom finds no root then, and names nobody.
+/// For a loop urdfdom finds no root, and names no link.
 void refuse_loops(const XmlElement& robot) {
   std::map<std::string, std::string> parent;
   for (const XmlElement& joint : robot.children("joint")) {
@@ -68,7 +68,7 @@ void refuse_loops(const XmlElement& robot) {
   }
 }
 
-/// Nor does it name whose numbers these are.
+/// urdfdom does not name the joint of a bad number.
 void refuse_no_ratio(const XmlElement& robot) {
   for (const XmlElement& joint : robot.children("joint")) {
     for (const XmlElement& mimic : joint.children("mimic")) {
@@ -78,7 +78,7 @@ void refuse_no_ratio(const XmlElement& robot) {
   }
 }
 
-/// A link that no joint carries, beside the one that the trunk hangs on.
+/// Rejects a link without a parent joint other than the trunk's root.
 void refuse_second_root(const XmlElement& robot, const Facts& facts) {
   std::map<std::string, std::string> parent;
   for (const XmlElement& joint : robot.children("joint")) {
@@ -98,7 +98,7 @@ void refuse_second_root(const XmlElement& robot, const Facts& facts) {
       "add the joint that carries one of them");
 }
 
-/// libsdformat refuses them without a name or a line.
+/// libsdformat rejects these without a name or a line.
 void refuse_no_direction(const XmlElement& robot) {
   for (const XmlElement& joint : robot.children("joint")) {
     for (const XmlElement& axis : joint.children("axis")) {
@@ -137,7 +137,7 @@ std::shared_ptr<urdf::ModelInterface> read_urdf(const XmlSource& source, const X
                   "correct it; wiki.ros.org/urdf/XML says what is needed");
 }
 
-/// A frame for a sensor or a tool needs no mass; what has a shape, or turns, was meant to have one.
+/// A frame for a sensor or a tool needs no mass; a link with a shape needs one.
 void check_links(const XmlElement& robot, const urdf::ModelInterface& urdf, const Facts& facts) {
   for (const auto& [name, link] : urdf.links_) {
     const bool is_frame = link->visual_array.empty() && link->collision_array.empty();

@@ -5,33 +5,33 @@
 
 #include "host/robot/model/xml_source.hpp"
 
-/// What libsdformat's URDF import would lose or not take, made good before it reads: it drops links
-/// without mass and all that hang on them, forgets the names of links that fixed joints join, and
-/// has one space of names for links and joints.
+/// Prepares URDF files for libsdformat's import. The import drops links without mass and everything
+/// beyond them, forgets the names of links joined by fixed joints, and has one name space for links
+/// and joints.
 namespace verp::model {
 
-/// What an import must know of the changes.
+/// Changes that the import must undo.
 struct UrdfNames {
-  std::set<std::string> massless_links;      ///< got a stand-in mass: theirs is none
-  std::map<std::string, std::string> joint;  ///< names that were changed, as the file has them
+  std::set<std::string> massless_links;      ///< have a stand-in mass
+  std::map<std::string, std::string> joint;  ///< changed names -> the file's
   const std::string& joint_name(const std::string& imported) const {
     const auto changed = joint.find(imported);
     return changed == joint.end() ? imported : changed->second;
   }
 };
 
-/// Copies of a robot's URDF files as libsdformat shall read them; they vanish with this.
+/// Prepared copies of a robot's URDF files; deleted with this object.
 class PreparedUrdfs {
  public:
-  /// Throws LoadError when a copy cannot be written.
+  /// Throws LoadError if a copy cannot be written.
   explicit PreparedUrdfs(const XmlSource& source);
   ~PreparedUrdfs();
   PreparedUrdfs(const PreparedUrdfs&) = delete;
   PreparedUrdfs& operator=(const PreparedUrdfs&) = delete;
 
-  /// The copy of this file; where there is none, the file.
+  /// The copy of this file, or the file itself.
   std::string copy_of(const std::string& path) const;
-  /// True for the copies: their lines mean nothing to anybody.
+  /// True for a copy, whose line numbers are meaningless to users.
   bool is_copy(const std::string& path) const;
   const UrdfNames& names() const { return names_; }
 

@@ -7,20 +7,20 @@
 
 namespace verp::model {
 
-/// Where the files are that a robot's file names: its own folder and those above it, that of each
-/// file it includes, VERP_MODEL_PATH. ROS packages lie there by their name.
+/// Finds the files that a robot's file names: in its own folder and those above, in those of each
+/// included file, and in VERP_MODEL_PATH. ROS packages are found by name.
 class PictureFiles {
  public:
   explicit PictureFiles(std::vector<std::string> from_files) : from_(std::move(from_files)) {}
-  /// Empty: there is no such file.
+  /// Empty: not found.
   std::string find(const std::string& uri) const;
 
  private:
   std::vector<std::string> from_;
 };
 
-/// What a link looks like, poses in the SDF link's own frame. Shapes that nobody draws are left
-/// out: nothing that is seen is worth refusing a robot for.
+/// Visuals of a link, with poses in the SDF link's own frame. Unsupported shapes are omitted, not
+/// errors, because they only affect pictures.
 std::vector<Visual> read_visuals(const sdf::Link& link, const PictureFiles& files);
 
 }  // namespace verp::model

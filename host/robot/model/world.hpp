@@ -8,9 +8,8 @@
 
 #include "host/robot/model/entity.hpp"
 
-/// A world as the PC knows it, after load_world() (load_world.hpp): plain data for the twin, which
-/// makes contacts of it, and for whoever draws it. Double precision, SI units, z up. Every pose is
-/// already resolved to the frame that its comment names.
+/// A world on the PC, from load_world() (load_world.hpp): plain data for the twin and for
+/// renderers. Double precision, SI units, z up. Every pose is resolved to the frame in its comment.
 namespace verp::model {
 
 /// Red, green, blue, opacity, each 0 to 1.
@@ -45,11 +44,11 @@ struct Mesh {
 struct Shape {
   enum class Kind { kPlane, kBox, kSphere, kCylinder, kCapsule, kHeightfield, kMesh };
   Kind kind = Kind::kBox;
-  /// Box: edges; sphere: x radius; cylinder, capsule: x radius, z length (of a capsule without its
-  /// caps), along z; plane: x and y edges of what is to be drawn of it, its normal is z.
+  /// Box: edges; sphere: x radius; cylinder, capsule: x radius, z length along z (a capsule's
+  /// without caps); plane: x and y edges of the drawn part, normal z.
   Vec3 size_m = Vec3::Zero();
   std::shared_ptr<const Heightfield> heightfield;
-  std::shared_ptr<const Mesh> mesh;  ///< to collide: convex, or of something that never moves
+  std::shared_ptr<const Mesh> mesh;  ///< for collision: convex, or static
 };
 
 struct ContactSurface {
@@ -74,25 +73,26 @@ struct WorldVisual {
   bool casts_shadows = true;
 };
 
-/// Constant speed from one pose to the next: an obstacle that moves whatever is in its way.
+/// Point on the path of a moving obstacle, which pushes what is in its way. Speed is constant
+/// between waypoints.
 struct Waypoint {
   double t_s = 0;
   Transform pose = Transform::Identity();  ///< in the world
 };
 
-/// One rigid thing. A model of several links is several of them, named MODEL/LINK.
+/// One rigid object. A model with several links becomes several objects, named MODEL/LINK.
 struct WorldObject {
   std::string name;
-  int line = 0;                            ///< of the file, for complaints
-  Transform pose = Transform::Identity();  ///< at the start, in the world
+  int line = 0;                            ///< in the file, for error messages
+  Transform pose = Transform::Identity();  ///< initial, in the world
   enum class Kind { kStatic, kDynamic, kMoving } kind = Kind::kStatic;
   double mass_kg = 0;                 ///< dynamic ones
   Vec3 com_m = Vec3::Zero();          ///< in the object
   Mat3 inertia_kg_m2 = Mat3::Zero();  ///< about the centre of mass, object's axes
   std::vector<WorldCollision> collisions;
   std::vector<WorldVisual> visuals;
-  std::vector<Waypoint> waypoints;  ///< moving ones: at least two, times rise
-  bool loops = false;               ///< goes on from the first after the last
+  std::vector<Waypoint> waypoints;  ///< moving ones: at least two, with rising times
+  bool loops = false;               ///< repeats from the first waypoint
 };
 
 struct Light {
@@ -125,7 +125,7 @@ struct World {
   Color ambient{0.4, 0.4, 0.4, 1}, background{0.7, 0.7, 0.7, 1};
   bool shadows = true;
   bool sky = false;  ///< the background is brighter toward the horizon
-  /// Pictures of it have that: <verp:effects> of <scene>.
+  /// Rendering effects: <verp:effects> of <scene>.
   bool antialias = true, textures = true, transparency = true;
   std::optional<Fog> fog;
   std::vector<Light> lights;
@@ -134,7 +134,7 @@ struct World {
   std::vector<WorldRobot> robots;
 };
 
-/// Which of the objects are not always where they are at the start.
+/// Objects that may leave their initial pose.
 inline std::vector<const WorldObject*> moving(const World& world) {
   std::vector<const WorldObject*> out;
   for (const WorldObject& object : world.objects) {

@@ -18,7 +18,7 @@ namespace {
 constexpr double kMostWorld_m = 1000;
 constexpr double kMostAnything = 1e12;
 
-/// How many numbers stand in a leaf, and within what.
+/// Allowed number of values in a leaf, and their range.
 struct Leaf {
   std::size_t count;
   double low, high;
@@ -76,7 +76,7 @@ void check_world_leaf(const XmlElement& at, const std::string& text) {
   Leaf leaf{0, 0, 1};
   if (is_color(name)) {
     values = strict(at, text, 3, 4);
-  } else if (name == "size") {  // of a box three, of a plane two
+  } else if (name == "size") {  // three for a box, two for a plane
     values = strict(at, text, 2, 3);
     leaf = {0, kLeastLength_m, 2 * kMostWorld_m, " m"};
   } else if (const auto found = kLeaves.find(name); found != kLeaves.end()) {
@@ -114,8 +114,8 @@ void WorldXml::inspect(const tinyxml2::XMLElement& element) {
   const XmlElement at(path_, element);
   const char* own = element.Attribute("name");
   if (own != nullptr) lines_.insert({own, element.GetLineNum()});
-  // An empty pose is none. Of all else libsdformat would take its default: an emptied <mass> as 1
-  // kg.
+  // An empty pose means no pose. For other empty elements libsdformat would use its default: 1 kg
+  // for an empty <mass>.
   const char* const text = element.GetText();
   if (element.FirstChildElement() == nullptr && (text != nullptr || at.name() != "pose"))
     check_world_leaf(at, text != nullptr ? text : "");
@@ -142,7 +142,7 @@ int WorldXml::blame(const std::string& message) const {
   return world_->GetLineNum();
 }
 
-/// Comments may hold the word, too: those have no robots, and nothing is lost in them.
+/// Also blanks the word in comments, where no robot is and nothing is lost.
 void WorldXml::blank_includes() {
   constexpr std::string_view kBegin = "<include", kEnd = "</include>";
   std::size_t at = 0;

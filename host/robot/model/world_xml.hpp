@@ -10,20 +10,21 @@
 
 namespace verp::model {
 
-/// The XML of a world's file: its lines, its numbers read strictly, and the robots that it
-/// includes, which libsdformat is not asked about.
+/// The XML of a world's file: its lines, its numbers read strictly, and its included robots, which
+/// libsdformat does not see.
 class WorldXml {
  public:
-  /// Throws LoadError: not readable, malformed, no or several <world>, a number that is none.
+  /// Throws LoadError if the file is unreadable or malformed, has not exactly one <world>, or has
+  /// an invalid number.
   explicit WorldXml(const std::string& path);
 
   const std::string& path() const { return path_; }
   XmlElement world() const { return XmlElement(path_, *world_); }
-  /// Of the model, link, light, ... of that name; the world's if there is none.
+  /// Line of the named model, link, light, ...; the world's if there is none.
   int line_of(const std::string& name) const;
-  /// Of the first name in `message` that is one; the world's else.
+  /// Line of the first known name in `message`; otherwise the world's.
   int blame(const std::string& message) const;
-  /// The file as it is, with nothing where robots are included: same lines.
+  /// The file with included robots blanked out; the line numbers stay.
   const std::string& text_without_robots() const { return text_; }
   std::vector<WorldRobot> robots() const;
 

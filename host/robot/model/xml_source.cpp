@@ -20,17 +20,17 @@
 namespace verp::model {
 namespace {
 
-// A robot has a body and a few parts; files that include two others each reach this at once.
+// A robot has a body and a few parts; files that each include two others reach this at once.
 constexpr std::size_t kMostFiles = 64;
 
-// Of one kind side by side. Hands with sensors in every finger bring some hundreds of links.
+// Per parent and kind. Hands with sensors in every finger have some hundreds of links.
 constexpr std::size_t kMostElements = 1000;
 
-// Of the elements that SDF has not.
+// Namespace of our own elements.
 constexpr const char* kNamespace = "https://verp.dev/sdf/1";
 
-/// XML 1.0, 2.5: no "--" within a comment, and none may end in "--->". tinyxml2 reads them all the
-/// same; other people's tools don't read the file then.
+/// XML 1.0, 2.5: no "--" within a comment, and no end in "--->". tinyxml2 accepts both, but other
+/// tools then reject the file.
 class CommentCheck : public tinyxml2::XMLVisitor {
  public:
   explicit CommentCheck(const std::string& path) : path_(path) {}
@@ -48,7 +48,7 @@ class CommentCheck : public tinyxml2::XMLVisitor {
   const std::string& path_;
 };
 
-/// Of what an element has one of, libraries take the first or the last and don't tell.
+/// Libraries silently take the first or the last of a repeated element.
 void refuse_repeats(const std::string& path, const tinyxml2::XMLElement& element) {
   for (const char* once :
        {"mass", "inertia", "inertial", "pose", "axis", "limit", "parent", "child", "origin",
@@ -63,7 +63,7 @@ void refuse_repeats(const std::string& path, const tinyxml2::XMLElement& element
   }
 }
 
-/// libsdformat tells that a type is none, and not whose.
+/// libsdformat reports an invalid type without the joint's name.
 void check_joint_type(const std::string& path, const tinyxml2::XMLElement& joint) {
   const std::string_view type = joint.Attribute("type") ? joint.Attribute("type") : "";
   for (const std::string_view known : {"revolute", "fixed", "continuous", "prismatic", "ball",
@@ -74,7 +74,7 @@ void check_joint_type(const std::string& path, const tinyxml2::XMLElement& joint
                   "write revolute, or fixed");
 }
 
-/// Before anything looks at each of them in turn.
+/// Called before the code walks over each child.
 void refuse_many(const std::string& path, const tinyxml2::XMLElement& element) {
   std::map<std::string_view, std::size_t> count;
   for (const auto* child = element.FirstChildElement(); child;
@@ -131,7 +131,7 @@ void XmlElement::allow(std::initializer_list<const char*> attributes,
   }
   for (const auto* inside = element_->FirstChild(); inside; inside = inside->NextSibling()) {
     if (inside->ToText() == nullptr) continue;
-    std::string word;  // of what may be many lines
+    std::string word;  // first of possibly many lines
     std::istringstream(inside->Value()) >> word;
     fail("<" + name() + "> has text inside, '" + word.substr(0, 40) + "', which nobody reads",
          "leave it out");
@@ -217,7 +217,7 @@ void XmlSource::read(const std::string& path, const std::optional<std::string>& 
                     "a robot's file starts with <sdf version=\"1.9\">");
   }
   refuse_many(path, *file.document.RootElement());
-  // An included file is often somebody else's, and used as it is.
+  // Included files are often third-party files, used unchanged.
   if (files_.size() == 1) {
     CommentCheck comments(path);
     file.document.Accept(&comments);
@@ -251,7 +251,7 @@ void XmlSource::include(const File& file, const tinyxml2::XMLElement& element) {
                     "more than " + std::to_string(kMostFiles) + " files are included",
                     "write what repeats into the robot's own file");
   }
-  // By this text libsdformat asks, and does not say for whom.
+  // libsdformat asks with this text and does not say for which file.
   const std::string whole = std::filesystem::weakly_canonical(found).string();
   const auto [same, is_new] = included_.insert({text, whole});
   if (!is_new && same->second != whole) {
@@ -334,7 +334,7 @@ XmlSource::Place XmlSource::blame(const std::string& message) const {
   std::string_view rest = message;
   while (!rest.empty()) {
     const auto length = std::min(rest.find_first_of(kDelimiters), rest.size());
-    const bool scope = rest.substr(length).starts_with("::");  // whose it is, not what
+    const bool scope = rest.substr(length).starts_with("::");  // a scope, not the name itself
     if (length > 0 && !scope) {
       if (const auto place = find(std::string(rest.substr(0, length)))) return *place;
     }

@@ -10,11 +10,10 @@
 
 #include "host/robot/model/entity.hpp"
 
-/// The XML text behind a robot, with line numbers: what libsdformat does not keep. Numbers are read
-/// strictly.
+/// XML text of a robot with the line numbers that libsdformat drops. Numbers are read strictly.
 namespace verp::model {
 
-/// An element and the file it stands in.
+/// An element and its file.
 class XmlElement {
  public:
   XmlElement(const std::string& file, const tinyxml2::XMLElement& element)
@@ -30,11 +29,11 @@ class XmlElement {
   /// Throws LoadError at this element.
   [[noreturn]] void fail(const std::string& message, const std::string& fix) const;
 
-  /// Throws LoadError when an attribute or an element inside is not among these, or text is inside.
+  /// Throws LoadError for any other attribute, inner element or text.
   void allow(std::initializer_list<const char*> attributes,
              std::initializer_list<const char*> elements = {}) const;
   bool has(const char* attribute) const { return element_->Attribute(attribute) != nullptr; }
-  /// Each throws LoadError when the attribute is missing (and no fallback is given) or malformed.
+  /// Each throws LoadError if the attribute is missing (without a fallback) or malformed.
   std::string text(const char* attribute) const;
   std::string text(const char* attribute, const std::string& fallback) const;
   double number(const char* attribute) const;
@@ -51,32 +50,31 @@ class XmlElement {
   const tinyxml2::XMLElement* element_;
 };
 
-/// A robot's file and every file that it includes.
+/// A robot's file and all files that it includes.
 class XmlSource {
  public:
-  /// Reads and checks: existence, well-formed XML, strict numbers in all standard elements. Throws
-  /// LoadError.
+  /// Reads the files and checks existence, well-formed XML and strict numbers in all standard
+  /// elements. Throws LoadError.
   explicit XmlSource(const std::string& path) : XmlSource(path, std::nullopt) {}
-  /// The same of a text that would stand in that file.
+  /// The same for a text that would be in that file.
   XmlSource(const std::string& path, const std::optional<std::string>& text);
 
   const std::string& path() const { return files_.front()->path; }
-  /// The one <model> of the main file. Throws LoadError when there is none or more than one.
+  /// The only <model> of the main file. Throws LoadError if there is not exactly one.
   XmlElement model() const;
-  /// The file that an <include> of this URI is of, whatever the working directory is then; empty:
-  /// there is none.
+  /// File of an <include> with this URI, whatever the working directory; empty: none.
   std::string included(const std::string& uri) const;
-  /// Root elements (<robot>) of the URDF files among the includes.
+  /// Root elements (<robot>) of the included URDF files.
   std::vector<XmlElement> urdfs() const;
 
   struct Place {
     std::string file;
     int line = 1;
   };
-  /// Where the link, joint, frame, ... of that name is defined; nothing if nowhere.
+  /// Place where the named link, joint, frame, ... is defined; nothing: nowhere.
   std::optional<Place> find(const std::string& name) const;
-  /// The first name in quotes, brackets or after a colon in `message` that is defined somewhere;
-  /// else the model.
+  /// Place of the first name in `message` (in quotes, brackets or after a colon) that is defined;
+  /// otherwise the model's.
   Place blame(const std::string& message) const;
 
  private:
@@ -89,7 +87,7 @@ class XmlSource {
   void inspect(const File& file, const tinyxml2::XMLElement& element);
 
   std::vector<std::unique_ptr<File>> files_;
-  std::vector<std::string> open_;  ///< the main file, the one that it includes now, ...
+  std::vector<std::string> open_;  ///< the main file, then the chain of includes to the current one
   std::map<std::string, Place> names_;
   std::map<std::string, std::string> included_;  ///< by its <uri>
 };
