@@ -12,19 +12,6 @@
 namespace verp::edit {
 namespace {
 
-/// Lines that a diff removes and adds.
-std::pair<int, int> changed_lines(const std::string& from, const std::string& to) {
-  const std::string rows = difference(from, to, "f");
-  int less = 0, more = 0;
-  for (std::size_t at = 0; at < rows.size(); at = rows.find('\n', at) + 1) {
-    less += rows[at] == '-' && rows.compare(at, 3, "---") != 0;
-    more += rows[at] == '+' && rows.compare(at, 3, "+++") != 0;
-  }
-  return {less, more};
-}
-
-const std::pair<int, int> kOneLine = {1, 1};
-
 TEST(Edit, ANumberChangesItsOwnBytesAndNoOthersAndIsTakenBack) {
   Document document = Document::open(robot("generic21"));
   const std::string before = document.text();
@@ -46,18 +33,8 @@ TEST(Edit, OfOtherPeoplesFilesOnlyTheEditedLinesChange) {
     document.apply(set(document, document.path(servo) + "@id", "33"));
     EXPECT_EQ(changed_lines(before, document.text()), kOneLine) << name;
   }
-  const std::string models = VERP_SOURCE_DIR "/../shared/models/";
-  for (const std::string file : {"op3/op3.urdf", "darwin_op/darwin_op_robot.urdf"}) {
-    Document document = Document::open(models + file);
-    const std::string before = document.text();
-    int link = -1;
-    for (const int each : document.markup()[document.model()].children) {
-      if (document.markup()[each].name == "link" && document.child(each, "inertial") >= 0)
-        link = each;
-    }
-    document.apply(set(document, document.path(link) + "/inertial/mass@value", "0.125"));
-    EXPECT_EQ(changed_lines(before, document.text()), kOneLine) << file;
-  }
+  expect_a_mass_changes_one_line(VERP_SOURCE_DIR
+                                 "/tests/host/model/published_robot/published.urdf");
 }
 
 TEST(Edit, CommentsBlanksQuotesAndLineEndsStayAsTheyWere) {

@@ -51,14 +51,35 @@ inline LoadError refusal_of(const std::string& path) {
   return {path, 0, "", ""};
 }
 
-/// True if the third-party models are found; the repository lacks them.
-inline bool has_third_party(const std::string& uri) {
-  return !resolve_model_uri(uri, ".").empty();
+/// The text without its first element that begins with `start`.
+inline std::string without_element(std::string text, const std::string& start) {
+  const auto at = text.find(start);
+  EXPECT_NE(at, std::string::npos) << start;
+  return at == std::string::npos ? text : text.erase(at, text.find("/>", at) + 2 - at);
 }
 
-#define VERP_NEEDS_THIRD_PARTY(uri)                                                 \
-  if (!has_third_party(uri)) {                                                      \
-    FAIL() << uri << " is not in " << model_path_text() << ": set VERP_MODEL_PATH"; \
+/// Expects both to have the same links, joints and servos.
+inline void expect_same_robot(const Entity& one, const Entity& other) {
+  ASSERT_EQ(one.nodes.size(), other.nodes.size());
+  for (std::size_t n = 0; n < other.nodes.size(); ++n) {
+    const Node &a = one.nodes[n], &b = other.nodes[n];
+    EXPECT_NEAR(a.mass_kg, b.mass_kg, 1e-5) << b.name;
+    EXPECT_LT((a.com_m - b.com_m).norm(), 1e-5) << b.name;
+    EXPECT_LT((a.inertia_kg_m2 - b.inertia_kg_m2).norm(), 1e-4 * b.inertia_kg_m2.norm()) << b.name;
   }
+  ASSERT_EQ(one.joints.size(), other.joints.size());
+  for (std::size_t j = 0; j < other.joints.size(); ++j) {
+    const Joint &a = one.joints[j], &b = other.joints[j];
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.parent, b.parent) << b.name;
+    EXPECT_EQ(a.servo.id, b.servo.id) << b.name;
+    EXPECT_EQ(a.servo.p_gain, b.servo.p_gain) << b.name;
+    EXPECT_LT((a.origin_m - b.origin_m).norm(), 2e-6) << b.name;
+    EXPECT_LT((a.axis - b.axis).norm(), 1e-5) << b.name;
+    EXPECT_NEAR(a.lower_rad, b.lower_rad, 1e-4) << b.name;
+    EXPECT_NEAR(a.upper_rad, b.upper_rad, 1e-4) << b.name;
+    EXPECT_NEAR(a.stand_rad, b.stand_rad, 1e-9) << b.name;
+  }
+}
 
 }  // namespace verp::model

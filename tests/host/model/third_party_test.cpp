@@ -14,9 +14,6 @@
 namespace verp::model {
 namespace {
 
-constexpr const char* kOp3 = "model://op3/op3.urdf";
-constexpr const char* kDarwin = "model://darwin_op/darwin_op_robot.urdf";
-
 double mass_of(const Entity& entity) {
   double sum = 0;
   for (const Node& node : entity.nodes) sum += node.mass_kg;
@@ -69,75 +66,10 @@ TEST(DarwinOp, LoadsWithItsKnownNumbers) {
   expect_walkable(e);
 }
 
-/// The table's robot equals the maker's files through a wrapper.
-void expect_same_robot(const std::string& name) {
-  const Entity table = load_robot(robot_file(name));
-  const Entity urdf = load_robot(robot_file(name + "_urdf"));
-  ASSERT_EQ(table.joints.size(), urdf.joints.size());
-  for (std::size_t n = 0; n < urdf.nodes.size(); ++n) {
-    const Node &a = table.nodes[n], &b = urdf.nodes[n];
-    EXPECT_NEAR(a.mass_kg, b.mass_kg, 1e-5) << b.name;
-    EXPECT_LT((a.com_m - b.com_m).norm(), 1e-5) << b.name;
-    EXPECT_LT((a.inertia_kg_m2 - b.inertia_kg_m2).norm(), 1e-4 * b.inertia_kg_m2.norm()) << b.name;
-  }
-  for (std::size_t j = 0; j < urdf.joints.size(); ++j) {
-    const Joint &a = table.joints[j], &b = urdf.joints[j];
-    EXPECT_EQ(a.name, b.name);
-    EXPECT_EQ(a.parent, b.parent) << b.name;
-    EXPECT_EQ(a.servo.id, b.servo.id) << b.name;
-    EXPECT_EQ(a.servo.p_gain, b.servo.p_gain) << b.name;
-    EXPECT_LT((a.origin_m - b.origin_m).norm(), 2e-6) << b.name;
-    EXPECT_LT((a.axis - b.axis).norm(), 1e-5) << b.name;
-    EXPECT_NEAR(a.lower_rad, b.lower_rad, 1e-4) << b.name;
-    EXPECT_NEAR(a.upper_rad, b.upper_rad, 1e-4) << b.name;
-    EXPECT_NEAR(a.stand_rad, b.stand_rad, 1e-9) << b.name;
-  }
-}
-
-TEST(Op3, TableSaysWhatTheMakersFileSays) {
-  VERP_NEEDS_THIRD_PARTY(kOp3);
-  expect_same_robot("op3");
-}
-
-TEST(DarwinOp, TableSaysWhatTheMakersFileSays) {
-  VERP_NEEDS_THIRD_PARTY(kDarwin);
-  expect_same_robot("darwin_op");
-}
-
-TEST(DarwinOp, InertiasAreRefusedUnlessCorrected) {
-  VERP_NEEDS_THIRD_PARTY(kDarwin);
-  std::string text = read_text(robot_file("darwin_op_urdf"));
-  const auto at = text.find("<verp:inertia link=\"*\"");
-  ASSERT_NE(at, std::string::npos);
-  text.erase(at, text.find("/>", at) + 2 - at);
-  const TemporaryFile file("robot.sdf", text);
-  try {
-    load_robot(file.path());
-    FAIL();
-  } catch (const LoadError& error) {
-    EXPECT_NE(error.message.find("radius of gyration"), std::string::npos) << error.what();
-    EXPECT_NE(error.fix.find("<verp:inertia"), std::string::npos);
-  }
-}
-
 TEST(ThirdParty, ImagesAreSound) {
   for (const char* const name : {"op3", "darwin_op"}) {
     const ParamsImage image = make_image(load_robot(robot_file(name)));
     EXPECT_EQ(check_image(&image, sizeof image), ImageFault::kNone) << name;
-  }
-}
-
-TEST(ThirdParty, MeshCollisionIsRefusedUnlessDropped) {
-  VERP_NEEDS_THIRD_PARTY(kOp3);
-  std::string text = read_text(robot_file("op3_urdf"));
-  const auto at = text.find("<verp:drop what=\"collision\"");
-  text.erase(at, text.find("/>", at) + 2 - at);
-  const TemporaryFile file("robot.sdf", text);
-  try {
-    load_robot(file.path());
-    FAIL();
-  } catch (const LoadError& error) {
-    EXPECT_NE(error.message.find("mesh"), std::string::npos) << error.what();
   }
 }
 

@@ -2,8 +2,10 @@
 
 #include <set>
 
+#include "host/os/files/places.hpp"
 #include "host/show/scene/build.hpp"
 #include "host/show/scene/camera.hpp"
+#include "tests/host/scene/meshes.hpp"
 #include "tests/host/session/plans.hpp"
 
 // A scene shows the robot's file; cameras label it.
@@ -55,22 +57,13 @@ TEST(Scene, ALinkWithoutLooksShowsItsCollisionShapesOrItsInertia) {
   }
 }
 
-TEST(Scene, AnUntouchedThirdPartyRobotKeepsItsMaterialsAndTheMeshesThatAreThere) {
-  ASSERT_FALSE(model::resolve_model_uri("model://op3/op3.urdf", "").empty())
-      << "not in " << model::model_path_text() << ": set VERP_MODEL_PATH";
-  const Entity entity = model::load_robot(model::find_model("op3_urdf"));
-  std::size_t meshes = 0, missing = 0, coloured = 0;
-  for (const model::Node& node : entity.nodes) {
-    for (const model::Visual& visual : node.visuals) {
-      if (visual.shape != model::Visual::Shape::kMesh) continue;
-      (visual.mesh.empty() ? missing : meshes) += 1;
-      coloured += visual.rgba.has_value();
-      EXPECT_FALSE(visual.mesh_uri.empty());
-    }
-  }
-  EXPECT_GT(meshes, 0u);   // the feet's
-  EXPECT_GT(missing, 0u);  // all others
-  EXPECT_EQ(coloured, meshes + missing);
+TEST(Scene, APublishedRobotKeepsItsMaterialsAndTheMeshesThatAreThere) {
+  const Entity entity = model::load_robot(
+      (files::source_dir() / "tests/host/model/published_robot/robot.sdf").string());
+  const MeshCount count = meshes_of(entity);
+  EXPECT_EQ(count.there, 2u) << "the feet's";
+  EXPECT_EQ(count.missing, 4u) << "all others";
+  EXPECT_EQ(count.coloured, count.there + count.missing);
 }
 
 TEST(Camera, EachViewLooksAtTheRobotAndItsOwnCameraLooksAhead) {

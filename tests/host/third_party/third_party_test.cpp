@@ -1,0 +1,66 @@
+#include "tests/host/edit/files.hpp"
+#include "tests/host/model/test_files.hpp"
+#include "tests/host/scene/meshes.hpp"
+
+/// The files of other makers, untouched, through our wrappers. Robots of our own with the same
+/// habits are tested in host/model, host/edit and host/scene.
+namespace verp {
+namespace {
+
+constexpr const char* kOp3 = "model://op3/op3.urdf";
+constexpr const char* kDarwin = "model://darwin_op/darwin_op_robot.urdf";
+
+/// The file behind a model:// address, or a failure that says where to put it.
+std::string file_of(const char* uri) {
+  const std::string file = model::resolve_model_uri(uri, ".");
+  EXPECT_FALSE(file.empty()) << uri << " is not in " << model::model_path_text()
+                             << ": set VERP_MODEL_PATH";
+  return file;
+}
+
+std::string wrapper(const std::string& name) {
+  return VERP_SOURCE_DIR "/common/robots/" + name + "/robot.sdf";
+}
+
+/// The refusal of a wrapper without one of its corrections.
+model::LoadError refusal_without(const std::string& name, const std::string& correction) {
+  const model::TemporaryFile file(
+      "robot.sdf", model::without_element(model::read_text(wrapper(name)), correction));
+  return model::refusal_of(file.path());
+}
+
+TEST(ThirdParty, TablesSayWhatTheMakersFilesSay) {
+  for (const std::string name : {"op3", "darwin_op"}) {
+    SCOPED_TRACE(name);
+    model::expect_same_robot(model::load_robot(wrapper(name)),
+                             model::load_robot(wrapper(name + "_urdf")));
+  }
+}
+
+TEST(ThirdParty, InertiasOfDarwinOpAreRefusedUnlessCorrected) {
+  ASSERT_FALSE(file_of(kDarwin).empty());
+  const model::LoadError error = refusal_without("darwin_op_urdf", "<verp:inertia link=\"*\"");
+  EXPECT_NE(error.message.find("radius of gyration"), std::string::npos) << error.what();
+  EXPECT_NE(error.fix.find("<verp:inertia"), std::string::npos);
+}
+
+TEST(ThirdParty, MeshCollisionOfOp3IsRefusedUnlessDropped) {
+  ASSERT_FALSE(file_of(kOp3).empty());
+  const model::LoadError error = refusal_without("op3_urdf", "<verp:drop what=\"collision\"");
+  EXPECT_NE(error.message.find("mesh"), std::string::npos) << error.what();
+}
+
+TEST(ThirdParty, Op3KeepsItsMaterialsAndTheMeshesThatAreThere) {
+  const scene::MeshCount count = scene::meshes_of(model::load_robot(wrapper("op3_urdf")));
+  EXPECT_GT(count.there, 0u) << "the feet's";
+  EXPECT_GT(count.missing, 0u) << "all others";
+  EXPECT_EQ(count.coloured, count.there + count.missing);
+}
+
+TEST(ThirdParty, OfTheirFilesOnlyTheEditedLineChanges) {
+  edit::expect_a_mass_changes_one_line(file_of(kOp3));
+  edit::expect_a_mass_changes_one_line(file_of(kDarwin));
+}
+
+}  // namespace
+}  // namespace verp
