@@ -12,7 +12,7 @@
 namespace verp::cli {
 namespace {
 
-constexpr int kLook_ms = 100;  // how long an interrupt may have to wait
+constexpr int kLook_ms = 100;  // longest delay of an interrupt
 
 }  // namespace
 
@@ -32,7 +32,7 @@ std::optional<std::string> Answers::line() {
       read_.append(piece.data(), static_cast<std::size_t>(count));
     } else if (count == 0 || (errno != EINTR && errno != EAGAIN)) {
       ended_ = true;
-      if (!read_.empty()) read_ += '\n';  // a last line without its end
+      if (!read_.empty()) read_ += '\n';  // a last line without a line break
     }
   }
 }

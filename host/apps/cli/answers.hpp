@@ -4,16 +4,16 @@
 
 namespace verp::cli {
 
-/// What a person types, or a script writes: standard input, line by line.
+/// Standard input, line by line, from a person or a script.
 class Answers {
  public:
-  /// The next line without its end; nothing when the input has ended or somebody interrupts.
+  /// The next line without its line break; nullopt: end of input, or interrupted.
   std::optional<std::string> line();
-  /// Asks on standard error first.
+  /// First prints the question on standard error.
   std::optional<std::string> line(const std::string& question);
 
  private:
-  std::string read_;  ///< beyond the line given last
+  std::string read_;  ///< bytes after the last returned line
   bool ended_ = false;
 };
 

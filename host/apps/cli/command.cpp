@@ -19,7 +19,7 @@ void add_bus_option(CLI::App& app, std::string& bus) {
 
 void add_json_flag(CLI::App& app, bool& json) {
   app.add_flag("--json", json, "one JSON object on stdout, everything else on stderr")
-      ->disable_flag_override();  // --json=no would be taken for no
+      ->disable_flag_override();  // else CLI11 would read --json=no as false
 }
 
 double parse_number(const std::string& text, double low, double high, const std::string& unit) {

@@ -1,22 +1,22 @@
 #pragma once
 #include <string>
 
-/// The three streams of the program. A terminal that is gone, a reader that left or a full disk
-/// behind them is no reason to lose a run: nothing here throws, and main() looks once, at the end,
-/// whether the answer got out.
+/// Standard output and error. A closed terminal, a gone reader or a full disk must not lose a run:
+/// nothing here throws, and main() checks once, at the end, whether the answer was written.
 namespace verp::cli {
 
-/// Opens what the caller closed (`>&-`), so that no file of ours becomes standard output by chance.
-/// What is written there then fails.
+/// Opens the streams that the caller closed (`>&-`), so that no file of ours becomes standard
+/// output by chance. Writes to them then fail.
 void open_missing_streams();
 
-/// To standard output, as it is.
+/// Writes `text` to standard output.
 void answer(const std::string& text);
 
-/// To standard error, and a line break.
+/// Writes `line` and a line break to standard error.
 void complain(const std::string& line);
 
-/// The exit status that remains when the answer did not get out; tells so unless the reader left.
+/// The final exit status: an error if the answer was not written. Reports that, unless the reader
+/// left.
 int after_the_answer(int status);
 
 }  // namespace verp::cli

@@ -12,7 +12,7 @@ enum ExitStatus : int {
   kNoDevice = 3,   ///< device or link
 };
 
-/// A failure the user can act on: one line that says what, where and how to fix it.
+/// A failure that the user can act on. The line gives the problem, the place and the remedy.
 class ToolError : public std::runtime_error {
  public:
   ToolError(ExitStatus status, const std::string& line)

@@ -3,13 +3,13 @@
 
 namespace verp::cli {
 
-/// An exception as the user meets it.
+/// An exception as an exit status and a line for the user.
 struct Failure {
   int status;  ///< ExitStatus
   std::string line;
 };
 
-/// Of the exception that is being handled: call it in a catch block only.
+/// The current exception; call it in a catch block only.
 Failure current_failure();
 
 }  // namespace verp::cli

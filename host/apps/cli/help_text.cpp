@@ -9,19 +9,20 @@
 namespace verp::cli {
 namespace {
 
-constexpr std::size_t kColumn = 30;  // CLI11's, of descriptions
+constexpr std::size_t kColumn = 30;  // column of CLI11's descriptions
 constexpr std::size_t kNarrow = 60;
 constexpr std::size_t kIndentOfNarrow = 6;
 constexpr int kElsewhere = 100, kLeast = 20;
 
-/// A word; of one that no line has room for, what ends with a comma and fits.
+/// A word, or, if no line can hold it, its longest part that fits and ends with a comma.
 std::string_view first_piece(std::string_view word, std::size_t room) {
   if (word.size() <= room) return word;
   const std::size_t comma = word.rfind(',', room - 1);
   return comma == word.npos ? word : word.substr(0, comma + 1);
 }
 
-/// `first`, then the words of `text`, on lines of `width` that begin with `indent` spaces.
+/// `first` and the words of `text`, in lines of at most `width`, indented by `indent` from the
+/// second.
 std::string paragraph(std::string first, std::string_view text, std::size_t indent,
                       std::size_t width) {
   std::string out, line = std::move(first);

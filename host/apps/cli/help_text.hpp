@@ -2,14 +2,14 @@
 #include <string>
 #include <string_view>
 
-/// The pages of --help, as wide as the terminal they are read on.
+/// Fits the --help pages to the width of the terminal.
 namespace verp::cli {
 
-/// Columns of the terminal on stdout; of COLUMNS, if that is set; 100 elsewhere.
+/// COLUMNS if set, else the columns of the terminal on stdout; 100 without a terminal.
 int help_width();
 
-/// CLI11's two columns with each description broken at spaces and kept in its column; below 60
-/// columns it stands below its word. A word longer than the line stays whole.
+/// Wraps CLI11's descriptions in their column; below 60 columns, puts them below their word. A word
+/// longer than the line stays whole.
 std::string wrapped_help(std::string_view text, int width);
 
 }  // namespace verp::cli

@@ -14,10 +14,10 @@ volatile std::sig_atomic_t asked_by = 0;
 volatile std::sig_atomic_t to_the_end = 0;
 volatile std::int64_t asked_at_ms = 0;
 
-// One press may arrive twice: from the terminal and from a program that passes it on (`timeout`
-// and, of a closed terminal, the shell do so).
+// One press may arrive twice: from the terminal, and from a program that forwards it (`timeout`;
+// the shell of a closed terminal).
 constexpr std::int64_t kSamePress_ms = 2000;
-// A robot has to be let go soon; what passes a press on does so at once.
+// Shorter, because a robot must be released soon, and forwarding is immediate.
 constexpr std::int64_t kSamePressOfRobot_ms = 300;
 
 extern "C" void ask(int signal) {

@@ -2,26 +2,25 @@
 
 namespace verp::cli {
 
-/// From now on a reader that went away (SIGPIPE) or a limit on the size of files (SIGXFSZ) ends
-/// nothing: the write that meets it fails.
+/// Makes writes to a gone reader (SIGPIPE) or beyond a file-size limit (SIGXFSZ) fail instead of
+/// ending the program.
 void keep_failing_writes();
 
-/// From now on SIGINT, SIGTERM and SIGHUP (the terminal was closed; unless `nohup` has us ignore
-/// it) ask the run to end instead of ending the program; a second one ends it at once. For
-/// subcommands that look at interrupted().
+/// Makes SIGINT, SIGTERM and SIGHUP (a closed terminal, unless `nohup` ignores it) request the
+/// run's end. A second signal ends the program at once. For subcommands that poll interrupted().
 void catch_interrupts();
 
-/// Likewise, but no press ends the program: who holds a robot's torque lets go of it first.
+/// The same, but no signal ends the program, because it must first release a robot's torque.
 void catch_interrupts_to_the_end();
 
-/// 0, 1, or 2: somebody asked, and asked again.
+/// Number of requests: 0, 1, or 2 for more.
 int presses();
 
-/// Whether somebody asked.
+/// Whether the user requested the end.
 bool interrupted();
 
-/// Of a run that failed since somebody asked it to end, what shells say of one that a signal ended:
-/// 130 after Ctrl-C, 143 after SIGTERM. Any other status is as it was.
+/// The shell's status for a run that failed after an interrupt: 130 after Ctrl-C, 143 after
+/// SIGTERM. Other statuses stay.
 int status_if_interrupted(int status);
 
 }  // namespace verp::cli

@@ -4,13 +4,13 @@
 
 namespace verp::cli {
 
-/// Keys keep the order in which they were written.
+/// Keys keep their insertion order.
 using Json = nlohmann::ordered_json;
 
 /// Writes one object and a newline to stdout.
 void print_json(const Json& object);
 
-/// To stdout, in the form that was asked for.
+/// Prints the JSON object or the text to stdout.
 void print_answer(bool as_json, const Json& object, const std::string& text);
 
 }  // namespace verp::cli

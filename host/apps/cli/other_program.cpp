@@ -14,12 +14,12 @@ namespace verp::cli {
 namespace {
 
 struct OtherProgram {
-  const char *path, *target;  ///< beside this program; as the build knows it
+  const char *path, *target;  ///< path relative to this program, and build target
 };
 constexpr OtherProgram kPictures = {"../pictures/verp_pictures", "verp_pictures"};
 constexpr OtherProgram kEditor = {"../edit/verp_edit", "verp_edit"};
 
-/// Becomes that program; it gets the word and all after it.
+/// Replaces this process by that program, with the word and all following arguments.
 [[noreturn]] void become(const OtherProgram& other, const std::string& word,
                          std::vector<std::string> arguments) {
   const std::filesystem::path program =

@@ -7,8 +7,8 @@ namespace verp::cli {
 
 using AddCommands = std::vector<Subcommand> (*)(CLI::App& root);
 
-/// What a main() does: the command line, one of these commands, errors as one line, and the exit
-/// status.
+/// The body of a main(): parses the command line, runs a command, prints an error as one line, and
+/// returns the exit status.
 int run_program(int argc, char** argv, AddCommands add_commands);
 
 }  // namespace verp::cli

@@ -3,19 +3,19 @@
 
 namespace verp::cli {
 
-/// What the system lets a control loop have.
+/// Real-time resources that the system grants to a control loop.
 struct RealTime {
-  bool fifo = false;    ///< this thread runs before all that is not urgent (SCHED_FIFO)
-  bool locked = false;  ///< no page of it is ever fetched from a disk
-  std::string advice;   ///< one line of what is missing, and how to get it; empty: nothing
+  bool fifo = false;    ///< this thread has real-time priority (SCHED_FIFO)
+  bool locked = false;  ///< its memory is never paged out
+  std::string advice;   ///< what is missing and the remedy, in one line; empty: nothing
 };
 
-/// Above what desktops give to sound, below the kernel's own threads for interrupts (50).
+/// Above the desktop's audio threads, below the kernel's interrupt threads (50).
 inline constexpr int kLoopPriority = 40;
 
-/// Asks for both, for the calling thread.
+/// Requests both for the calling thread.
 RealTime become_real_time();
-/// Gives the priority back: who can't keep up must not keep all others from running as well.
+/// Gives up the priority: a loop that cannot keep up must not block other programs.
 void leave_real_time();
 
 }  // namespace verp::cli

@@ -8,7 +8,7 @@
 namespace verp::cli {
 namespace {
 
-/// Letters to change, add or drop to get from one word to the other.
+/// Number of changed, added or dropped letters between two words.
 std::size_t edit_distance(std::string_view from, std::string_view to) {
   std::vector<std::size_t> row(to.size() + 1);
   for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
@@ -24,18 +24,19 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
   return row.back();
 }
 
-/// What of a name a person remembers: "stance" of gait.half_stance_m, "gait.stance" likewise.
+/// The part of a name that people remember, after the last dot: "half_stance_m" of
+/// gait.half_stance_m.
 std::string_view last_part(std::string_view word) {
   return word.substr(word.rfind('.') + 1);  // npos + 1 is 0
 }
 
-/// As a person has it who forgets the unit: "lift" of gait.lift_m.
+/// The name without its unit: "lift" of gait.lift_m.
 std::string_view without_unit(std::string_view name) {
   const std::size_t end = name.rfind('_');
   return end == name.npos || name.size() - end > 4 ? name : name.substr(0, end);
 }
 
-/// Whoever leaves out what comes before the point means one of the names behind it.
+/// A word without a dot is also compared to a name's last part.
 std::size_t distance_to(std::string_view word, std::string_view name) {
   if (word.find('.') != word.npos) return edit_distance(word, name);
   const std::string_view last = last_part(name);
@@ -52,8 +53,7 @@ std::vector<std::string> holding(std::string_view part, const std::vector<std::s
   return found;
 }
 
-/// The one name that begins as the word does: it was not misspelled, only cut off. Empty: none, or
-/// more than one.
+/// The only name that begins with the word, which is then an abbreviation. Empty: none, or several.
 std::string begun(std::string_view word, const std::vector<std::string>& names) {
   constexpr std::size_t kLetters = 3;
   const std::size_t first = word.find_first_not_of('-');

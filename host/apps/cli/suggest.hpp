@@ -5,11 +5,11 @@
 
 namespace verp::cli {
 
-/// The one of `names` that `word` was most likely meant to be: the one it is the last part of
-/// (lift_m: gait.lift_m), else one at most two letters away. Empty when there is none.
+/// The likeliest meaning of `word`: a name whose last part it is (lift_m: gait.lift_m), else a name
+/// at most two letters away. Empty: none.
 std::string nearest(std::string_view word, const std::vector<std::string>& names);
 
-/// "; did you mean --step?", or of at most five names that hold the word's last part, or nothing.
+/// "; did you mean --step?", or at most five names that contain the word's last part, or nothing.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
 }  // namespace verp::cli

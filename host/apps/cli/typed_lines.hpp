@@ -3,11 +3,11 @@
 
 namespace verp::cli {
 
-/// What a person types beside a run that goes on: lines of the standard input. Never waits.
+/// Lines that a person types during a run. Never waits.
 class TypedLines {
  public:
-  /// The next whole line; empty: there is none. Of a terminal that another program has in its
-  /// foreground nothing is taken.
+  /// The next complete line; empty: there is none. Reads nothing while another program is in the
+  /// terminal's foreground.
   std::string next();
 
  private:

@@ -12,10 +12,10 @@ namespace verp::compare {
 namespace {
 
 constexpr double kStill_rad = 0.0035;  ///< 0.2 degrees rms, two counts of 4096: encoder noise
-constexpr double kAlike = 0.5;         ///< of B's motion more is left: it is another motion
+constexpr double kAlike = 0.5;         ///< largest residual, as a part of B's motion
 constexpr double kLeastCommon_s = 0.5;
 constexpr double kLeastRead = 0.5;
-constexpr double kMainPart = 0.35;  ///< of a joint's amplitude, that gain and phase are told of
+constexpr double kMainPart = 0.35;  ///< least share of the gait frequency for gain and phase
 constexpr int kSettleCycles = 2, kLeastCycles = 2;
 
 void refuse_what_has_no_ticks(const record::Trace& trace) {
@@ -23,7 +23,7 @@ void refuse_what_has_no_ticks(const record::Trace& trace) {
   throw record::TraceError(trace.file, "holds no tick", "record a run that begins");
 }
 
-/// Of a part that was cut from a run, nobody can see when the command was given.
+/// For a trace cut from the middle of a motion, the time of the command is unknown.
 void refuse_what_began_before(const record::Trace& trace) {
   if (!trace.before) return;
   if (trace.before->gait.queued == 0 && trace.before->action.number == 0) return;
@@ -56,7 +56,7 @@ double rms_about(const std::vector<double>& values, double mean) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// One comparison, step by step.
+/// The steps of one comparison.
 class Comparing {
  public:
   Comparing(const record::Trace& a, const record::Trace& b, const Options& options)
@@ -128,7 +128,7 @@ class Comparing {
     }
   }
 
-  /// Whole cycles in which both walk and nothing begins any more.
+  /// Finds the whole cycles in which both walk steadily.
   void find_gait() {
     if (!a_.ordered_s() || std::abs(a_.cycle_s() - b_.cycle_s()) > 1e-6) return;
     const double from_s = out_.from_s + kSettleCycles * a_.cycle_s();
@@ -209,7 +209,7 @@ class Comparing {
     };
     const Wave of_a = wave(a), of_b = wave(b);
     if (std::min(of_a.amplitude(), of_b.amplitude()) < kStill_rad) return;
-    // What it does twice a cycle, or once, leaks into a part that is small beside it.
+    // Harmonics leak into a component that is small beside them.
     const double whole_rad = result.moved_rad * std::numbers::sqrt2;
     if (of_a.amplitude() < kMainPart * whole_rad) return;
     result.gain = of_b.amplitude() / of_a.amplitude();
@@ -229,7 +229,7 @@ class Comparing {
   Motion a_, b_;
   Comparison out_;
   Pair pair_;
-  Shifts all_;  ///< of all joints that have a delay
+  Shifts all_;  ///< sum over all joints that have a delay
   std::size_t gait_from_ = 0, gait_samples_ = 0;
 };
 

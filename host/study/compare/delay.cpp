@@ -45,7 +45,7 @@ std::optional<Delay> delay_of(const Shifts& shifts) {
       static_cast<std::size_t>(std::min_element(left.begin(), left.end()) - left.begin());
   if (least == 0 || least + 1 == left.size()) return std::nullopt;
   const double bend = left[least - 1] - 2 * left[least] + left[least + 1];
-  if (bend <= 0) return std::nullopt;  // flat: nothing moved
+  if (bend <= 0) return std::nullopt;  // flat: no motion
   const double part = (left[least - 1] - left[least + 1]) / 2 / bend;
   const double at_least = left[least] - bend * part * part / 2;
   const auto& offset = shifts.offset;

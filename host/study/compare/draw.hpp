@@ -6,7 +6,7 @@
 
 namespace verp::compare {
 
-/// The two laid over each other, joint by joint, over their last few cycles in common.
+/// Both angles of each joint, over some common cycles.
 report::Plot angles_plot(const Comparison& comparison, const Pair& pair);
 /// Error, offset and delay of each joint, side by side.
 report::Plot joints_plot(const Comparison& comparison);

@@ -12,11 +12,11 @@
 namespace verp::compare {
 namespace {
 
-/// Index of a number in the list that parameter writes name.
+/// Index in the list of tuning values.
 constexpr std::size_t kCycleId =
     (offsetof(Tuning, gait) + offsetof(GaitTuning, cycle_s)) / sizeof(float);
 
-/// Straight lines through what is known; `known` holds ascending places.
+/// Interpolates linearly between the places in `known`, which ascend.
 void fill(std::vector<double>& values, const std::vector<std::size_t>& known) {
   if (known.empty()) return;
   std::fill_n(values.begin(), known.front(), values[known.front()]);
@@ -40,7 +40,7 @@ Motion::Motion(const record::Trace& trace)
   see_orders(trace);
 }
 
-/// Ticks that the robot's PC was too late for are not in the trace.
+/// The trace lacks the ticks for which the robot's PC was too late.
 std::size_t Motion::slot(const record::Trace& trace, std::size_t index) const {
   return trace.ticks[index].inputs.tick - trace.ticks.front().inputs.tick;
 }

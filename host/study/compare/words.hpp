@@ -6,15 +6,15 @@
 
 namespace verp::compare {
 
-/// Of a radian: what people read.
+/// Degrees per radian, for printed angles.
 inline constexpr double kDegrees = 180 / std::numbers::pi;
 
-/// For a terminal: how the two lie together, a line for each joint, notes.
+/// For a terminal: the alignment, a line per joint, notes.
 std::string text_of(const Comparison& comparison);
 
-/// A line for each joint, with its units in the head. What there is none of is an empty cell.
+/// A line per joint, units in the header. Missing values are empty cells.
 std::string joints_csv(const Comparison& comparison);
-/// A line for each tick that was compared: the angles of both.
+/// A line per compared tick: the angles of both.
 std::string angles_csv(const Comparison& comparison, const Pair& pair);
 
 }  // namespace verp::compare

@@ -4,7 +4,7 @@
 
 #include "host/study/report/run_data.hpp"
 
-/// The numbers behind the page, one text per file.
+/// The numbers of the page, one text per file.
 namespace verp::report {
 
 std::string samples_csv(const Run& run);
@@ -13,17 +13,16 @@ std::string bias_csv(const Run& run);
 std::string torque_csv(const Run& run);
 std::string sweep_csv(const Run& run);
 
-/// Mean and largest torque use of one joint while walking.
+/// Mean and peak torque use of a joint during the walk.
 struct TorqueUse {
   double mean = 0, peak = 0;
 };
 std::vector<TorqueUse> torque_use(const Run& run);
 
-/// Forward speed averaged over one cycle around each sample.
+/// Forward speed, averaged over one cycle around each sample.
 std::vector<double> speed_m_s(const Run& run);
 
-/// Samples [first, last) of the last whole cycle of steady walking; empty (first == last) when
-/// there is none.
+/// Samples [first, last) of the last whole steady cycle; empty (first == last) if there is none.
 struct Range {
   std::size_t first = 0, last = 0;
   bool empty() const { return first == last; }

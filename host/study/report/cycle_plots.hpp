@@ -2,7 +2,7 @@
 #include "host/study/report/csv.hpp"
 #include "host/study/report/plots.hpp"
 
-/// Pictures of one steady cycle.
+/// Plots of one steady cycle.
 namespace verp::report {
 
 Plot joint_plot(const Run& run, const Range& cycle);

@@ -7,13 +7,13 @@
 #include "host/study/report/page.hpp"
 #include "host/study/report/run_data.hpp"
 
-/// Pieces of which pages are made: no scripts, no files beside them, light and dark.
+/// Parts of pages: no scripts, no external files, light and dark.
 namespace verp::report {
 
-/// Text as HTML shows it.
+/// Escapes text for HTML.
 std::string escape(const std::string& text);
 
-/// A whole page: `body` is HTML, the rest is text.
+/// A complete page: `body` is HTML, the rest is text.
 std::string document(const std::string& title, const std::string& verdict, bool good,
                      const std::string& body);
 
@@ -23,19 +23,19 @@ std::string facts(const std::vector<Fact>& facts);
 /// A section with a picture.
 std::string section(const Picture& picture);
 
-/// Pictures of plots as sections, as far as gnuplot makes them.
+/// Plots as sections, as far as gnuplot can draw them.
 struct Sections {
   std::string body;
   bool poster = false;  ///< the file was written
-  std::string note;     ///< why pictures are missing; empty: none is
+  std::string note;     ///< why pictures are missing; empty: all are there
 };
-/// The first plot is also the file `poster`. Throws ReportError.
+/// Also writes the first plot to the file `poster`. Throws ReportError.
 Sections draw_sections(const std::vector<Plot>& plots, const std::filesystem::path& poster);
 
-/// A section with a table of such rows(); empty if there are none.
+/// A section with a table of rows(); empty without rows.
 std::string table(const char* title, const std::string& rows);
 
-/// Rows of a table with a name and a value each; `link`: the name is a file beside the page.
+/// Table rows of names and values; `link`: the name is a file beside the page.
 std::string rows(const std::vector<std::pair<std::string, std::string>>& entries, bool link);
 
 }  // namespace verp::report

@@ -16,14 +16,14 @@ constexpr double kGap_mm = 12;  // between two figures
 
 using Kind = Limb::Kind;
 
-/// A head's line ends in its centre.
+/// A head's line ends at its centre.
 double head_radius_mm(const std::vector<Point3>& line) {
   const Point3 &neck = line[line.size() - 2], &centre = line.back();
   return 800 * std::hypot(centre.x_m - neck.x_m, centre.z_m - neck.z_m);
 }
 
-/// The 16 states from the side: how far ahead of the cycle's first body pose a point is, along the
-/// walk, and its height.
+/// The 16 states from the side: distance along the walk from the cycle's first body pose, and
+/// height.
 class Strip {
  public:
   Strip(const Run& run, const Range& cycle) : run_(run), first_(run.samples[cycle.first]) {
@@ -49,13 +49,13 @@ class Strip {
   double right_mm() const { return kIntervals * pitch_mm() + front_mm_; }
   const Sample& state(int i) const { return *states_[static_cast<std::size_t>(i)]; }
 
-  /// Where a point of the i-th state is drawn.
+  /// Drawn position of a point of the i-th state.
   double x_mm(int i, const Point3& point) const {
     return i * pitch_mm() + 1000 * (ahead_m(point) - ahead_m(state(i).body));
   }
   double x_mm(int i, const Point2& point) const { return x_mm(i, Point3{point.x_m, point.y_m, 0}); }
 
-  /// Lines of one kind and side in all states; as data set for gnuplot.
+  /// Lines of one kind and side in all states, as a gnuplot data block.
   std::string lines(const char* name, Kind kind, int side) const {
     Data data(name);
     for (int i = 0; i < kStates; ++i) {
@@ -87,7 +87,7 @@ class Strip {
   double back_mm_ = 0, front_mm_ = 0, height_mm_ = 0;
 };
 
-/// Heads as circles around their centres: x, z, radius.
+/// Heads as circles: x, z, radius.
 std::string heads(const Run& run, const Strip& strip) {
   Data data("heads");
   for (int i = 0; i < kStates; ++i) {

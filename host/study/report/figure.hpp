@@ -6,11 +6,11 @@
 
 namespace verp::report {
 
-/// The robot from its right side in the 16 states of a cycle, beside each other.
+/// The robot from its right side in the 16 states of a cycle, side by side.
 Plot figure_plot(const Run& run, const Range& cycle);
 
-/// The walk in one picture, to show to others: the robot's 16 states over the ZMP's track. Nothing
-/// when the run has no steady cycle.
+/// The walk in one picture: the robot's 16 states above the ZMP's track. nullopt: the run has no
+/// steady cycle.
 std::optional<Plot> poster(const Run& run);
 
 }  // namespace verp::report

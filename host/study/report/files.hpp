@@ -4,11 +4,11 @@
 
 namespace verp::report {
 
-/// The folder that `option` named, made if need be. Throws ReportError.
+/// Creates the folder that `option` named, if missing. Throws ReportError.
 void make_folder(const std::filesystem::path& folder, const char* option);
 
-/// Writes a whole file under a name of its own, then renames it: a reader never sees half of it,
-/// and two writers never mix. Throws ReportError.
+/// Writes a file under a temporary name, then renames it: readers never see a partial file, and two
+/// writers never mix. Throws ReportError.
 void write_file(const std::filesystem::path& file, std::string_view content);
 
 }  // namespace verp::report

@@ -6,18 +6,18 @@
 
 namespace verp::report {
 
-/// Whether gnuplot can be run here.
+/// Whether gnuplot is installed.
 bool gnuplot_available();
 
-/// The picture as SVG, ready to stand inside a page: without XML prolog, its colours the page's CSS
-/// variables. Nothing when it fails; `error` then holds gnuplot's first line, or
-/// how it ended. Throws files::FileError when there is no place for the script.
+/// The plot as SVG for embedding in a page: no XML prolog, colours as the page's CSS variables. On
+/// failure nullopt; `error` is gnuplot's first line, or how it ended. Throws files::FileError if
+/// the script cannot be written.
 std::optional<std::string> draw(const Plot& plot, std::string& error);
 
-/// The picture as an SVG file of its own, in the light colours, on white.
+/// The plot as an SVG file, in light colours on white.
 std::optional<std::string> draw_svg(const Plot& plot, std::string& error);
 
-/// The picture as PNG in the light colours, on white.
+/// The plot as PNG, in light colours on white.
 std::optional<std::string> draw_png(const Plot& plot, std::string& error);
 
 }  // namespace verp::report

@@ -12,8 +12,8 @@ struct Picture {
   std::string svg;
 };
 
-/// The whole page: no scripts, no files beside it, light and dark. `note` is shown where pictures
-/// are missing; `files` are names beside the page with what they hold.
+/// The complete page: no scripts, no external files, light and dark. `note` is shown if pictures
+/// are missing; `files` lists the files beside the page and their contents.
 std::string page(const Run& run, const std::vector<Picture>& pictures, const std::string& note,
                  const std::vector<std::pair<std::string, std::string>>& files);
 

@@ -2,8 +2,8 @@
 
 namespace verp::report {
 
-/// A colour of the page. Plots name it by its sentinel, a colour nobody else uses; gnuplot.cpp puts
-/// the CSS variable in its place, so that one picture suits a light and a dark page.
+/// A colour of the page. Plots use its sentinel, a colour that occurs nowhere else. gnuplot.cpp
+/// replaces it by the CSS variable, so that one picture suits light and dark pages.
 struct Colour {
   const char* variable;
   const char* sentinel;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// A dashed line across a plot, to be appended to its `plot` command; nothing without a mean.
+/// A dashed mean line, appended to a `plot` command; empty without a mean.
 std::string mean_line(const std::optional<double>& mean, const char* title) {
   if (!mean) return "";
   return fmt::format(
@@ -24,7 +24,7 @@ std::string mean_line(const std::optional<double>& mean, const char* title) {
       *mean, kInk, title);
 }
 
-/// What a view from above has to hold, and the paper for it: neither a strip nor a column.
+/// The extent of a plot from above, limited in its aspect ratio.
 class Extent2 {
  public:
   void add(const Point2& point) {
@@ -69,7 +69,7 @@ Plot bias_plot(const Run& run) {
           script};
 }
 
-/// One centimetre ahead is as long as one aside.
+/// Both axes have the same scale.
 Plot way_plot(const Run& run) {
   Data asked("asked"), walked("walked"), start("start");
   const std::size_t stride = std::max<std::size_t>(1, run.samples.size() / 1500);
@@ -135,7 +135,8 @@ Plot torque_plot(const Run& run) {
 
 Plot sweep_plot(const Run& run) {
   Data data("sweep");
-  for (const SweepRow& row : run.sweep) {  // each where it walked, which may be less than asked
+  for (const SweepRow& row :
+       run.sweep) {  // at the reached step, which may be shorter than requested
     for (const SweepWalk& walk : {row.with, row.without}) {
       data.cell(100 * walk.step_m.value_or(row.step_m)).cell(walk.bias_mm.value_or(kNone));
     }

@@ -4,17 +4,17 @@
 
 #include "host/study/report/run_data.hpp"
 
-/// The pictures of a report as gnuplot scripts with their data inside.
+/// The plots of a report as gnuplot scripts that contain their data.
 namespace verp::report {
 
-/// A script plots to stdout in a terminal that is already set, `width` by `height` pixels.
+/// The script plots to stdout; the caller sets the terminal, `width` by `height` pixels.
 struct Plot {
   std::string id, title, caption;
   int width = 0, height = 0;
   std::string script;
 };
 
-/// Those plots of the page the run has data for.
+/// The plots of the page for which the run has data.
 std::vector<Plot> plots(const Run& run);
 
 }  // namespace verp::report

@@ -20,12 +20,12 @@ constexpr std::string_view kNames[] = {"index.html", "samples.csv", "zmp_bias.cs
                                        "torque.csv", "asked.csv",   "sweep.csv",
                                        "walk.png",   "map.png",     "map.csv"};
 
-/// What gnuplot made of a run. A picture that fails never costs another one, nor the numbers.
+/// The pictures of a run. If one fails, the others and the numbers remain.
 struct Drawing {
   std::vector<Picture> pictures;
   std::string png;
   std::size_t wanted = 0, failed = 0;
-  std::string problem;  ///< of the first that failed: mostly all fail for the same reason
+  std::string problem;  ///< of the first failure; usually all have the same cause
 };
 
 Drawing draw_all(const Run& run) {

@@ -18,21 +18,21 @@ class ReportError : public std::runtime_error {
 
 struct Written {
   std::filesystem::path page;
-  /// One line the reader should know: that plots are missing and why; empty: nothing.
+  /// Why plots are missing, in one line; empty: all are there.
   std::string note;
-  bool lost = false;  ///< they are missing because the disk refused, not for want of gnuplot
+  bool lost = false;  ///< plots are missing because of a disk error, not because gnuplot is missing
 };
 
-/// Whether write_report(), or a map's page (host/study/survey), writes a file of that name.
+/// Whether write_report() or a map's page (host/study/survey) writes a file of that name.
 bool is_of_the_report(std::string_view name);
 
-/// Removes those files that an earlier run left in this folder and this run has none of: they would
-/// be taken for its own. `files`: what it wrote, with what they hold.
+/// Removes report files of an earlier run that this run did not write, because they would appear to
+/// be its own. `files`: what it wrote, and the contents.
 void remove_what_is_older(const std::filesystem::path& folder,
                           const std::vector<std::pair<std::string, std::string>>& files);
 
-/// Writes index.html (self-contained, plots inside) and the numbers as CSV into `folder`, which is
-/// made if need be. Each file appears whole or not at all; other files in the folder stay. Throws
+/// Writes index.html (self-contained, with plots) and the numbers as CSV into `folder`, which is
+/// created if missing. Each file appears complete or not at all; other files stay. Throws
 /// ReportError.
 Written write_report(const std::filesystem::path& folder, const Run& run);
 

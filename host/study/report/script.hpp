@@ -3,13 +3,13 @@
 
 #include <string>
 
-/// Pieces of gnuplot scripts.
+/// Parts of gnuplot scripts.
 namespace verp::report {
 
-/// The look shared by all pictures.
+/// The common style of all plots.
 std::string preamble();
 
-/// A named data block; rows of numbers, NaN where there is none.
+/// A named data block with rows of numbers; NaN for missing ones.
 class Data {
  public:
   explicit Data(const char* name) { text_ = fmt::format("${} << EOD\n", name); }
@@ -26,7 +26,7 @@ class Data {
     text_ += '"' + value + "\" ";
     return *this;
   }
-  /// Also ends a line of points when the row is empty; two empty rows end a data set.
+  /// On an empty row also ends a line of points; two empty rows end a data set.
   Data& end_row() {
     text_ += '\n';
     return *this;
@@ -37,12 +37,12 @@ class Data {
   std::string text_;
 };
 
-/// Part of a picture: data blocks, and the commands that plot them.
+/// A part of a plot: data blocks, and their plot commands.
 struct Panel {
   std::string data, commands;
 };
 
-/// Joint names come from a file: keeps what gnuplot takes as plain text inside quotes.
+/// Keeps the characters that gnuplot accepts inside quotes, because joint names come from a file.
 std::string plain(const std::string& name);
 
 }  // namespace verp::report

@@ -15,7 +15,7 @@ void add_outline(const std::array<Point2, 4>& corners, Data& data) {
   data.end_row().end_row();
 }
 
-/// One outline a stance: in the middle of it, when the sole lies flat.
+/// One outline per stance, in its middle, where the sole is flat.
 bool shows_sole(const Run& run, const Range& range, std::size_t i, std::size_t foot) {
   const Sample& s = run.samples[i];
   const bool first = i == range.first || run.samples[i - 1].state != s.state;
@@ -23,7 +23,7 @@ bool shows_sole(const Run& run, const Range& range, std::size_t i, std::size_t f
          s.contact[foot];
 }
 
-/// What the soles cover, mm.
+/// Extent of the soles, mm.
 struct Extent {
   Point2 low{1e9, 1e9}, high{-1e9, -1e9};
   void add(const std::array<Point2, 4>& corners) {
@@ -90,7 +90,7 @@ Panel zmp_panel(const Run& run, const Range& range) {
 }
 
 Plot zmp_plot(const Run& run, const Range& cycle) {
-  // Three cycles: enough soles to see the pattern, few enough to tell them apart.
+  // Three cycles show the pattern, and the soles remain distinct.
   const std::size_t more = 2 * (cycle.last - cycle.first);
   const Panel panel = zmp_panel(run, {cycle.first - std::min(cycle.first, more), cycle.last});
   return {

@@ -5,7 +5,7 @@
 
 namespace verp::report {
 
-/// From above: the soles where they carry, the body, the ZMP as planned and as measured.
+/// From above: the supporting soles, the body, and the planned and measured ZMP.
 Panel zmp_panel(const Run& run, const Range& range);
 
 Plot zmp_plot(const Run& run, const Range& cycle);

@@ -12,7 +12,7 @@
 namespace verp::signals {
 namespace {
 
-/// Of a field's name: the longest end first.
+/// Units by suffix of a field's name, the longest suffix first.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kUnits{
     {{"_tenth_mm_s", "0.1 mm/s"},
      {"_tenth_mrad", "0.1 mrad"},
@@ -27,7 +27,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kUnits{
      {"_us", "µs"},
      {"_s", "s"}}};
 
-/// limit.goal_rad[3]: rad.
+/// "limit.goal_rad[3]" gives "rad".
 std::string unit_of_field(std::string_view path) {
   std::string_view name = path.substr(path.rfind('.') + 1);  // npos + 1 is 0
   name = name.substr(0, name.find('['));
@@ -49,7 +49,7 @@ bool fits(std::string_view pattern, std::string_view name) {
     } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n])) {
       ++p, ++n;
     } else if (star != std::string_view::npos) {
-      p = star + 1, n = ++from;  // the star takes one letter more
+      p = star + 1, n = ++from;  // the star matches one more character
     } else {
       return false;
     }

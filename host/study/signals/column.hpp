@@ -7,32 +7,32 @@
 
 #include "common/model/params.hpp"
 
-/// What a trace holds as columns of numbers: a line each tick, a column each signal.
+/// A trace as columns of numbers: a row per tick, a column per signal.
 namespace verp::signals {
 
-/// How CSV writes a column's numbers.
+/// Number format of a column in CSV.
 enum class Format : std::uint8_t {
   kWhole,
   kFixed4,   ///< four decimals
   kFixed6,   ///< six decimals
-  kDigits5,  ///< five digits that count
+  kDigits5,  ///< five significant digits
   kDigits6,
-  kState,  ///< a field of State, as fields.hpp has it
+  kState,  ///< a field of State, as in fields.hpp
 };
 
-/// SI units, sensor axes as the IMU has them.
+/// SI units; sensor axes are those of the IMU.
 struct Column {
-  std::string name;     ///< the joint's in it is from a file
-  std::string unit;     ///< empty: a number without, such as a phase
-  std::string subject;  ///< what it is of: measured and goal of a joint have the same
+  std::string name;     ///< may contain a joint name, which comes from a file
+  std::string unit;     ///< empty: no unit, for example a phase
+  std::string subject;  ///< measured and goal of a joint have the same subject
   Format format = Format::kWhole;
 };
 
-/// In the order of the CSV; `states`: every field of the controller's State, too.
+/// In CSV order; `states` adds every field of the controller's State.
 std::vector<Column> columns_of(const Params& params, bool states);
 
-/// Those that `pattern` means, in their order: the one of that name, or else all that fit, `*`
-/// being any letters and `?` any one. Empty: none.
+/// Indices that match `pattern`, in order: the column of that name, else all that match it with `*`
+/// for any characters and `?` for one. Empty: none.
 std::vector<std::size_t> matching(const std::vector<Column>& columns, std::string_view pattern);
 
 }  // namespace verp::signals

@@ -5,7 +5,7 @@
 
 namespace verp::signals {
 
-/// What is left of a table: a line of names, and one a tick.
+/// Writes the remaining rows of a table, after a line of names.
 void write_csv(Table& table, std::ostream& out);
 
 }  // namespace verp::signals

@@ -6,8 +6,7 @@
 
 namespace verp::signals {
 
-/// Signals over time, panels_of them one below the other on one time axis. What is asked of a joint
-/// is dashed.
+/// Signals over time, in panels (panels_of()) on one time axis. Joint goals are dashed.
 report::Plot plot_of(const Series& series, const std::string& title);
 
 }  // namespace verp::signals

@@ -11,23 +11,23 @@
 
 namespace verp::signals {
 
-/// A trace's columns, tick by tick: what was measured, and what the controller made of it.
+/// A trace's columns, tick by tick: measurements and the controller's results.
 class Table {
  public:
-  /// The trace must outlive it. `states`: with every field of the controller's State.
+  /// The trace must outlive the table. `states` adds every field of the controller's State.
   Table(const record::Trace& trace, bool states);
 
   const std::vector<Column>& columns() const { return columns_; }
-  /// On to the next tick; first of all to the first one. False: there is none.
+  /// Moves to the next tick, at first to the first one. False: there is none.
   bool next();
-  std::size_t index() const { return index_; }  ///< of Trace::ticks
+  std::size_t index() const { return index_; }  ///< in Trace::ticks
   double time_s() const { return numbers_[1]; }
-  /// Of this tick. Not a number: not known.
+  /// Value in this tick. NaN: unknown.
   double number(std::size_t column) const;
-  /// The same for CSV: nothing where it is not known.
+  /// For CSV: nothing if unknown.
   void append_text(std::size_t column, std::string& out) const;
-  /// The tick from which on this program decided otherwise than the one that recorded the trace:
-  /// what the controller made of its inputs is not known.
+  /// The tick from which this program decides differently from the recording one; the controller's
+  /// results are unknown from there.
   const std::optional<std::uint32_t>& other_from() const { return other_from_; }
 
  private:
@@ -42,7 +42,7 @@ class Table {
   record::JointSpeeds speeds_;
   std::size_t index_ = 0, next_ = 0;
   std::vector<double> numbers_;                             ///< of this tick, without State
-  std::vector<std::pair<std::string, std::string>> state_;  ///< its fields; empty: not known
+  std::vector<std::pair<std::string, std::string>> state_;  ///< fields of State; empty: unknown
   std::optional<std::uint32_t> other_from_;
 };
 
