@@ -175,7 +175,7 @@ FlashAnswer flash_silicon(const FlashOptions& options, const flash::Recipe& reci
   return answer;
 }
 
-/// What the user can do with a board in QEMU.
+/// Tells the user how to use a board in QEMU.
 std::string to_text(const FlashOptions& options, const flash::EmulationPlan& plan,
                     const std::string& told) {
   std::string text =

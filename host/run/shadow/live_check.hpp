@@ -20,10 +20,9 @@ namespace verp::shadow {
 /// Ticks that pass during that reading are compared afterwards. A difference in one of them comes
 /// too late to examine and counts as unsettled.
 ///
-///  A tick that was not heard completely is not a difference: it counts as a gap, and the State is
-///  requested again, as after a restart of the controller. The class consumes and produces frames;
-///  it uses no interface and no clock. Times are monotonic microseconds.
-/// no clock. Times are microseconds that never go back.
+/// A tick that was not heard completely is not a difference: it counts as a gap, and the State is
+/// requested again, as after a restart of the controller. The class consumes and produces frames;
+/// it uses no interface and no clock. Times are monotonic microseconds.
 class LiveCheck final : public Check {
  public:
   explicit LiveCheck(const Params& params, const action::Library& own = {});

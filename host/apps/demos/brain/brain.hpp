@@ -63,7 +63,7 @@ struct Orders {
   bool done = false;  ///< this robot believes that its part is over
 };
 
-/// What a robot knows of itself at the start: its file, its number and its start pose.
+/// A robot's knowledge of itself at the start.
 struct About {
   int number = 0, robots = 1;  ///< own number, from 0; number of robots
   Pose placed;                 ///< start pose, as exactly as it was measured
