@@ -14,7 +14,7 @@
 namespace verp::session {
 namespace {
 
-/// Who decides its ticks.
+/// Computes the robot's ticks.
 struct Law {
   Robot* robot = nullptr;
   void operator()(const Params&, State& state, const Inputs& inputs, Outputs& outputs) {
@@ -54,7 +54,7 @@ class LocalController final : public Controller {
   bool up_ = false;
 };
 
-/// In firmware: the board runs its loop, of which each tick here is a piece.
+/// In firmware: the board runs its own loop; each tick() here runs it to the end of one tick.
 class BoardController final : public Controller {
  public:
   explicit BoardController(Robot& robot)
@@ -75,7 +75,7 @@ class BoardController final : public Controller {
     hooks.order = [&](std::uint32_t tick) { return robot_.order(tick); };
     hooks.stop = [&] { return robot_.over() || !failure_.empty(); };
     hooks.record = [&](const TickRecord& tick) {
-      if (hooks.stop()) return;  // the board finishes the tick it is in
+      if (hooks.stop()) return;  // the board finishes its current tick
       compare(tick);
       flow.pause();
     };
@@ -86,7 +86,7 @@ class BoardController final : public Controller {
                              {.actions = robot_.plan().actions}, robot_.plan().firmware_folder);
       if (failure_.empty() && ended.exit_code != 0) failure_ = board + ": " + ended.reason;
     } catch (const board::BoardError&) {
-      if (!robot_.interrupted()) throw;  // Ctrl-C in a terminal ends the emulator too
+      if (!robot_.interrupted()) throw;  // Ctrl-C in a terminal also ends the emulator
     }
   }
 
@@ -106,7 +106,7 @@ class BoardController final : public Controller {
   }
 
   Robot& robot_;
-  State state_;  ///< of the core that runs along
+  State state_;  ///< of the core that runs here
   std::string failure_;
   Flow flow_;
 };

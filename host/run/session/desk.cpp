@@ -21,7 +21,7 @@ app::OperatorOrder Desk::order(std::uint32_t tick) {
   const bool changed = std::exchange(stopped_, stop) != stop;
   if (changed || (wanted.flags & (kCommandFresh | kParameterWrite)) != 0) {
     std::size_t packets = 0;
-    // Behind this one is a twin, and nobody stands beside it.
+    // Sends the required first order, relax, by itself: no person stands beside a twin.
     if (!std::exchange(relaxed_, true)) {
       bus::append_write(wire_.asked, app::reg("request"),
                         {static_cast<std::uint8_t>(Request::kRelax)});

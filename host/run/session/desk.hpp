@@ -8,20 +8,20 @@
 
 namespace verp::session {
 
-/// Between the person who gives a robot's orders and its controller in this process: the controller
-/// is device 200 on a wire, as on a board, and orders are writes to its registers. No struct takes
-/// a short cut: what a board would refuse is refused here. OperatorLink and Recorder of the loop.
+/// Connects the source of a robot's orders with its controller in this process. As on a board, the
+/// controller is device 200 on a wire and orders are register writes, so it rejects what a board
+/// rejects. Implements OperatorLink and Recorder of the loop.
 class Desk {
  public:
   explicit Desk(Robot& robot);
 
   void brought_up(const app::BringUpReport& report) { device_.brought_up(report); }
-  /// Throws bus::SinkError if the controller does not take an order.
+  /// Throws bus::SinkError if the controller rejects an order.
   app::OperatorOrder order(std::uint32_t tick);
   void record(const TickRecord& tick, const State& state, const Outputs& outputs);
 
  private:
-  /// The controller's end; this one's bytes are in the open.
+  /// The controller's end; the other end is the public buffers.
   struct Wire {
     std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t) {
       told.insert(told.end(), data, data + size);
@@ -43,8 +43,7 @@ class Desk {
   Robot& robot_;
   Wire wire_;
   app::OperatorDevice<Wire> device_;
-  bool relaxed_ =
-      false;  ///< asked to, once: before that a controller that has started obeys nobody
+  bool relaxed_ = false;  ///< sent once; before it, a new controller obeys no order
   bool stopped_ = false;  ///< the emergency stop is pressed
 };
 

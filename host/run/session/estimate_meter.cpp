@@ -21,14 +21,14 @@ Vec2 along(double heading_rad, const Vec2& v) {
   return Eigen::Rotation2Dd(-heading_rad) * v;
 }
 
-/// Half of either, or one of them: what carries. Somebody's own controller may put out any byte.
+/// Mean of both sides, or the supporting side. A user's controller may output any `stance`.
 template <class Of>
 Vec2 under_load(std::uint8_t stance, Of&& of) {
   if (stance >= gait::kBoth) return (of(0) + of(1)).template head<2>() / 2;
   return of(stance).template head<2>();
 }
 
-/// From the sole that carries to the DCM of the robot as it is.
+/// From the supporting sole to the true DCM.
 Vec2 real_dcm_m(const sim::Truth& truth, std::uint8_t stance) {
   const auto sole = [&](int side) {
     return truth.foot[static_cast<std::size_t>(side)].centroid_world_m;

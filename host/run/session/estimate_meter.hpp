@@ -5,35 +5,34 @@
 #include "common/control/state.hpp"
 #include "host/twin/sim/truth.hpp"
 
-/// What the controller believes of its body, held against the twin's truth.
+/// Compares the controller's estimates of its body with the twin's truth.
 namespace verp::session {
 
-/// Over the ticks of the gait, up to a fall. Root mean squares, and the largest error of any tick.
+/// Over the ticks of the gait, up to a fall: root mean squares and largest errors.
 struct EstimateErrors {
-  std::uint64_t ticks = 0;      ///< that were compared; 0: none, and nothing is known
-  double attitude_rms_deg = 0;  ///< angle between "up" as it is and as the controller has it
-  double roll_rms_deg = 0, pitch_rms_deg = 0;  ///< of it, about the body's own axes
+  std::uint64_t ticks = 0;                     ///< compared ticks; 0: no result
+  double attitude_rms_deg = 0;                 ///< angle between the true and the estimated "up"
+  double roll_rms_deg = 0, pitch_rms_deg = 0;  ///< components about the body's axes
   double attitude_worst_deg = 0;
-  /// Of all three axes together. Seen along the body's heading: how far that is off is the
-  /// odometry's matter.
+  /// Norm over three axes, in the frame of the body's heading; odometry covers the heading's error.
   double com_velocity_rms_m_s = 0;
   double com_velocity_worst_m_s = 0;
-  double dcm_rms_m = 0;  ///< from the sole that carries, along the body's heading
-  /// Where the robot has itself at the end, from where and how it stood when the gait began.
+  double dcm_rms_m = 0;  ///< from the supporting sole, along the body's heading
+  /// Error of the estimated end pose relative to the pose at the gait's start.
   double odometry_off_m = 0;
   double odometry_turned_off_deg = 0;
-  double way_m = 0;  ///< the body's, from cycle to cycle, over which that came about
+  double way_m = 0;  ///< the body's way, from cycle to cycle, in that time
 };
 
 class EstimateMeter {
  public:
-  /// Once per control tick. `up_world`: against gravity, of length 1.
+  /// Once per control tick. `up_world`: unit vector against gravity.
   void tick(const State& state, const Outputs& outputs, const sim::Truth& truth,
             const sim::Vec3& up_world);
   EstimateErrors result() const;
 
  private:
-  struct Place {  ///< of the body, in a frame of its own
+  struct Place {  ///< of the body, in a separate frame
     sim::Vec2 at_m{0, 0};
     double heading_rad = 0;
   };

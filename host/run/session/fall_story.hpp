@@ -7,29 +7,28 @@
 
 namespace verp::session {
 
-/// What becomes of a robot that falls or lies, as its controller tells it: counted, and in words
-/// for whoever drives it, here or at the end of a link.
+/// Counts and describes a robot's falls and recoveries, from its controller's outputs.
 class FallStory {
  public:
-  /// `tries`: how often in a row it is asked to get up; 0: nobody said.
+  /// `tries`: attempts in a row to get up; 0: unknown.
   explicit FallStory(int tries = 0) : most_(tries) {}
 
-  /// Of the tick just done. News in words; empty: none.
+  /// Observes the last tick. Returns news as text; empty: none.
   std::string observe(const State& state, const Outputs& outputs);
 
-  /// How often it came to lie, and got up.
+  /// Number of falls, and of recoveries.
   int falls() const { return falls_; }
   int get_ups() const { return get_ups_; }
 
  private:
-  int most_, tries_ = 0;  ///< since it stood last
+  int most_, tries_ = 0;  ///< since it last stood
   int falls_ = 0, get_ups_ = 0;
-  bool lies_ = false;  ///< and it was told how
+  bool lies_ = false;  ///< and the fall was reported
   safety::Mode mode_ = safety::Mode::kRelaxed;
 };
 
-/// "on its back": how a body lies that sees the world's up there. It sees it as its controller
-/// chooses an action by: the side that is down.
+/// "on its back": the side that is down, for a body that sees the world's up at (up_x, up_y). The
+/// controller chooses its action by the same rule.
 std::string how_it_lies(double up_x, double up_y);
 
 }  // namespace verp::session

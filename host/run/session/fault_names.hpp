@@ -9,14 +9,14 @@ struct FaultName {
   std::uint32_t bit;  ///< safety::Fault
   const char* name;
 };
-/// All there are.
+/// All fault bits.
 std::span<const FaultName> all_fault_names();
 
-/// Names of the fault bits that are set, e.g. "fall, servo silent"; empty when none.
+/// Names of the set fault bits, e.g. "fall, servo silent"; empty if none is set.
 std::string fault_names(std::uint32_t faults);
 
-/// Whoever orders or tunes more than the legs can do gets shorter steps, or none, and is to hear of
-/// it.
+/// Notes for the user that an order or tuning exceeds the legs, so that steps are shortened or
+/// refused.
 class PlanNotes {
  public:
   /// One line when the controller begins to shorten or refuse steps; else empty. `faults`:

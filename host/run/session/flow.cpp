@@ -22,13 +22,13 @@ namespace verp::session {
 namespace {
 
 #ifdef VERP_ADDRESS_SANITIZER
-constexpr std::size_t kStack_bytes = 1 << 20;  // whose shadow it clears at each change
+constexpr std::size_t kStack_bytes = 1 << 20;  // its shadow is cleared at each switch
 #else
-constexpr std::size_t kStack_bytes = 8 << 20;  // a thread's
+constexpr std::size_t kStack_bytes = 8 << 20;  // as for a thread
 #endif
 constexpr std::size_t kGuard_bytes = 1 << 16;
 
-// The sanitizer's shadow of a stack is changed with the stack. `keep` null: that stack ends.
+// Switches the sanitizer's shadow stack. `keep` null: that stack ends.
 void leave_stack([[maybe_unused]] void** keep, [[maybe_unused]] const void* bottom,
                  [[maybe_unused]] std::size_t bytes) {
 #ifdef VERP_ADDRESS_SANITIZER
@@ -89,7 +89,7 @@ void Flow::begin() {
   there_.uc_stack.ss_size = kStack_bytes;
   there_.uc_link = &here_;
   const auto self = reinterpret_cast<std::uintptr_t>(this);
-  // makecontext() hands over ints only.
+  // makecontext() passes only ints.
   ::makecontext(&there_, reinterpret_cast<void (*)()>(&Flow::enter), 2,
                 static_cast<unsigned>(std::uint64_t{self} >> 32), static_cast<unsigned>(self));
 }

@@ -8,32 +8,30 @@
 
 namespace verp::session {
 
-/// Somebody else's loop, run piece by piece: its body runs only inside resume(), up to its next
-/// pause(). It has a stack of its own and runs in the thread of whoever resumes it: nothing ever
-/// runs at the same time, and going there and back costs no more than two calls. (With a thread
-/// each way took a turn of the scheduler: four robots took 59 s for 13 s of work on a busy PC.) Not
-/// to be paused in an exception's handler.
+/// A coroutine for a foreign loop: its body runs only inside resume(), until its next pause(). It
+/// has its own stack but runs in the caller's thread, so nothing runs concurrently, and a switch
+/// costs no more than two calls. (A thread cost a scheduler turn per switch: four robots took 59 s
+/// for 13 s of work on a busy PC.) Do not call pause() in an exception handler.
 class Flow {
  public:
   explicit Flow(std::function<void(Flow&)> body) : body_(std::move(body)) {}
-  /// A body that has not ended is unwound: its pause() does not come back.
+  /// Unwinds a body that has not ended: its pause() does not return.
   ~Flow();
   Flow(const Flow&) = delete;
   Flow& operator=(const Flow&) = delete;
 
-  /// Runs the body on. Throws what it threw. False: it has ended.
+  /// Resumes the body. Rethrows its exception. False: it has ended.
   bool resume();
-  /// Called by the body: goes on at the next resume().
+  /// Called by the body: suspends it until the next resume().
   void pause();
-  /// Called by the body: has this called on the stack of whoever resumed, which is for code that
-  /// knows its thread by its stack, as languages with a garbage collector do. Throws what it threw.
+  /// Called by the body: runs `call` on the stack of resume()'s caller, for code that identifies
+  /// its thread by the stack, as garbage-collected languages do. Rethrows the exception of `call`.
   void outside(const std::function<void()>& call);
 
  private:
-  struct Unwound {};  // no std::exception: nobody catches it on the way
+  struct Unwound {};  // not a std::exception, so that no handler catches it
 
-  /// Memory for a stack, of which only what is used is ever there, and a page that nobody may touch
-  /// below.
+  /// Memory for a stack, committed on use, with a guard page below.
   class Stack {
    public:
     Stack();
@@ -49,16 +47,16 @@ class Flow {
   static void enter(unsigned high, unsigned low);
   void begin();
   void run();
-  void go();    ///< from the caller into the body, until that pauses or ends
-  void back();  ///< from the body to its caller
+  void go();    ///< caller to body, until it pauses or ends
+  void back();  ///< body to caller
 
   std::function<void(Flow&)> body_;
   std::unique_ptr<Stack> stack_;  ///< null: not begun
-  ucontext_t here_{}, there_{};   ///< of the caller and of the body, while the other one runs
+  ucontext_t here_{}, there_{};   ///< contexts of caller and body while suspended
   std::exception_ptr error_;
-  const std::function<void()>* outside_ = nullptr;  ///< the body waits for it
+  const std::function<void()>* outside_ = nullptr;  ///< call that the body waits for
   bool ended_ = false, unwinding_ = false;
-  // What the address sanitizer wants to know of a change of stacks.
+  // State for the address sanitizer's stack switches.
   void* fake_here_ = nullptr;
   void* fake_there_ = nullptr;
   const void* caller_bottom_ = nullptr;

@@ -3,31 +3,31 @@
 
 namespace verp::session {
 
-/// How often in a row a robot that lies is asked to get up, by whoever asks.
+/// Usual number of attempts in a row to get up.
 inline constexpr int kGetUpTries = 3;
 
-/// Who has a robot get up counts the tries: the controller gets up whenever it is asked, and asked
-/// for ever it would wear itself out on what keeps it down.
+/// Limits attempts to get up. The controller gets up whenever it is ordered to, and without a limit
+/// it would wear the robot out against an obstacle.
 class GetUp {
  public:
   enum class Phase {
     kUp,
-    kFell,    ///< just now, or once more
-    kDown,    ///< it is to be asked to get up, and nothing else
-    kGaveUp,  ///< just now: it lies, and is asked no more until it has stood or fell anew
+    kFell,    ///< in this tick, perhaps again
+    kDown,    ///< order it to get up, and nothing else
+    kGaveUp,  ///< in this tick: no more orders until it has stood or fallen again
   };
 
-  /// `tries` in a row, 0: none, ever. `down`: it may lie now.
+  /// `tries` in a row; 0: never. `down`: it may lie now.
   explicit GetUp(int tries, bool down = false) : most_(tries), down_(down && tries > 0) {}
 
-  /// Of the tick just done, of `period_s`.
+  /// Observes the last tick, of `period_s`.
   Phase observe(safety::Mode mode, double period_s);
   bool down() const { return down_; }
 
  private:
-  int most_, tries_ = 0;  ///< since it stood last
-  bool down_;             ///< it may lie, or fell, and is to stand up
-  double down_s_ = 0;     ///< since then
+  int most_, tries_ = 0;  ///< since it last stood
+  bool down_;             ///< it may lie, or fell, and must stand up
+  double down_s_ = 0;     ///< time since then
   safety::Mode mode_ = safety::Mode::kRelaxed;
 };
 

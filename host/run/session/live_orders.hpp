@@ -9,34 +9,33 @@
 
 namespace verp::session {
 
-/// What a person who watches a run asks of its robot, over what the run's own operator asks: the
-/// amend() of Hooks. All of it goes the way of any order, through the controller's registers into
-/// Inputs, so a run that was touched replays.
+/// Orders from a user who watches a run; they override the run's own operator (amend() of Hooks).
+/// All of them go through the controller's registers into Inputs, as any order does, so the run
+/// replays.
 class LiveOrders {
  public:
-  /// From now on the person has the robot. Sequence is this class's business.
+  /// From now on the user drives the robot. This class sets the sequence.
   void take(const Command& command);
-  /// From now on the run's own operator has it again.
+  /// From now on the run's own operator drives it again.
   void give_back() { driving_ = false; }
   bool driving() const { return driving_; }
   const Command& command() const { return command_; }
 
-  /// While it is pressed the robot is limp.
+  /// While pressed, the robot has no torque.
   void press_emergency_stop(bool pressed);
   bool emergency_stop() const { return stopped_; }
 
-  /// A robot that lies is asked to get up, kGetUpTries times in a row; once it stands, what was
-  /// ordered holds again. One that did not get up is asked to relax.
+  /// Orders a fallen robot to get up, kGetUpTries times in a row. Once it stands, the earlier order
+  /// holds again. After the last failed attempt, orders it to relax.
   void get_up();
-  /// The same of each fall from now on, without a word.
+  /// Does the same after each future fall.
   void let_get_up(bool by_itself);
   bool gets_up_by_itself() const { return by_itself_; }
-  /// What the controller put out in the tick just done, which lasted `period_s`.
+  /// Observes the last tick, which lasted `period_s`.
   void observe(safety::Mode mode, double period_s);
 
-  /// A number of the tuning (model/tuning_ranges.hpp), in one of the next ticks: each carries one.
-  /// Of a number that still waits, the last value counts. False: no such number, or not in its
-  /// range.
+  /// Writes a tuning number (model/tuning_ranges.hpp) in one of the next ticks, one per tick. A new
+  /// value replaces a waiting one of the same id. False: no such number, or out of range.
   bool write(int id, float value);
   std::size_t waiting() const { return writes_.size(); }
 
@@ -47,7 +46,7 @@ class LiveOrders {
   std::uint8_t sequence_ = 0;
   std::deque<std::pair<int, float>> writes_;
   bool driving_ = false, stopped_ = false, changed_ = false;
-  bool by_itself_ = false, asked_ = false;  ///< to get up: whenever it falls; now
+  bool by_itself_ = false, asked_ = false;  ///< get up: after every fall; now
   GetUp get_up_{kGetUpTries};
 };
 

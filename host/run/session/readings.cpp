@@ -16,12 +16,12 @@ ros::BodyPose pose_in_ros(const sim::Transform& pose) {
   return {three(pose.translation()), {q.x(), q.y(), q.z(), q.w()}};
 }
 
-/// Of what was measured, once the trace had begun.
+/// Time stamps of measurements made after the trace began.
 class Stamps {
  public:
   Stamps(std::uint64_t tick_ns, std::uint64_t now_us) : tick_ns_(tick_ns), now_us_(now_us) {}
   bool have(std::uint64_t measured_us) const { return age_ns(measured_us) <= tick_ns_; }
-  /// As the trace counts time.
+  /// In the trace's time.
   std::uint64_t of(std::uint64_t measured_us) const { return tick_ns_ - age_ns(measured_us); }
 
  private:

@@ -8,12 +8,12 @@
 
 namespace verp::session {
 
-/// The frames of a robot's force-torque sensors, each on its link.
+/// Records the frames of a robot's force-torque sensors, relative to their links.
 void place_frames(record::TraceWriter& trace, const model::Entity& entity, const Params& params);
 
-/// What its force-torque, contact and truth sensors told by now, a channel for each. Messages stand
-/// at `tick_ns`, which is now_us of the twin's time; their headers have when it was measured. What
-/// was measured before the trace's beginning is left out.
+/// Records new readings of force-torque, contact and truth sensors, one channel each. Messages are
+/// at `tick_ns`, which is now_us of the twin's time; their headers hold the time of measurement.
+/// Omits measurements from before the trace.
 void append(record::TraceWriter& trace, const model::Entity& entity,
             const sim::ProbeReadings& readings, std::uint64_t tick_ns, std::uint64_t now_us);
 

@@ -10,7 +10,7 @@
 namespace verp::session {
 namespace {
 
-/// What a start takes by the twin's clock: reset, boot check, greeting.
+/// Restart of a controller in the twin's time: reset, boot check, greeting.
 constexpr std::uint32_t kRestart_us = 1'000'000;
 
 }  // namespace
@@ -57,7 +57,7 @@ bool Served::tick() {
 }
 
 void Served::finish() {
-  while (tick()) {  // the controller is not told yet
+  while (tick()) {  // the controller has not been told to stop
   }
   try {
     conclude();
@@ -95,7 +95,7 @@ bus::SessionHooks Served::hooks() {
           .set_upright = [this] { return set_upright(); }};
 }
 
-// What it knew is gone, and with it what this PC knew of it.
+// The controller lost its state, so this PC starts its copy again.
 void Served::begin_shadow() {
   recorded_ = false;
   shadow_ = make_shadow([this](const TickRecord& tick, const State& state, const Outputs& outputs) {
@@ -117,16 +117,16 @@ void Served::begins() {
   ++resets_;
   say(fmt::format("the controller began anew at {:.2f} s; the servos hold what they were told last",
                   robot_.simulated_s()));
-  // In lockstep no time goes by while a controller is away; on a robot it does, and the servos'
-  // watchdogs see it.
+  // In lockstep no time passes while a controller is away. On a robot it does, and the servos'
+  // watchdogs act on it.
   robot_.let_pass(kRestart_us);
   if (!shadow_) return;
   begin_shadow();
   robot_.begin_anew();
 }
 
-// It waits for the answer to its greeting, and serves its operator meanwhile. Without its actions
-// this PC would take its own way into a fall for a difference of bits.
+// The controller waits for the answer to its greeting and serves its operator meanwhile. Both must
+// have the same actions; else this PC would act differently in a fall and report a difference.
 void Served::look_for_actions() {
   if (!orders_) return;
   const int here = robot_.actions().count(), there = orders_->action_count();
@@ -148,7 +148,7 @@ void Served::look_for_actions() {
                   there, here));
 }
 
-// Our own boards ask for lockstep first, and keep time by themselves where there is none.
+// Our own boards ask for lockstep first, and run in real time without it.
 void Served::refused(const std::string& why) {
   if (options_.pace != Pace::kRealTime) return fail(why);
   if (!std::exchange(declined_, true)) say("the controller offers lockstep: real time, it is told");
@@ -166,8 +166,8 @@ bool Served::tick_ends() {
   return failure_.empty() && !robot_.over();
 }
 
-// The controller waits for the answer that begins its tick, and serves its operator meanwhile: what
-// is written now, it takes in this very tick.
+// The controller waits for the answer that begins its tick and serves its operator meanwhile, so it
+// applies what is written now in this tick.
 void Served::tick_begins(std::uint32_t tick) {
   if (!shadow_) return;
   const app::OperatorOrder order = robot_.order(tick);
@@ -285,7 +285,7 @@ std::unique_ptr<Served> make_served(Robot& robot, const ServeOptions& options) {
   auto served = robot.plan().params.bus_protocol == BusProtocol::kCia402
                     ? make_served_on_can(robot, options)
                     : make_served_on_serial(robot, options);
-  // Among several, whose controllers are met one after the other, each says so at once.
+  // With several robots, served one after the other, each reports at once.
   if (options.operator_link.empty()) served->introduce();
   return served;
 }

@@ -15,79 +15,80 @@
 
 namespace verp::session {
 
-/// How the twin lets time go on for a controller at the other end of a link.
+/// How time passes in the twin for a controller at the other end of a link.
 enum class Pace {
-  kAuto,      ///< lockstep if the controller announces it, else by the wall's clock
+  kAuto,      ///< lockstep if the controller announces it, else wall clock
   kLockstep,  ///< time stands until a controller announces lockstep
-  kRealTime,  ///< by the wall's clock; lockstep is refused
+  kRealTime,  ///< wall clock; lockstep is refused
 };
 
 struct ServeOptions {
-  std::string link;  ///< where the controller's servo bus is
+  std::string link;  ///< link of the controller's servo bus
   std::string operator_link =
-      {};  ///< where its operator's port is; empty: somebody else gives orders
+      {};  ///< link of its operator port; empty: orders come from another source
   Pace pace = Pace::kAuto;
-  /// How long a controller that has announced lockstep may keep the twin waiting, by the wall's
-  /// clock; then the robot has none any more. 0: as long as it likes.
+  /// How long, by the wall clock, a lockstep controller may keep the twin waiting. Then the robot
+  /// counts as without a controller. 0: no limit.
   double patience_s = 0;
-  /// A controller that lets go of the robot and hangs up has ended the run; else it is served on.
+  /// The run ends when a controller releases the robot and hangs up; else the twin waits for
+  /// another.
   bool ends_with_controller = false;
   // Empty members are allowed.
-  std::function<void(const std::string&)> told = {};  ///< what happens, in words
-  /// Of a CAN interface, before anything is sent: may throw.
+  std::function<void(const std::string&)> told = {};  ///< receives events as text
+  /// Called for a CAN interface before anything is sent; may throw.
   std::function<void(const link::CanInterface&)> check = {};
-  std::function<void()> real_time_begins = {};  ///< in its thread: the moment to ask for priority
-  std::function<void()> cannot_keep_up = {};    ///< the moment to give it back
+  std::function<void()> real_time_begins = {};  ///< in its thread: raise the priority now
+  std::function<void()> cannot_keep_up = {};    ///< give the priority back now
   std::function<void(const std::string& why)> gave_up = {};  ///< this robot is over, and why
 };
 
-/// What came from a CAN interface.
+/// Counts of a CAN interface.
 struct CanFrames {
   std::uint64_t heard = 0;
-  std::uint32_t dropped = 0;  ///< of these, or before: faster than the simulated wire, or this PC
-  std::uint64_t skipped_us = 0;  ///< of the clock: where this PC was slower than it
+  std::uint32_t dropped = 0;     ///< of these, or before: faster than the simulated wire or this PC
+  std::uint64_t skipped_us = 0;  ///< clock time skipped because this PC was slower
 };
 
 struct ServedResult {
-  bool met = false;             ///< somebody has come: a controller, or a master that asks
-  bool device_trouble = false;  ///< the walk's failure is the link's or the controller's
-  bool lay_down = false;        ///< the robot was let go, and lies
+  bool met = false;             ///< a controller came, or a master that sends requests
+  bool device_trouble = false;  ///< the link or the controller caused the walk's failure
+  bool lay_down = false;        ///< the robot was released, and lies
   bool real_time = false;
-  std::uint64_t compared = 0;  ///< ticks whose digest the controller told, equal to this PC's
-  std::uint32_t losses = 0;    ///< times the link was lost
-  std::uint32_t overruns = 0;  ///< bytes, or CAN frames, that found no room at this PC
-  std::uint32_t resets = 0;    ///< times a controller began anew on a robot that was under way
+  std::uint64_t compared = 0;  ///< ticks with a reported digest equal to this PC's
+  std::uint32_t losses = 0;    ///< losses of the link
+  std::uint32_t overruns = 0;  ///< bytes or CAN frames lost at this PC for lack of room
+  std::uint32_t resets = 0;    ///< controller restarts during the run
   bus::LockstepSession::Counters lockstep;
   bus::RealtimeServer::Counters realtime;
-  std::optional<CanFrames> can;  ///< over CAN in real time
+  std::optional<CanFrames> can;  ///< only for CAN in real time
 };
 
-/// A controller at the other end of a link: the twin answers it. With an operator link it walks as
-/// one here does, and every tick of it is held against this PC's; without one the robot is served
-/// for plan.walk_s from the first torque on (Robot::watch), and scored by what the twin did. What
-/// differs between buses is added by the kind of bus.
+/// The twin's side for a controller at the other end of a link. With an operator link the robot
+/// walks as with a local controller, and this PC compares every tick. Without one, the twin serves
+/// for plan.walk_s from the first torque on (Robot::watch) and is scored by what it did. Subclasses
+/// add what differs between buses.
 class Served : public Controller {
  public:
   bool tick() final;
   void finish() final;
   double wall_s(double session_s) const final;
-  /// Says for whom it waits, once.
+  /// Reports, once, for whom it waits.
   void introduce();
-  /// Somebody sets the robot on its feet. False: not now, a servo has torque.
+  /// The user sets the robot on its feet. False: impossible while a servo has torque.
   bool set_upright();
-  /// Once, at the end.
+  /// Call once, at the end.
   virtual ServedResult result() const;
 
  protected:
   /// `connected`: the link is there from the beginning.
   Served(Robot& robot, const ServeOptions& options, bool connected);
 
-  /// What came, and what it asks for; waits kIdle_us for it, in real time kRealTimeTurn_us.
+  /// Serves incoming requests; waits kIdle_us for them, in real time kRealTimeTurn_us.
   virtual void turn() = 0;
-  virtual bool stopped() const = 0;  ///< the controller was told to
+  virtual bool stopped() const = 0;  ///< the controller was told to stop
   virtual bool greeted() const = 0;  ///< it has announced lockstep
   virtual bool real_time_begun() const = 0;
-  /// Somebody has come, if only to look.
+  /// Any client has come, even if only to look.
   virtual bool met() const { return greeted() || real_time_begun(); }
   virtual void conclude() {}  ///< after the last turn
   virtual std::unique_ptr<bus::Shadow> make_shadow(bus::Shadow::Record record) = 0;
@@ -97,23 +98,23 @@ class Served : public Controller {
   bool over() const;
   bool shadows() const { return shadow_ != nullptr; }
   bool may_run_in_real_time() const;
-  /// A controller may look around before it asks for a twin: it gets time to do so. `heard`:
-  /// something that is not for the clock has come.
+  /// Gives a controller time to look around before it asks for a twin. `heard`: something other
+  /// than clock requests has come.
   static constexpr std::uint64_t kListen_ns = 1'000'000'000;
   bool still_listening(bool heard, std::uint64_t listen_ns = kListen_ns);
   void begin_real_time();
-  /// All ticks up to bus time `now_us` of a robot whose controller tells nothing, until it is over.
+  /// Watches all ticks up to bus time `now_us` of a robot whose controller reports nothing.
   void watch_until(std::uint64_t now_us);
-  /// One turn is over, in which so many bytes or frames came: judges the controller's patience by
-  /// what it asked of the clock. Whatever else comes does not let the world go on.
+  /// Ends a turn in which `came` bytes or frames arrived. Judges the controller's patience by its
+  /// clock requests; other traffic does not advance the world.
   void waited(const bus::LockstepSession& clock, std::size_t came, const char* unit);
-  /// The link is there, or not: tells of each change. `losses`: of it so far.
+  /// Reports each change of the link. `losses`: their number so far.
   void watch_link(bool connected, std::uint32_t losses);
 
-  /// The hooks of a lockstep server that mean the same on every bus.
+  /// The lockstep server's hooks that are common to all buses.
   bus::SessionHooks hooks();
 
-  static constexpr std::uint32_t kIdle_us = 20'000;  // how long an interrupt may have to wait
+  static constexpr std::uint32_t kIdle_us = 20'000;  // longest delay of an interrupt
   static constexpr std::uint32_t kRealTimeTurn_us = 500;
 
   Robot& robot_;
@@ -132,30 +133,29 @@ class Served : public Controller {
   void watch();
 
   std::unique_ptr<bus::OrderSink> orders_;
-  std::unique_ptr<bus::Shadow> shadow_;  ///< null without an operator's port
+  std::unique_ptr<bus::Shadow> shadow_;  ///< null without an operator port
   bus::ControllerReport last_;
   PlanNotes plan_notes_;
   std::string failure_;
   std::uint64_t compared_ = 0;
-  std::uint64_t start_ns_ = 0;  ///< when it began, by the monotonic clock; 0: not yet
-  std::uint64_t drive_ns_ = 0;  ///< when a servo first had torque
-  std::uint64_t heard_ns_ = 0;  ///< when something that is not for the clock came first
-  std::uint64_t alone_ns_ = 0;  ///< since when no controller has come; 0: not yet
-  std::uint64_t idle_ns_ = 0;   ///< since when nothing came that lockstep waits for; 0: it does not
-  std::uint64_t asked_ = 0;     ///< of the clock, as last seen
-  std::uint64_t strange_ = 0;  ///< bytes or frames that came since something was asked of the clock
-  std::uint64_t next_us_ = 0;  ///< tick to be watched
+  std::uint64_t start_ns_ = 0;  ///< start, monotonic clock; 0: not yet
+  std::uint64_t drive_ns_ = 0;  ///< time at which a servo first had torque
+  std::uint64_t heard_ns_ = 0;  ///< time of the first traffic other than clock requests
+  std::uint64_t alone_ns_ = 0;  ///< time since when no controller has come; 0: not yet
+  std::uint64_t idle_ns_ = 0;   ///< time since when no clock request came; 0: it is not waiting
+  std::uint64_t asked_ = 0;     ///< clock requests, as last seen
+  std::uint64_t strange_ = 0;   ///< bytes or frames since the last clock request
+  std::uint64_t next_us_ = 0;   ///< next tick to watch
   std::uint32_t resets_ = 0;
   bool device_trouble_ = false, recorded_ = false, met_ = false, declined_ = false;
   bool lay_down_ = false, introduced_ = false, reminded_ = false, connected_, ended_ = false,
        began_ = false;
 };
 
-/// That controller, on a byte link or a CAN interface as the robot's bus is. Throws what opening a
-/// link throws.
+/// The server for the robot's bus: byte link or CAN. Throws what opening a link throws.
 std::unique_ptr<Served> make_served(Robot& robot, const ServeOptions& options);
 
-/// The two kinds of it.
+/// The two implementations.
 std::unique_ptr<Served> make_served_on_serial(Robot& robot, const ServeOptions& options);
 std::unique_ptr<Served> make_served_on_can(Robot& robot, const ServeOptions& options);
 

@@ -50,7 +50,7 @@ class ServedOnCan final : public Served {
 
  private:
   static constexpr std::uint32_t kGoodbye_us = 200'000;
-  /// Who asks by SDO waits for 0.3 to 1 s; a controller that greets sends nothing before.
+  /// An SDO client waits for 0.3 to 1 s; a controller that greets sends nothing before.
   static constexpr std::uint64_t kListen_ns = 150'000'000;
   static constexpr std::uint64_t kMostSkipped_us = 1'000'000;
 
@@ -75,7 +75,7 @@ class ServedOnCan final : public Served {
             }};
   }
 
-  // One that watches sees the same ticks: two would take each other's answers for their own.
+  // Another watcher would see the same ticks, and each would take the other's answers for its own.
   void watch_live() {
     try {
       watcher_.emplace(port_.interface().name, "watcher", link::CanClaim::kWatcher);
@@ -97,13 +97,13 @@ class ServedOnCan final : public Served {
     if (came) hear(frame);
     if (may_run_in_real_time()) let_time_go_on(came);
     for (const CanFrame& each : answer_) {
-      if (!port_.send(each)) break;  // nobody is there; in lockstep it asks again
+      if (!port_.send(each)) break;  // no receiver; in lockstep the controller asks again
       listen(each);
     }
     ask();
   }
 
-  // In real time all that waits, as far as a CAN controller has room for it.
+  // In real time, takes all waiting frames, up to the queue length of a CAN controller.
   void hear(CanFrame& frame) {
     heard_.clear();
     bool more = true;
@@ -127,7 +127,7 @@ class ServedOnCan final : public Served {
          " already, beside the twin's; unplug it, or serve the twin on another interface");
   }
 
-  // Without its operator's port, what the controller tells of its ticks is all that is known of it.
+  // Without the operator port, only the reported ticks show what the controller does.
   void listen(const CanFrame& frame) {
     if (live_) live_->take(frame, port_.now_us());
   }
@@ -144,7 +144,7 @@ class ServedOnCan final : public Served {
     }
   }
 
-  // After a frame the bus stands where that came: others may have come since.
+  // The port's clock stands at the last frame, and others may have come since.
   void let_time_go_on(bool came) {
     if (!realtime_.begun() && !begin_with_what_was_heard()) return;
     if (!came) realtime_.turn(clock_us(), answer_);
@@ -172,7 +172,7 @@ class ServedOnCan final : public Served {
     live_.reset();
     watcher_.reset();
     begin_real_time();
-    // By this clock: that of the port stands at the frame, and locking memory took its time.
+    // Uses this clock: the port's stands at the frame, and locking memory took time.
     const std::uint64_t now_us = clock_us();
     heard_.clear();
     for (const CanFrame& each : unannounced_) heard_.push_back({each, now_us});
@@ -181,11 +181,11 @@ class ServedOnCan final : public Served {
     return true;
   }
 
-  /// The port's clock, which stands where a frame came; this one does not.
+  /// The time now, on the port's clock, which itself stands at the last frame.
   std::uint64_t clock_us() const { return link::monotonic_ns() / 1000 - skew_us_; }
 
   void conclude() override {
-    // The answer that says stop may get lost: who asks again is told again.
+    // The stop answer may get lost, so a controller that asks again gets it again.
     const std::uint64_t end_us = port_.now_us() + (server_.stopped() ? kGoodbye_us : 0);
     while (port_.now_us() < end_us && !robot_.interrupted()) turn();
     if (live_ && (live_->suspects() || live_->unsettled() > 0)) {
@@ -200,8 +200,7 @@ class ServedOnCan final : public Served {
           "controller announce lockstep",
           false);
     }
-    // The link asked again for what was lost, so the walk's bits are right; the PC is not fit for
-    // it.
+    // The link repeated the lost frames, so the bits are right; but this PC is too slow.
     const std::uint32_t overruns = port_.errors().overruns;
     if (overruns > 0) {
       fail(std::to_string(overruns) + " frames found no room at this PC's end of " + place_ +
@@ -211,14 +210,14 @@ class ServedOnCan final : public Served {
 
   link::CanPort port_;
   link::CanClaim claim_;
-  can::ShadowLoop* shadow_ = nullptr;  ///< the base class has it
+  can::ShadowLoop* shadow_ = nullptr;  ///< owned by the base class
   can::LockstepServer server_;
   can::RealtimeServer realtime_;
   can::OtherNodes others_;
   std::optional<link::CanClaim> watcher_;
   std::optional<shadow::LiveCheck> live_;
   std::vector<CanFrame> answer_;
-  std::vector<CanFrame> unannounced_;  ///< before it was known that time goes on
+  std::vector<CanFrame> unannounced_;  ///< received before the pace was known
   std::vector<can::RealtimeServer::Heard> heard_;
   std::uint64_t skew_us_ = link::monotonic_ns() / 1000 - port_.now_us();
   std::uint32_t losses_ = 0;

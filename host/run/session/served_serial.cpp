@@ -38,7 +38,7 @@ class ServedOnSerial final : public Served {
 
  private:
   static constexpr std::uint32_t kWrite_us = 100'000;
-  static constexpr std::uint64_t kLossRest_ns = 50'000'000;  // from one loss to the next
+  static constexpr std::uint64_t kLossRest_ns = 50'000'000;  // at least, between two losses
 
   bool stopped() const override { return lockstep_.stopped(); }
   bool greeted() const override { return lockstep_.greeted(); }
@@ -81,15 +81,15 @@ class ServedOnSerial final : public Served {
     if (may_run_in_real_time()) let_time_go_on({piece, count});
     for (std::size_t sent = 0; sent < answer_.size();) {
       const std::size_t more = link_.write(answer_.data() + sent, answer_.size() - sent, kWrite_us);
-      if (more == 0) break;  // nobody reads; in lockstep it asks again
+      if (more == 0) break;  // no reader; in lockstep the controller asks again
       sent += more;
     }
     watch_link(link_.connected(), link_.errors().losses);
     rest_after_loss();
   }
 
-  // Somebody who hangs up at once, again and again, is not met as fast as a processor can. The
-  // first loss after a while costs no time.
+  // Limits the rate for a client that hangs up repeatedly. The first loss after a while costs no
+  // time.
   void rest_after_loss() {
     if (link_.errors().losses == losses_) return;
     losses_ = link_.errors().losses;
@@ -101,9 +101,9 @@ class ServedOnSerial final : public Served {
     rested_ns_ = link::monotonic_ns();
   }
 
-  // Whoever speaks is answered at once. Until it is known that lockstep will not be asked for, the
-  // robot stands still meanwhile: a controller that looks around before it greets finds the twin
-  // as it would have without. The clock's packets are on the wire as others are.
+  // Answers every request at once. While lockstep is still possible, the robot does not move: a
+  // controller that looks around before it greets finds the twin unchanged. Clock packets take time
+  // on the wire as others do.
   void let_time_go_on(std::span<const std::uint8_t> heard) {
     lockstep_.unannounced();
     bus::VirtualBus& bus = robot_.bus();
@@ -136,13 +136,13 @@ class ServedOnSerial final : public Served {
   }
 
   link::Link link_;
-  bus::ShadowLoop* shadow_ = nullptr;  ///< the base class has it
+  bus::ShadowLoop* shadow_ = nullptr;  ///< owned by the base class
   bus::LockstepServer lockstep_;
   bus::RealtimeServer realtime_;
   std::vector<std::uint8_t> answer_;
   bool told_ = false, lost_told_ = false, skips_told_ = false;
   std::uint32_t losses_ = 0;     ///< of the link, as last seen
-  std::uint64_t rested_ns_ = 0;  ///< when rest_after_loss() was last over
+  std::uint64_t rested_ns_ = 0;  ///< end of the last rest_after_loss()
 };
 
 }  // namespace

@@ -10,10 +10,11 @@
 namespace verp::session {
 namespace {
 
-// A walk is at its velocity, or shortened by the planner, within five seconds; robots fall before.
+// Within five seconds a walk reaches its velocity or the planner has shortened it; robots fall
+// before.
 constexpr double kStand_s = 1.5, kWalk_s = 5;
 
-/// The plan's legs, tick by tick.
+/// The planned legs, tick by tick.
 class Plan {
  public:
   Plan(const Params& params, const Command& velocity) : params_(params) {
@@ -32,7 +33,7 @@ class Plan {
     for (double t_s = 0; t_s < duration_s; t_s += period_s()) tick();
   }
 
-  /// Of the walk's beginning.
+  /// Measures the walk's beginning.
   Fastest measure(double duration_s) {
     fastest_ = {};
     run(true, duration_s);

@@ -7,14 +7,14 @@
 namespace verp::session {
 namespace {
 
-constexpr double kSettle_s = 0.5;    // a person waits for the robot to stand quietly
+constexpr double kSettle_s = 0.5;    // quiet standing before the walk
 constexpr double kStandUp_s = 15.0;  // bring-up pose, rise and gyro calibration take a few seconds
-constexpr double kLearns_s = 2.0;    // standing so long, a core has begun to learn its gyro's bias
-constexpr double kPatience_s = 8.0;  // standing so long, a robot trembles: no better bias will come
-constexpr double kIdle_s = 1.0;      // a gait that pauses by itself this long has given up
+constexpr double kLearns_s = 2.0;    // after this, a core has begun to learn its gyro's bias
+constexpr double kPatience_s = 8.0;  // after this, the robot trembles: the bias will not improve
+constexpr double kIdle_s = 1.0;      // a gait that pauses this long by itself has given up
 constexpr double kOverrun_s = 5.0;   // a gait that has not ended by then never will
-constexpr std::uint32_t kFrameTicks = 10;  // the least often that the operator's frames come
-constexpr float kSomeError_rad = 1e-3F;    // a robot is never quite on its heading
+constexpr std::uint32_t kFrameTicks = 10;  // lowest rate of the operator's frames
+constexpr float kSomeError_rad = 1e-3F;    // a robot is never exactly on its heading
 constexpr int kMostSteps = 1000;           // any stride has shrunk to nothing by then
 
 }  // namespace
@@ -30,7 +30,7 @@ WalkOperator::WalkOperator(const Params& params, const Command& velocity, double
   command_.request = get_ups > 0 ? Request::kGetUp : Request::kStand;
 }
 
-/// True while it is down: nothing else is asked then. It asks anew for each try.
+/// True while the robot is down and must get no other order. Sends a new order for each attempt.
 bool WalkOperator::look_after_fall(safety::Mode mode) {
   switch (get_up_.observe(mode, period_s_)) {
     case GetUp::Phase::kUp:
@@ -51,9 +51,8 @@ bool WalkOperator::look_after_fall(safety::Mode mode) {
   return changed_ = true;
 }
 
-/// How long the gait goes on if stop is said now, or after one more step: steps already queued,
-/// strides that shrink, the step that closes the feet and the final one, as the gait itself will
-/// lay them.
+/// How long the gait continues if the stop is ordered now, or after one more step: queued steps,
+/// shrinking strides, the step that closes the feet and the final one, as the gait will plan them.
 double WalkOperator::lead_s(const State& state, bool one_more) const {
   const GaitTuning& tuning = state.tuning.gait;
   const gait::GaitState& gait = state.gait;
@@ -63,7 +62,7 @@ double WalkOperator::lead_s(const State& state, bool one_more) const {
   wanted.vy_m_s = 1e-4F * static_cast<float>(velocity_.vy_tenth_mm_s);
   wanted.wz_rad_s = 1e-3F * static_cast<float>(velocity_.wz_mrad_s);
   wanted.heading_error_rad = kSomeError_rad;
-  // Outputs tell of the moment look_ahead_s before the clock's: the gait is not seen before.
+  // Outputs lag the gait's clock by look_ahead_s; the gait is not seen before.
   std::int32_t rest_us =
       -std::max(gait.clock_us, static_cast<std::int32_t>(1e6F * tuning.look_ahead_s));
   for (int i = 0; i < gait.queued; ++i) rest_us += gait.queue[i].duration_us();
@@ -77,7 +76,7 @@ double WalkOperator::lead_s(const State& state, bool one_more) const {
   return 1e-6 * rest_us;
 }
 
-/// Strides are whole: stops where one step more would be too much.
+/// Orders the stop before the step that would exceed walk_s.
 void WalkOperator::stop_in_time(const State& state) {
   if (state.gait.queued == 0 || state.gait.queue[state.gait.queued - 1].ends_walk()) return;
   if (walked_s_ + lead_s(state, true) <= walk_s_) {
@@ -105,12 +104,12 @@ app::OperatorOrder WalkOperator::order(std::uint32_t tick) {
 void WalkOperator::observe(const State& state, const Outputs& outputs) {
   if (done_ || look_after_fall(static_cast<safety::Mode>(outputs.mode))) return;
   const bool standing = outputs.mode == static_cast<std::uint8_t>(safety::Mode::kStanding);
-  // It fell after stop was said: nothing is left to walk.
+  // It fell after the stop was ordered: the walk is over.
   if (stopping_ && !gait_seen_ && standing) {
     done_ = true;
     return;
   }
-  // Steps of a robot that was pushed before it was asked to walk are no gait of its walk.
+  // Steps after a push before the walk order do not count as the walk.
   if (!gait_seen_ && command_.request != Request::kWalk && stood_s_ < kSettle_s) {
     wait_for_stand(state, standing);
   } else if (stands_) {
@@ -120,9 +119,9 @@ void WalkOperator::observe(const State& state, const Outputs& outputs) {
   }
 }
 
-/// Who stands must not be pushed before the core knows its gyro. Who walks would be let go then
-/// too, and keep for the whole way what two more seconds halve: the error of its heading.
-/// Controllers of one's own need not learn it at all.
+/// A robot that stands must know its gyro bias before it is pushed. A robot that walks waits two
+/// more seconds, which halve its heading error for the whole way. A user's controller may never
+/// learn it.
 bool WalkOperator::knows_gyro(float still_s) const {
   if (stands_) return still_s >= balance::kCalibrated_s;
   const bool learns = still_s > 0 || standing_s_ < kLearns_s;

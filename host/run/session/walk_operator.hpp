@@ -10,28 +10,28 @@
 
 namespace verp::session {
 
-/// The person at the desk during `verp walk`: asks the robot to stand, lets it walk once it stands,
-/// and says stop in time for the gait to be over after walk_s, or in the last step before that.
-/// Sees what the controller reports and plans, never the twin's truth.
+/// The operator during `verp walk`: orders the robot to stand and then to walk. It orders the stop
+/// so that the gait ends at walk_s or in the last step before. It sees only what the controller
+/// reports and plans, never the twin's truth.
 class WalkOperator {
  public:
-  /// `velocity` holds vx, vy, wz of the walk; its other members are ignored. `get_ups`: how often
-  /// in a row it asks a robot that lies to get up; one that then stands walks on. `stands`: it is
-  /// asked to stand for so long, and never to walk.
+  /// `velocity` holds vx, vy, wz of the walk; its other members are ignored. `get_ups`: attempts in
+  /// a row to get up; the robot then walks on. `stands`: the robot stands for that time and never
+  /// walks.
   WalkOperator(const Params& params, const Command& velocity, double walk_s, int get_ups = 0,
                bool stands = false);
 
   app::OperatorOrder order(std::uint32_t tick);
-  /// What the controller put out in the tick just done, and what it plans.
+  /// Observes the outputs and plans of the last tick.
   void observe(const State& state, const Outputs& outputs);
 
-  /// The gait is over, or will never come: `failed()` then says why.
+  /// The gait is over, or will never start: see failed().
   bool done() const { return done_; }
   /// Empty unless the robot would not stand up or stop; faults and falls are in Outputs.
   const char* failed() const { return failed_; }
-  /// Seconds of gait so far; of one who stands, since it stood quietly.
+  /// Seconds of gait; with `stands`, seconds since it stood quietly.
   double walked_s() const { return walked_s_; }
-  /// Stop was said as soon as the gait began, and still it is longer than walk_s.
+  /// The gait is longer than walk_s although the stop was ordered at its start.
   bool longer_than_asked() const { return longer_than_asked_; }
 
  private:
@@ -53,12 +53,12 @@ class WalkOperator {
   double walked_s_ = 0;
   double waited_s_ = 0;    ///< before the gait
   double standing_s_ = 0;  ///< before the gait
-  double stood_s_ = 0;     ///< standing with its gyro known, before the gait
-  double idle_s_ = 0;      ///< without gait, though nobody said stop
-  double stopping_s_ = 0;  ///< since stop was said
-  double lead_s_ = 0;      ///< length of the gait's rest when stop was said
+  double stood_s_ = 0;     ///< standing with a calibrated gyro, before the gait
+  double idle_s_ = 0;      ///< without gait, before the stop was ordered
+  double stopping_s_ = 0;  ///< since the stop was ordered
+  double lead_s_ = 0;      ///< remaining gait when the stop was ordered
   bool gait_seen_ = false, stopping_ = false, done_ = false;
-  bool changed_ = true;  ///< the order, since it was given last
+  bool changed_ = true;  ///< the order differs from the last one sent
   bool could_walk_on_ = false, longer_than_asked_ = false;
   const char* failed_ = "";
 };
