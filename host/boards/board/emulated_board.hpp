@@ -5,15 +5,14 @@
 
 namespace verp::board {
 
-/// A board of boards/ that QEMU can emulate.
 struct EmulatedBoard {
-  const char* name;     ///< as in boards/ and VERP_BOARD
-  const char* machine;  ///< QEMU's -M
+  const char* name;  ///< as in boards/ and VERP_BOARD
+  const char* machine;
   const char* core;
   bool measured;  ///< `verp bench` shows its costs; it has an image that times the link
   const char* program = "qemu-system-arm";
-  const char* package = "qemu-system-arm";  ///< Debian package of the program
-  std::vector<std::string> options = {};    ///< further options of the machine
+  const char* package = "qemu-system-arm";
+  std::vector<std::string> options = {};
   /// QEMU's option for the image, and the prefix of the file name.
   const char* image_option = "-kernel";
   const char* image_prefix = "";

@@ -37,7 +37,6 @@ class FifoLink {
   bool read(void* data, std::size_t size, std::chrono::milliseconds limit);
   /// Writes all bytes; false if the firmware closed its end. Never raises SIGPIPE.
   bool write(const void* data, std::size_t size);
-  /// Signals the end of data to the firmware.
   void close_to_board();
 
  private:

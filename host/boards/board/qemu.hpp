@@ -21,13 +21,12 @@ class QemuProcess {
     std::string plugin = {};             ///< QEMU's -plugin option; empty: none
     /// Socket paths on which QEMU listens for the peers of the board's serial ports, in order.
     std::vector<std::filesystem::path> serial_ports = {};
-    std::vector<std::string> options = {};  ///< further QEMU options
+    std::vector<std::string> options = {};
     std::string console = {};  ///< QEMU character device for the image's output; empty: stdout
     /// CAN interface of this PC to which the board's CAN is connected; empty: none.
     std::string can_interface = {};
   };
 
-  /// QEMU command line of a launch.
   static std::vector<std::string> command(const Launch& launch);
 
   /// Throws BoardError if QEMU is not installed. $VERP_QEMU names another emulator.
@@ -42,7 +41,6 @@ class QemuProcess {
   /// Throws BoardError with the image's last output if it ended with a nonzero status.
   void wait_for_success(std::chrono::seconds limit);
 
-  /// Everything that the image and QEMU printed so far.
   std::string output() const;
 
   /// One line: the image, `what` happened to it, its last output.

@@ -13,7 +13,6 @@
 
 namespace verp::board {
 
-/// Result of a replay on any machine.
 struct TargetReplay {
   std::vector<TickDigest> digests;  ///< one per Inputs
   std::optional<State> state;       ///< after the requested tick

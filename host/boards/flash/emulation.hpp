@@ -18,7 +18,7 @@ struct EmulatedLink {
 struct EmulationPlan {
   board::QemuProcess::Launch launch;
   std::vector<EmulatedLink> links;
-  BusProtocol protocol;  ///< of the robot's bus
+  BusProtocol protocol;
 };
 
 /// Plans the board with the image for this bus protocol, the pieces in its memory and its links in
@@ -37,7 +37,6 @@ class Emulation {
   /// port. Throws DeviceError if the port does not answer.
   std::string told() const;
 
-  /// False once QEMU has ended.
   bool running() { return !firmware_->poll_status().has_value(); }
   std::string described(const std::string& what) const { return firmware_->described(what); }
 

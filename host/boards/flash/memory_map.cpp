@@ -42,7 +42,6 @@ class Script {
     return value(match[1]);
   }
 
-  /// A region of MEMORY.
   Span memory(const std::string& name) const {
     std::smatch match;
     const std::regex line("\\b" + name +

@@ -10,7 +10,6 @@
 /// runs.
 namespace verp::flash {
 
-/// A file for one region of the flash.
 struct Piece {
   std::string what;  ///< "code", "robot", "actions"
   std::filesystem::path file;
@@ -44,7 +43,7 @@ struct Step {
   /// kWrite of a sector that was read: its other contents, and the files to save them in if the
   /// write fails.
   std::vector<Piece> neighbours = {};
-  Span sectors = {};  ///< kWrite: the erased region
+  Span sectors = {};  ///< the erased region
 };
 
 /// Tool for a board and a port: the requested one, else stm32flash if the port is a path, else the

@@ -14,7 +14,6 @@ inline constexpr std::size_t kMostBytes = 128U << 20;
 /// Nothing if the file cannot be opened or exceeds kMostBytes; errno gives the reason.
 std::optional<std::string> read(const std::filesystem::path& file);
 
-/// False: not all bytes could be written.
 bool write(const std::filesystem::path& file, std::string_view bytes);
 
 /// Like write(), but through a temporary file that is then renamed. So a reader never sees half a

@@ -7,14 +7,13 @@
 
 namespace verp::link {
 
-/// A CAN interface of this PC, as the kernel describes it.
 struct CanInterface {
   std::string name;
   int index = 0;
   bool is_can = false;
   bool is_virtual = false;  ///< vcan, vxcan: no wire, no bit rate, no bus-off
   bool up = false;
-  bool fd = false;               ///< accepts CAN FD frames
+  bool fd = false;
   std::uint32_t bitrate = 0;     ///< bit/s; 0: unknown or none
   std::uint32_t restart_ms = 0;  ///< restart delay after a bus-off; 0: no automatic restart
 };

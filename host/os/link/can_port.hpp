@@ -62,7 +62,6 @@ class CanPort {
 
   void open();
   void set_up(int socket, const std::vector<CanFilter>& filters);
-  /// Checks whether a lost interface is back.
   void look_for_it();
   void lose(int error);
   void drop_what_waits();
@@ -90,8 +89,8 @@ class CanPort {
   Descriptor socket_;
   std::uint64_t opened_ns_;
   std::uint64_t anchor_us_ = 0;  ///< when the last accepted frame left, as far as known
-  std::uint64_t last_us_ = 0;    ///< last result of now_us()
-  bool stands_ = false;          ///< now_us() is frozen since a poll returned a frame
+  std::uint64_t last_us_ = 0;
+  bool stands_ = false;  ///< now_us() is frozen since a poll returned a frame
   bool away_ = false;
   bool bus_off_ = false;
   std::uint64_t looked_ns_ = 0;

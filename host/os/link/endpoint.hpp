@@ -31,7 +31,6 @@ class EndpointError : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// Throws EndpointError.
 Endpoint parse_endpoint(const std::string& text);
 
 /// Text from which parse_endpoint() makes an equal endpoint.

@@ -19,7 +19,6 @@ bool would_block(int error) {
   return error == EAGAIN || error == EWOULDBLOCK;
 }
 
-/// False after the deadline.
 bool wait_for(int descriptor, short events, std::uint64_t deadline_ns) {
   const std::uint64_t now_ns = monotonic_ns();
   if (now_ns >= deadline_ns) return false;

@@ -44,7 +44,6 @@ class Port {
   virtual int open() = 0;
   /// Called after a loss, when the descriptor is no longer useful.
   virtual void close() = 0;
-  /// Retry interval of open().
   virtual std::uint32_t retry_us() const = 0;
   /// Endpoint for a peer; see Link::place().
   virtual std::string place() const = 0;

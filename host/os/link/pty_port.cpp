@@ -23,7 +23,6 @@ namespace {
 
 constexpr std::string_view kTerminals = "/dev/pts/";
 
-/// Folder of a path, as an argument of open().
 std::string folder_of(const std::string& path) {
   const std::string::size_type end = path.rfind('/');
   return end == std::string::npos ? "." : path.substr(0, end + 1);

@@ -47,7 +47,6 @@ class ScipRangeFinder {
   const std::string& last_complaint() const { return complaint_; }
   std::uint32_t damaged() const { return replies_.damaged(); }
 
-  /// Turns the laser off.
   void stop() { send("QT\n"); }
 
  private:

@@ -25,7 +25,6 @@ using LibSerial::BaudRate;
 
 constexpr std::uint32_t kRetry_us = 50'000;
 
-/// The connected serial ports, as advice.
 std::string ports_here() {
   std::string names;
   std::error_code error;

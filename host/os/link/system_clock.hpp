@@ -11,7 +11,6 @@ inline timespec to_timespec(std::uint64_t time_ns) {
           static_cast<long>(time_ns % 1'000'000'000)};
 }
 
-/// Linux's monotonic clock.
 inline std::uint64_t monotonic_ns() {
   timespec now{};
   ::clock_gettime(CLOCK_MONOTONIC, &now);

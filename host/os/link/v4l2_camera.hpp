@@ -9,7 +9,6 @@
 
 namespace verp::link {
 
-/// A picture format of a video device.
 struct VideoFormat {
   std::string code;   ///< four characters, as in the kernel: YUYV
   std::string name;   ///< the driver's description
@@ -42,9 +41,7 @@ class V4l2Camera {
   hal::CameraStatus read(hal::CameraFrame& frame);
   std::uint32_t faults() const { return faults_; }
 
-  /// Waits at most `time_ms` for a picture.
   void wait(int time_ms);
-  /// Supported picture formats.
   std::vector<VideoFormat> formats() const;
   /// The driver's name for the camera, and its present settings.
   const std::string& card() const { return card_; }
@@ -87,7 +84,7 @@ class V4l2Camera {
   hal::PixelFormat format_ = hal::PixelFormat::kNone;
   double rate_hz_ = 0;
   std::vector<Buffer> buffers_;
-  int held_ = -1;  ///< buffer of the last frame
+  int held_ = -1;
   std::uint32_t next_sequence_ = 0;
   std::uint64_t last_us_ = 0, retry_ns_ = 0;
   std::uint32_t faults_ = 0, damaged_ = 0;

@@ -19,7 +19,6 @@ class VideoCalls {
   virtual int wait(int descriptor, int time_ms) = 0;
 };
 
-/// The kernel's own calls.
 VideoCalls& kernel_video_calls();
 
 }  // namespace verp::link

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-/// Child processes.
 namespace verp::process {
 
 /// Source or target of a program's stream: a copy of our descriptor, or a file, which is created or
@@ -44,7 +43,6 @@ class Child {
   void tell(int signal) const;
   /// Exit status after the end; 128 + signal if killed. Does not wait.
   std::optional<int> status();
-  /// The same, but waits.
   int wait();
 
  private:

@@ -46,7 +46,6 @@ Vec3 measures(const Entity& entity) {
   return box.sizes();
 }
 
-/// Centre of mass in the body frame at the zero pose.
 Vec3 center_of_mass(const Entity& entity) {
   const auto origins = node_origins(entity);
   Vec3 sum = Vec3::Zero();
@@ -136,7 +135,6 @@ std::string servo_type_rows(const Entity& entity) {
   return text;
 }
 
-/// Latency of a sampled sensor.
 std::optional<double> latency_of(const Entity& entity, const std::string& name) {
   std::optional<double> latency_s;
   const auto look = [&](const auto& sensors) {

@@ -68,9 +68,9 @@ struct Gearbox {
 
 /// A servo's datasheet values and its place on the bus.
 struct Servo {
-  std::string type;   ///< row of the servo table (servo_types.hpp), e.g. "xm430_w210"
-  int id = 0;         ///< bus address
-  int direction = 1;  ///< +1 or -1
+  std::string type;  ///< row of the servo table (servo_types.hpp), e.g. "xm430_w210"
+  int id = 0;
+  int direction = 1;
   int offset_count = 2048;
   double backlash_rad = 0;
   double stall_torque_n_m = 0;
@@ -226,14 +226,14 @@ struct Entity {
   FootSensor feet;
   std::vector<NoCollide> no_collide;
   std::vector<OtherSensor> sensors;
-  std::vector<LaserSensor> lasers;               ///< also among the sensors
-  std::vector<CameraSensor> cameras;             ///< likewise
-  std::vector<ForceTorqueSensor> force_torques;  ///< likewise
-  std::vector<ContactSensor> contacts;           ///< likewise: recorded ones
+  std::vector<LaserSensor> lasers;  ///< this and the next three: also among the sensors
+  std::vector<CameraSensor> cameras;
+  std::vector<ForceTorqueSensor> force_torques;
+  std::vector<ContactSensor> contacts;  ///< recorded ones
   std::vector<TruthSensor> truths;
-  std::string bus;                 ///< name of the bus in use
-  std::string bus_file;            ///< file of its <verp:bus>
-  int bus_line = 1;                ///< line in that file
+  std::string bus;  ///< name of the bus in use
+  std::string bus_file;
+  int bus_line = 1;                ///< line of its <verp:bus> in bus_file
   std::vector<std::string> buses;  ///< names of all buses, in file order
   BusProtocol protocol = BusProtocol::kDynamixel2;
   std::uint32_t baud = 2000000;

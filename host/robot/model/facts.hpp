@@ -33,7 +33,6 @@ struct ImuFact {
   std::string sensor, link;
   ImuSensor imu;
 };
-/// Latency of an SDF sensor.
 struct LatencyFact {
   XmlElement at;
   std::string sensor;

@@ -28,7 +28,6 @@ class LinkTree {
            const UrdfNames& names, Entity& entity)
       : source_(source), facts_(facts), model_(model), names_(names), e_(entity) {}
 
-  /// Fills in the entity's nodes and joints.
   void grow();
 
   struct Located {

@@ -12,7 +12,6 @@ struct NamedFiles {
   std::string kind;
   std::vector<std::filesystem::path> folders;
 
-  /// Names of the existing files, sorted.
   std::vector<std::string> names() const;
   /// Throws LoadError with the reason and the existing names.
   std::string find(const std::string& name_or_path) const;

@@ -134,7 +134,6 @@ ImuParams imu_params(const ImuSensor& imu) {
   return p;
 }
 
-/// The pan and tilt joints of the head.
 void find_head(const Entity& entity, Params& params) {
   const Limb* const head = find_limb(entity, "head");
   if (!head) return;

@@ -26,7 +26,7 @@ int joints_between(const Entity& entity, int link, int other);
 /// Links that overlap in a resting pose.
 struct Clash {
   Overlap overlap;
-  const char* pose;  ///< standing or sitting
+  const char* pose;
 };
 
 /// Adds to entity.no_collide the near links that overlap at the zero, standing or sitting pose.

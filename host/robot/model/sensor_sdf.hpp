@@ -5,7 +5,6 @@
 
 #include "host/robot/model/entity.hpp"
 
-/// Checks and converts a robot's sensors from libsdformat.
 namespace verp::model {
 
 /// Throws LoadError at the sensor with the error and the remedy.
@@ -15,7 +14,6 @@ using WrongSensor = std::function<void(const std::string& what, const std::strin
 LaserSensor read_laser(const sdf::Sensor& sensor, int node, const Transform& pose,
                        const WrongSensor& wrong);
 
-/// True for camera, depth_camera, rgbd_camera and segmentation_camera.
 bool is_camera(const sdf::Sensor& sensor);
 CameraSensor read_camera(const sdf::Sensor& sensor, int node, const Transform& pose,
                          const WrongSensor& wrong);

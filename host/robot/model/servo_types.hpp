@@ -38,7 +38,6 @@ std::string names_of(const std::vector<Type>& types) {
   return list;
 }
 
-/// The shipped types.
 const std::vector<ServoType>& servo_types();
 /// nullptr: no such type.
 const ServoType* find_servo_type(const std::vector<ServoType>& types, std::string_view name);

@@ -10,7 +10,6 @@
 /// and joints.
 namespace verp::model {
 
-/// Changes that the import must undo.
 struct UrdfNames {
   std::set<std::string> massless_links;      ///< have a stand-in mass
   std::map<std::string, std::string> joint;  ///< changed names -> the file's

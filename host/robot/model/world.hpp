@@ -112,9 +112,9 @@ struct Fog {
   double start_m = 1, end_m = 100, density_1_m = 0.1;
 };
 
-/// A robot that the world places: <include> of a robot's file.
+/// <include> of a robot's file.
 struct WorldRobot {
-  std::string name;  ///< in this world
+  std::string name;
   std::string file;
   double x_m = 0, y_m = 0, yaw_rad = 0;
 };

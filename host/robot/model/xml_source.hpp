@@ -13,7 +13,6 @@
 /// XML text of a robot with the line numbers that libsdformat drops. Numbers are read strictly.
 namespace verp::model {
 
-/// An element and its file.
 class XmlElement {
  public:
   XmlElement(const std::string& file, const tinyxml2::XMLElement& element)

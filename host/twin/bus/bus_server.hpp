@@ -21,7 +21,7 @@ struct ByteStreams {
   std::function<bool(const void* data, std::size_t size)> write;
 };
 
-/// Callbacks of one run. Members may be empty.
+/// Members may be empty.
 struct ServerHooks {
   std::function<app::OperatorOrder(std::uint32_t tick)>
       order;  ///< called once per tick, when the bus begins it

@@ -28,7 +28,6 @@ class RefusedError : public DeviceError {
   dxl::Error error_;
 };
 
-/// A device's answer to a Ping.
 struct Identity {
   std::uint8_t id = 0;
   std::uint16_t model = 0;
@@ -43,7 +42,7 @@ class Client {
  public:
   static constexpr int kAttempts = 3;  ///< per unanswered request
 
-  /// `timeout_us`: time allowed for a reply beyond its own bytes.
+  /// `timeout_us`: in addition to the reply's own bytes.
   Client(const link::Endpoint& endpoint, std::uint32_t timeout_us);
   /// The caller owns the link, which must outlive the client; `endpoint` is the place it was opened
   /// on.
@@ -55,10 +54,9 @@ class Client {
   std::vector<std::uint8_t> read(std::uint8_t id, std::uint16_t address, std::uint16_t length);
   void write(std::uint8_t id, std::uint16_t address, const std::vector<std::uint8_t>& data);
 
-  /// Makes one read without a retry; false: it failed.
+  /// One read without a retry; false: it failed.
   bool read_once(std::uint8_t id, std::uint16_t address, std::uint16_t length);
 
-  /// Largest number of attempts for any request so far.
   int tries() const { return tries_; }
   const std::string& place() const { return text_; }
   const app::BusCounters& counters() const { return master_.counters(); }
@@ -90,7 +88,7 @@ class Client {
     std::uint32_t patience_us = 0;
   };
 
-  std::string text_;    ///< the endpoint
+  std::string text_;
   std::uint32_t baud_;  ///< 0: the link has no rate
   std::uint32_t timeout_us_;
   link::SystemClock clock_;

@@ -50,9 +50,7 @@ class Device {
   /// Runs that action; the plant is at deadline_us().
   virtual void expire() {}
 
-  /// Resets the RAM registers and clears the hardware error.
   void lose_power();
-  /// Power cycle.
   void reboot();
   /// e-Manual, Control Table Backup: stores the table, or restores the EEPROM and restarts.
   virtual dxl::Error backup(std::span<const std::uint8_t>) { return dxl::Error::kInstruction; }
@@ -66,9 +64,7 @@ class Device {
   virtual dxl::Error check(std::uint16_t address, std::span<const std::uint8_t> data) const {
     return table_.check(address, data, false);
   }
-  /// Called after each stored write.
   virtual void written(std::uint16_t address, std::uint16_t length) = 0;
-  /// Called after a reboot and after a reset.
   virtual void restarted() {}
   /// Called when power is on and the registers have their initial values.
   virtual void started() {}

@@ -5,7 +5,6 @@
 #include "host/twin/bus/collision.hpp"
 #include "host/twin/bus/virtual_bus.hpp"
 
-// The effect of each protocol instruction on the bus.
 namespace verp::bus {
 namespace {
 

@@ -15,7 +15,6 @@ namespace verp::bus {
 struct LockstepHooks : SessionHooks {
   /// A frame reached the bus undamaged.
   std::function<void(std::span<const std::uint8_t> frame)> sent;
-  /// Result of a poll.
   std::function<void(std::span<const std::uint8_t> bytes, std::uint64_t now_us)> polled;
 };
 
@@ -23,10 +22,10 @@ struct LockstepHooks : SessionHooks {
 /// no clock, so the same bytes give the same answers at any speed.
 class LockstepServer : public LockstepSession {
  public:
-  /// The bus must outlive the server.
+  /// `bus` must outlive the server.
   LockstepServer(const Params& params, VirtualBus& bus, LockstepHooks hooks);
 
-  /// Takes bytes from the controller; appends the reply to `answer`.
+  /// Appends the reply to `answer`.
   void take(std::span<const std::uint8_t> bytes, std::vector<std::uint8_t>& answer);
 
   /// Returns once the bytes before the first hello that are not for the clock; empty afterwards.

@@ -31,7 +31,7 @@ class LockstepSession {
  public:
   struct Counters {
     std::uint64_t polls = 0;
-    std::uint32_t repeats = 0;  ///< repeated answers
+    std::uint32_t repeats = 0;
     std::uint32_t damaged = 0;  ///< polls whose frames were damaged, lost or duplicated
     std::uint32_t greetings = 0;
   };
@@ -40,16 +40,13 @@ class LockstepSession {
   void welcome_strangers() { strangers_ = true; }
   /// Refuses every further hello, because the twin runs in real time.
   void refuse_lockstep() { real_time_ = true; }
-  /// True once a controller has announced lockstep.
   bool greeted() const { return greeted_; }
-  /// True once the controller must stop.
   bool stopped() const { return stopped_; }
   const Counters& counters() const { return counters_; }
 
  protected:
   explicit LockstepSession(const Params& params) : params_(params) {}
 
-  /// Reply to a hello, and whether the controller starts anew.
   struct Meeting {
     lockstep::Verdict verdict = lockstep::Verdict::kAccepted;
     bool begins = false;
@@ -65,8 +62,8 @@ class LockstepSession {
  private:
   const Params& params_;
   Counters counters_;
-  std::uint8_t sequence_ = 0;  ///< of the last poll
-  bool answered_ = false;      ///< since the hello
+  std::uint8_t sequence_ = 0;
+  bool answered_ = false;
   bool greeted_ = false;
   bool real_time_ = false;
   bool strangers_ = false;

@@ -38,7 +38,6 @@ inline constexpr std::uint16_t kHeardData = 388;    // kMostData times 1
 inline constexpr std::uint16_t kTake = 488;  // 1
 }  // namespace modem
 
-/// One modem's access to the radio channel.
 class Aerial {
  public:
   virtual ~Aerial() = default;
@@ -46,7 +45,7 @@ class Aerial {
   virtual std::uint8_t most_bytes() const = 0;
   /// kNone: accepted. kDataRange: too long, or no modem has that number. kResultFail: queue full.
   virtual dxl::Error say(std::uint8_t to, const std::string& data) = 0;
-  /// Passes the messages received so far to the modem's hear().
+  /// Calls the modem's hear() for each message received so far.
   virtual void listen() = 0;
 };
 

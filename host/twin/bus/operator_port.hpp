@@ -19,7 +19,6 @@ class OperatorPort final : public OrderSink {
 
   ControllerReport exchange(const app::OperatorOrder* order) override;
   int action_count() override;
-  /// CRC-32 of the controller's Params.
   std::uint32_t params_crc();
 
  private:
@@ -33,12 +32,12 @@ class OperatorPort final : public OrderSink {
   std::vector<std::uint8_t> ask();
   bool collect(std::vector<std::uint8_t>& data);
 
-  std::string text_;  ///< the endpoint
+  std::string text_;
   std::function<bool()> give_up_;
   link::Link link_;
   std::vector<std::uint8_t> outbox_;
-  std::size_t asked_ = 0;  ///< requests in outbox_
-  bool refused_ = false;   ///< all were answered, and the first with "not now"
+  std::size_t asked_ = 0;
+  bool refused_ = false;  ///< all were answered, and the first with "not now"
 };
 
 }  // namespace verp::bus

@@ -6,7 +6,6 @@
 
 namespace verp::bus {
 
-/// A controller's report on the last finished tick.
 struct ControllerReport {
   std::uint32_t tick = 0;
   std::uint64_t digest = 0;
@@ -18,7 +17,6 @@ class SinkError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Takes orders for a controller in lockstep.
 class OrderSink {
  public:
   virtual ~OrderSink() = default;

@@ -35,10 +35,8 @@ class RealtimeServer {
   std::size_t room() const;
   /// Records how late the twin is at the end of a turn.
   void finished(std::uint64_t clock_us);
-  /// Releases the held plant; time restarts at 0.
   void let_go(std::uint64_t clock_us);
 
-  /// True once a master has sent a byte and time runs.
   bool begun() const { return begun_; }
   Counters counters() const;
 

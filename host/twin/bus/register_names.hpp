@@ -13,7 +13,6 @@ using NamedRegister = dxl::controller::Register;
 
 /// "XM430-W350", "controller", ...; "model N" for an unknown model.
 std::string model_name(std::uint16_t model);
-/// Hardware Error Status as words.
 std::string hardware_errors(unsigned bits);
 
 /// Sorted by address; empty for an unknown model.

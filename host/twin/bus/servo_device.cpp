@@ -88,7 +88,6 @@ dxl::Error ServoDevice::check(std::uint16_t address, std::span<const std::uint8_
   return within_limits(address, data) ? dxl::Error::kNone : dxl::Error::kDataLimit;
 }
 
-/// True if the servo has the written mode.
 bool ServoDevice::known(std::uint16_t address, std::span<const std::uint8_t> data) const {
   const auto written = [&](std::uint16_t at) {
     return address <= at && at < address + data.size() ? data[at - address] : byte(at);

@@ -40,7 +40,6 @@ class ServoDevice final : public Device {
   void written(std::uint16_t address, std::uint16_t length) override;
   void restarted() override;
   void started() override;
-  /// Resets the goals as after power-on or a mode change.
   void reset_goals();
   void refresh_motion(const sim::ServoMeasurement& measured);
   std::uint8_t moving_status(const sim::ServoMeasurement& measured) const;

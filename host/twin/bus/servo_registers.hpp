@@ -45,9 +45,8 @@ inline constexpr std::uint8_t kInPosition = 1 << 0, kOngoing = 1 << 1, kNotFollo
 inline constexpr double kInPositionCount = 10;
 inline constexpr double kFollowingCount = 57;  // 5 degrees
 
-/// Registers of all servos with their names, sorted by address.
+/// Sorted by address.
 std::span<const NamedRegister> named_registers();
-/// Registers of one servo with initial values and ranges.
 std::vector<Register> registers_of(const ServoIdentity& identity);
 
 }  // namespace verp::bus::servo

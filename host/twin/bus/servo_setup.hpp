@@ -54,7 +54,7 @@ std::int32_t still_position(Client& client, std::uint8_t id);
 
 /// Encoder count at the joint's zero, and the correction to the model's count.
 struct ZeroFix {
-  std::int32_t count = 0;          ///< as read
+  std::int32_t count = 0;
   std::int32_t homing_before = 0;  ///< Homing Offset (20)
   std::int32_t homing_after = 0;   ///< makes the count the model's
   std::int32_t model_offset = 0;   ///< alternative: `offset` of <verp:servo>
@@ -65,7 +65,6 @@ struct ZeroFix {
 inline constexpr std::int32_t kMostHoming = 1024;
 
 ZeroFix zero_fix(Client& client, std::uint8_t id, std::int32_t count, std::int32_t model_count);
-/// Writes homing_after and reads it back.
 void write_homing(Client& client, std::uint8_t id, const ZeroFix& fix);
 
 }  // namespace verp::bus

@@ -25,18 +25,17 @@ class ShadowTape {
   using Sent = Sent_;
   using Received = Received_;
   struct Poll {
-    std::vector<Sent> frames;  ///< sent since the previous poll
+    std::vector<Sent> frames;
     bool comparable = true;
     std::optional<app::OperatorOrder> order;
     Received received;
     std::uint64_t now_us = 0;
   };
-  /// Position of the local loop.
   struct Mark {
-    std::size_t played = 0;    ///< polls
-    std::vector<Sent> frames;  ///< sent by the local loop since the previous poll
-    Received received;         ///< by the last poll played
-    std::size_t taken = 0;     ///< part of `received` already read
+    std::size_t played = 0;
+    std::vector<Sent> frames;
+    Received received;      ///< by the last poll played
+    std::size_t taken = 0;  ///< part of `received` already read
     app::OperatorOrder standing;
     std::uint64_t time_us = 0;
   };
@@ -82,7 +81,6 @@ class ShadowTape {
   }
 };
 
-/// Bus-independent interface of a shadow.
 class Shadow {
  public:
   using Record = std::function<void(const TickRecord&, const State&, const Outputs&)>;
@@ -92,7 +90,6 @@ class Shadow {
   virtual void damaged() = 0;
   /// Holds from the next poll on; its flags hold for one tick.
   virtual void ordered(const app::OperatorOrder& order) = 0;
-  /// Runs all ticks whose polls are all recorded.
   virtual void catch_up() = 0;
   /// Describes the first difference between the frames of the two controllers; empty if there is
   /// none.
@@ -113,7 +110,6 @@ class ShadowLoopOver final : public Shadow {
   ShadowLoopOver(const ShadowLoopOver&) = delete;
   ShadowLoopOver& operator=(const ShadowLoopOver&) = delete;
 
-  // Events of the remote controller, in its order.
   void sent(typename Tape::Sent frame) { next_.frames.push_back(std::move(frame)); }
   void damaged() override { next_.comparable = false; }
   void polled(typename Tape::Received received, std::uint64_t now_us) {
@@ -159,7 +155,6 @@ class ShadowLoopOver final : public Shadow {
                                 : std::string("in the bring-up")) +
                        " the controller did not ask for all that this PC asks for";
   }
-  /// Runs one tick or one bring-up.
   void run() {
     tape_.torn = false;
     if (tape_.ticking) return loop_->tick();
@@ -185,7 +180,6 @@ class ShadowLoopOver final : public Shadow {
   std::unique_ptr<Loop> loop_;
 };
 
-/// Tape of a serial bus: bytes.
 class SerialTape : public ShadowTape<std::vector<std::uint8_t>, std::vector<std::uint8_t>> {
  public:
   static constexpr bool kWholeTicks = false;

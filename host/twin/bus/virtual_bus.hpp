@@ -40,7 +40,6 @@ class VirtualBus {
 
   /// Control periods since the first tick; 0 before it. The controller counts the same ticks.
   std::uint32_t tick() const { return tick_; }
-  /// True once the first tick has begun.
   bool ticking() const { return ticking_; }
   /// Connects or disconnects a device. A disconnected device neither hears nor answers.
   void set_connected(std::uint8_t id, bool connected);
@@ -79,7 +78,6 @@ class VirtualBus {
     while (now_us() < time_us) bring_until(time_us, unheard, sizeof unheard);
   }
 
-  /// Bytes on the wire in both directions.
   std::uint64_t bytes_on_wire() const { return bytes_on_wire_; }
 
  private:
@@ -107,7 +105,6 @@ class VirtualBus {
   bool hears(const Device& device) const;
   /// Advances the plant, and runs the devices' own actions on the way.
   void advance_plant(std::uint64_t time_us);
-  /// Waits a Return Delay Time before the reply's bytes.
   void wait_us(std::uint32_t delay_us);
   /// Each of `speakers` sends the result of `say`, after the shortest of their delays or at once.
   template <class Say>
@@ -134,7 +131,7 @@ class VirtualBus {
   std::vector<std::unique_ptr<Device>> devices_;
   std::array<bool, 256> unplugged_{};
   std::array<bool, 256> unpowered_{};
-  dxl::Parser line_;  ///< parser of the devices
+  dxl::Parser line_;
   std::deque<Chunk> replies_;
   std::uint64_t now_ns_ = 0;
   std::uint64_t wire_free_ns_ = 0;    ///< end of the last byte on the wire

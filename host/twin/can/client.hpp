@@ -21,7 +21,6 @@ class SilentError : public bus::DeviceError {
   using bus::DeviceError::DeviceError;
 };
 
-/// The node answered with an SDO abort.
 class AbortedError : public bus::DeviceError {
  public:
   AbortedError(const std::string& line, canopen::Abort why) : DeviceError(line), why_(why) {}
@@ -31,7 +30,6 @@ class AbortedError : public bus::DeviceError {
   canopen::Abort why_;
 };
 
-/// Identity objects of a node.
 struct NodeIdentity {
   /// How far the identification came. Unless kToTheEnd, missing fields are unknown.
   enum class Asked : std::uint8_t {
@@ -102,14 +100,13 @@ class Client {
   const std::string& place() const { return place_; }
 
  private:
-  /// SDO channel for this node.
   canopen::SdoChannel channel_to(std::uint8_t node);
   /// Reason of the failure; kNone: success.
   canopen::Abort upload(std::uint8_t node, canopen::Address at, int attempts,
                         std::vector<std::uint8_t>& data);
   /// Reads the remaining objects until the node falls silent.
   void describe(NodeIdentity& identity);
-  /// Answers to the request for 1000h, indexed by node.
+  /// Indexed by node.
   std::vector<std::optional<std::uint32_t>> device_types();
   [[noreturn]] void fail(std::uint8_t node, canopen::Address at, const char* what,
                          canopen::Abort why);

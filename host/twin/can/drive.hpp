@@ -48,7 +48,6 @@ class DriveApplication {
   std::uint64_t get(canopen::Address at, std::uint8_t bits);
   void put(canopen::Address at, std::uint8_t bits, std::uint64_t value);
 
-  /// The settings that 1010h stores.
   struct Settings {
     canopen::cia402::DriveObjects objects;
     std::uint16_t gains[3] = {};
@@ -75,7 +74,6 @@ class DriveApplication {
  private:
   void refresh();
   void control(std::uint16_t word);
-  /// Applies a possible state change.
   void settle();
   DriveNews watch(std::uint64_t now_us);
   DriveNews fault(canopen::ErrorCode code, std::uint8_t error_register, std::uint8_t error_bit);

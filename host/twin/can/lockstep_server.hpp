@@ -16,7 +16,6 @@ namespace verp::can {
 struct LockstepHooks : bus::SessionHooks {
   /// A frame reached the bus, and so did all others before the same poll.
   std::function<void(const CanFrame& frame)> sent;
-  /// The burst that a poll returned.
   std::function<void(const std::vector<CanFrame>& burst, std::uint64_t now_us)> polled;
 };
 
@@ -26,10 +25,10 @@ struct LockstepHooks : bus::SessionHooks {
 /// commands do, and count as damage.
 class LockstepServer : public bus::LockstepSession {
  public:
-  /// The bus must outlive the server.
+  /// `bus` must outlive the server.
   LockstepServer(const Params& params, VirtualCan& bus, LockstepHooks hooks);
 
-  /// Takes a frame from the controller; appends the reply to `answer`.
+  /// Appends the reply to `answer`.
   void take(const CanFrame& frame, std::vector<CanFrame>& answer);
 
   /// Queues a frame, for example a request, for the controller's own node. It goes with one of the

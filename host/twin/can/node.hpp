@@ -16,11 +16,10 @@ class Node {
   virtual std::uint8_t id() const = 0;
   virtual void hear(const CanFrame& frame, std::uint64_t now_us) = 0;
   virtual void work(std::uint64_t now_us) = 0;
-  /// Returns the next frame to send, if any.
+  /// False: nothing to send.
   virtual bool say(CanFrame& frame, std::uint64_t now_us) = 0;
   /// Power on: restores the commissioned state and boots.
   virtual void power_on() = 0;
-  /// Power off.
   virtual void power_off() = 0;
 
  protected:

@@ -9,7 +9,6 @@ namespace {
 
 namespace plan = canopen::plan;
 
-/// True if the frame looks like one that this node sends.
 bool is_sign(const CanFrame& frame, const canopen::Connection& from, int slot) {
   std::uint8_t node = 0;
   canopen::NmtState state{};

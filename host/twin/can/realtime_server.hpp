@@ -25,7 +25,6 @@ class RealtimeServer {
   static constexpr std::uint64_t kMostBehind_us = 50'000;
   static constexpr std::uint64_t kKeepsUp_us = 1'000'000;  ///< time without a skip
 
-  /// A frame from the master, and its arrival time.
   struct Heard {
     CanFrame frame;
     std::uint64_t came_us = 0;
@@ -43,7 +42,6 @@ class RealtimeServer {
   /// Records how late the twin is at the end of a turn.
   void finished(std::uint64_t clock_us);
 
-  /// True once a master has sent a frame and time runs.
   bool begun() const { return begun_; }
   /// True if nothing was skipped for kKeepsUp_us at least once, or little in all; a short run may
   /// also be delayed.
@@ -54,7 +52,6 @@ class RealtimeServer {
   /// Target time of the bus; never before its present time, because frames may be older than a
   /// skip.
   std::uint64_t due_us(std::uint64_t clock_us) const;
-  /// Skips the delay beyond kMostBehind_us.
   void skip(std::uint64_t clock_us);
   void go_on(std::uint64_t clock_us, std::vector<CanFrame>& answer);
 

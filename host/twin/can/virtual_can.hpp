@@ -56,7 +56,6 @@ class VirtualCan {
   std::uint64_t now_us() const { return now_ns_ / 1000; }
   hal::CanErrors errors() const { return errors_; }
 
-  /// Adds a node: a tool, or an intruder.
   void plug_in(std::unique_ptr<Node> node);
   /// Bus-off after too many errors of the controller: it loses its waiting frames and returns by
   /// itself.
@@ -64,7 +63,6 @@ class VirtualCan {
 
   /// Control periods since the first tick; 0 before it. The controller counts the same ticks.
   std::uint32_t tick() const { return tick_; }
-  /// True once the first tick has begun.
   bool ticking() const { return ticking_; }
   /// Connects or disconnects a node. A disconnected node receives nothing, and its frames are lost.
   void set_connected(std::uint8_t id, bool connected);
@@ -91,7 +89,6 @@ class VirtualCan {
 
   /// Bits on the wire so far, including stuff bits and intermissions.
   std::uint64_t bits_on_wire() const { return bits_on_wire_; }
-  /// The same without stuff bits.
   std::uint64_t bare_bits_on_wire() const { return bare_bits_on_wire_; }
   std::uint64_t frames_on_wire() const { return frames_on_wire_; }
   /// Called at the end of each frame: a passive listener on the wire.
@@ -107,7 +104,6 @@ class VirtualCan {
   // For nodes on the wire of a chip model, which calls these before it advances.
   /// A frame has crossed that wire. Only nodes receive it here.
   void crossed(const CanFrame& frame, std::uint64_t end_ns);
-  /// Runs the nodes up to `time_ns`.
   void work_until(std::uint64_t time_ns);
   /// Returns the next frame that a node sends over that wire.
   bool take_said(CanFrame& frame);
@@ -138,7 +134,7 @@ class VirtualCan {
   Place* place_of(std::uint8_t id);
   /// Runs the next event that begins by `limit_ns`; false if there is none.
   bool step(std::uint64_t limit_ns);
-  /// Start of the next frame; kNever_ns if none waits.
+  /// kNever_ns if no frame waits.
   std::uint64_t next_begin_ns() const;
   void transmit(std::uint64_t begin_ns);
   /// Removes the winner of the arbitration from its queue; null: the controller's frame.
@@ -150,7 +146,6 @@ class VirtualCan {
     return interference_ == nullptr || interference_->passes(frame, receiver);
   }
   void passed(std::uint64_t time_ns);
-  /// Advances the plant.
   void reach(std::uint64_t time_ns);
   void work(std::uint64_t time_ns);
   void collect(Place& place, std::uint64_t time_ns);

@@ -14,7 +14,6 @@ namespace {
 using canopen::Address;
 namespace cia402 = canopen::cia402;
 
-/// A plant at rest.
 class Rest final : public sim::Plant {
  public:
   std::uint64_t now_us() const override { return 0; }

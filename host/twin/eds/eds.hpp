@@ -22,10 +22,8 @@ enum class DataType : std::uint16_t {
   kDomain = 0x0F,
   kUnsigned64 = 0x1B,
 };
-/// Integer type by size.
 DataType integer(unsigned bytes, bool is_signed);
 
-/// One value: an object, or a member of one.
 struct Value {
   std::string name;
   DataType type = DataType::kUnsigned8;
@@ -49,7 +47,7 @@ struct Object {
 };
 
 struct Description {
-  std::string file;  ///< its own name
+  std::string file;
   std::string text;  ///< one line for a person
   canopen::Identity identity{};
   canopen::DeviceSize size{};
@@ -72,7 +70,6 @@ Description drive();
 Description imu();
 Description foot();
 
-/// All sheets, by the names for people.
 struct Sheet {
   const char* node;
   Description (*describe)();
@@ -85,7 +82,6 @@ constexpr bool is_manufacturers(std::uint16_t index) {
   return index >= 0x2000 && index <= 0x5FFF;
 }
 
-/// One value and its address.
 struct Entry {
   canopen::Address at;
   Value value;

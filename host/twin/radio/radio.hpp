@@ -34,7 +34,6 @@ using Place = std::array<double, 3>;  ///< antenna position, m
 
 inline constexpr int kEverybody = -1;
 
-/// A received message.
 struct Heard {
   int from = 0;
   std::string data;

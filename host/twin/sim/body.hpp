@@ -42,7 +42,7 @@ class Body {
   Body(const Body&) = delete;
   Body& operator=(const Body&) = delete;
 
-  /// Sets the pose, at rest.
+  /// At rest.
   void place(const Transform& body_world, const std::vector<double>& joint_rad);
   /// Reads joint angles and rates; call it after every step.
   void read_joints();
@@ -61,7 +61,6 @@ class Body {
   /// Adds a rigid velocity to the whole robot; the rotation is about the body's origin.
   void add_velocity(const Vec3& linear_world_m_s, const Vec3& angular_world_rad_s);
   dBodyID ode_body(int node) const { return links_[static_cast<std::size_t>(node)].body; }
-  /// Tags of the link's shapes.
   std::vector<GeomTag*> tags(int node) const;
   /// Fixes the body to the world in its present pose, like a robot stand.
   void hold();

@@ -10,7 +10,7 @@ namespace verp::sim {
 /// When cameras took a picture, and all poses at that moment, from which a renderer draws it later.
 /// A run does not depend on exposures.
 struct Exposure {
-  std::uint64_t time_us = 0;         ///< simulated
+  std::uint64_t time_us = 0;
   std::vector<std::size_t> cameras;  ///< indices in Entity::cameras
   std::size_t robot = 0;             ///< index of the cameras' robot in the world
   /// Nodes of each robot, in the order in which robots joined the world.

@@ -12,7 +12,7 @@
 namespace verp::sim {
 
 struct Scan {
-  std::uint64_t time_us = 0;   ///< simulated time of the scan
+  std::uint64_t time_us = 0;
   std::size_t laser = 0;       ///< index in Entity::lasers
   std::vector<float> range_m;  ///< from the first angle to the last; inf: nothing in range
 };

@@ -60,8 +60,8 @@ struct WalkMetrics {
 struct SeriesRow {
   double t_s = 0;
   std::uint8_t phase = 0, state = 0, stance = 0;  ///< Outputs
-  std::vector<double> goal_rad;                   ///< the controller's goals
-  std::vector<double> joint_rad;                  ///< angles reached so far
+  std::vector<double> goal_rad;
+  std::vector<double> joint_rad;  ///< angles reached so far
   std::vector<double> torque_use;
   Vec3 body_world_m = Vec3::Zero();
   Vec3 body_rpy_rad = Vec3::Zero();
@@ -76,7 +76,7 @@ struct SeriesRow {
   std::vector<Vec2> support_world_m;
 };
 
-/// The meter's input from the twin, once per control tick.
+/// Read from the twin once per control tick.
 struct Observation {
   Truth truth;
   FootLoads loads;                               ///< since the last observation

@@ -19,7 +19,6 @@ inline model::Mat3 mat_of(const dReal* m) {
   return out;
 }
 
-/// Fills a dMatrix3.
 inline void to_ode(const model::Mat3& rotation, dReal* out) {
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) out[4 * row + column] = rotation(row, column);

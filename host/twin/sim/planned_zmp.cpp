@@ -9,7 +9,6 @@
 namespace verp::sim {
 namespace {
 
-/// A point on the ground with a heading.
 struct Place {
   Vec2 at_m;
   double yaw_rad;

@@ -23,9 +23,9 @@ struct ServoSetpoint {
   double profile_count_s = 0;    ///< velocity-based profile: top speed; 0: a step
   double accelerate_count_s2 = 0;  ///< its acceleration, also in velocity mode; 0: at once
   ServoMode mode = ServoMode::kPosition;
-  double goal_count_s = 0;               ///< velocity mode
-  double goal_a = 0;                     ///< current mode
-  double goal_pwm = 0;                   ///< PWM mode
+  double goal_count_s = 0;
+  double goal_a = 0;
+  double goal_pwm = 0;
   double current_limit_a = -1;           ///< position mode: current limit; negative: none
   std::uint16_t velocity_p_gain = 100;   ///< the loop uses p/128, per 0.229 rev/min
   std::uint16_t velocity_i_gain = 1920;  ///< i/65536
@@ -38,8 +38,8 @@ struct ServoMeasurement {
   double current_a = 0;
   double temperature_c = 25;
   double voltage_v = 12;
-  double trajectory_count = 0;    ///< position of the profile
-  double trajectory_count_s = 0;  ///< speed of the profile
+  double trajectory_count = 0;
+  double trajectory_count_s = 0;
   ProfileKind profile = ProfileKind::kStep;
   bool profile_ongoing = false;
 };

@@ -17,8 +17,8 @@ namespace verp::sim {
 
 /// In the sensor's axes, about its origin.
 struct WrenchReading {
-  std::uint64_t time_us = 0;  ///< simulated time of the measurement
-  std::size_t sensor = 0;     ///< index in Entity::force_torques
+  std::uint64_t time_us = 0;
+  std::size_t sensor = 0;  ///< index in Entity::force_torques
   Vec3 force_n = Vec3::Zero(), torque_n_m = Vec3::Zero();
 };
 
@@ -51,7 +51,6 @@ class Probes {
   /// Meters the joints it needs in `body`; `owner` is the robot's number in the world.
   Probes(const model::Entity& entity, Body& body, int owner, bool noise, std::uint64_t seed);
 
-  /// Call after each step.
   void sample(const World& world, const Body& body);
   /// Readings that became available since the last call; if nobody takes them, the oldest are
   /// dropped.

@@ -53,7 +53,6 @@ class Quantities final : private Actor {
   /// Null: no quantity has this name.
   const Quantity* find(const std::string& name) const;
   std::vector<std::string> names() const;
-  /// Names of the things that can be pushed.
   std::vector<std::string> things() const;
 
   /// Each throws std::invalid_argument, which lists the valid names or range.

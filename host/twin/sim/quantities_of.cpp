@@ -80,7 +80,6 @@ Vec3 angles_of(const Transform& pose) {
   return roll_pitch_yaw(pose.linear());
 }
 
-/// A quantity that cannot be set.
 Quantity read_only(std::string name, const char* unit, const char* what,
                    std::function<double()> read) {
   return {std::move(name), unit, what, 0, 0, std::move(read), {}};

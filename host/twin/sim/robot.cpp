@@ -105,7 +105,6 @@ FootLoads TwinRobot::take_foot_loads() {
   return std::exchange(loads_, FootLoads{});
 }
 
-/// A joint's set-point of goal_delay_s ago, in whole steps.
 const ServoSetpoint& TwinRobot::acting(std::size_t joint) const {
   return arriving_[arriving_.size() - 1 - delay_steps_[joint]][joint];
 }

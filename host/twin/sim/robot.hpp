@@ -127,7 +127,6 @@ class TwinRobot final : public Plant, private Actor {
   FootLoads take_foot_loads();
 
  private:
-  /// Index of the joint with the motor.
   int motor_of(int joint) const {
     const int driver = entity_.joints[static_cast<std::size_t>(joint)].follows;
     return driver < 0 ? joint : driver;
@@ -167,7 +166,7 @@ class TwinRobot final : public Plant, private Actor {
   Probes probes_;
   Vec3 imu_velocity_world_m_s_ = Vec3::Zero();
   FootLoads step_loads_;  ///< of the last step
-  FootLoads loads_;       ///< since take_foot_loads()
+  FootLoads loads_;
   std::array<double, 2> foot_force_n_{};
   const double nominal_v_;  ///< of the supply, unloaded
   double supply_v_;

@@ -53,7 +53,6 @@ class Scenery final : private Actor {
   std::vector<std::vector<dTriIndex>> triangles_;
 };
 
-/// Pose of a moving object at that time.
 Transform pose_at(const model::WorldObject& object, double t_s);
 
 }  // namespace verp::sim

@@ -55,7 +55,6 @@ class ImuModel {
   ImuMeasurement measurement_;
 };
 
-/// Four force sensors under the corners of one sole.
 class FootModel {
  public:
   FootModel(const model::Limb& leg, double newton_per_count, bool noise, Random random);

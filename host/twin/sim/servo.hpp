@@ -82,7 +82,6 @@ class ServoModel {
   double torque_use() const { return torque_use_; }
   /// The requested duty reached the limit in the last step.
   bool saturated() const { return saturated_; }
-  /// Current from the supply.
   double supply_current_a() const { return supply_current_a_; }
   /// Of the bearing, in addition to the servo's own.
   double joint_damping_n_m_s() const { return joint_.damping_n_m_s; }

@@ -10,7 +10,6 @@
 
 namespace verp::sim {
 
-/// Takes exposures for a robot's cameras, each at its own rate.
 class Shutters {
  public:
   /// `wanted`: pictures are rendered; otherwise no shutter opens.
@@ -26,7 +25,7 @@ class Shutters {
   static Exposure expose(const World& world, const Actor& robot);
 
   const model::Entity& entity_;
-  std::vector<Shutter> shutter_;  ///< of each camera
+  std::vector<Shutter> shutter_;
   std::vector<Delay<Exposure>> developing_;
   std::vector<Exposure> exposures_;
 };

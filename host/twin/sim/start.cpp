@@ -44,7 +44,6 @@ std::vector<double> any_angles(const model::Entity& entity, Random& random) {
   throw std::invalid_argument("no pose of '" + entity.name + "' was found in which no links meet");
 }
 
-/// Rotation from standing to lying on that side.
 Mat3 laid(Lies lies, Random& random) {
   constexpr double kQuarter = std::numbers::pi / 2;
   const auto turn = [](double angle_rad, const Vec3& axis) {

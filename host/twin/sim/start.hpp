@@ -7,8 +7,8 @@ namespace verp::sim {
 
 /// Angles and pose at the start, including the seed's variation.
 struct Start {
-  std::vector<double> joint_rad;  ///< of entity.joints
-  Transform body_world;           ///< the root link's frame in the world
+  std::vector<double> joint_rad;
+  Transform body_world;  ///< the root link's frame in the world
 };
 
 /// Start pose of the options: standing, or lying on a side, the lowest point just above the ground.

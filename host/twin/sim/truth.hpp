@@ -35,8 +35,8 @@ struct Truth {
   std::vector<double> joint_rad_s;
   std::vector<double> torque_n_m;  ///< motor, gearbox and end stop, joint sense
   std::vector<double> torque_use;  ///< |motor torque| / stall torque
-  bool held = false;               ///< still in the cradle
-  bool fallen = false;             ///< latched
+  bool held = false;
+  bool fallen = false;  ///< latched
 };
 
 inline constexpr double kContactForceN = 1.0;

@@ -60,7 +60,7 @@ class Scenery;
 
 /// The shapes that a ray ignores: those of one link.
 struct RayFilter {
-  int owner = kScenery - 1;  ///< no owner
+  int owner = kScenery - 1;
   int node = 0;
 };
 
