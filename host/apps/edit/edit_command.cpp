@@ -29,7 +29,7 @@ struct EditWords {
 const std::map<std::string, double> kUnits = {
     {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}};
 
-/// A file by its path, or a robot by its name; a path that does not exist is for a new robot.
+/// A file by its path, or a robot by its name; a missing path is for a new robot.
 fs::path file_of(const std::string& word) {
   std::error_code error;
   const fs::path path = word;
@@ -118,7 +118,7 @@ int change(const EditWords& words, bool may_be_new, const Change& make) {
   return cli::kGood;
 }
 
-/// The subcommands of `edit`, in the order of their use.
+/// In the order of help.
 class Verbs {
  public:
   Verbs(CLI::App& edit, std::shared_ptr<EditWords> words) : edit_(edit), words_(std::move(words)) {}

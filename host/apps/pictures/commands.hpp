@@ -1,7 +1,6 @@
 #pragma once
 #include "host/apps/cli/command.hpp"
 
-/// Commands that need OpenGL.
 namespace verp::pictures {
 
 cli::Subcommand add_shot(CLI::App& root);

@@ -3,7 +3,7 @@
 
 namespace verp::pictures {
 
-/// Draws a small number in the upper left corner; a dot is `scale` pixels.
+/// In the upper left corner; a dot is `scale` pixels.
 void write_number(render::Image& image, int number, int scale);
 
 }  // namespace verp::pictures

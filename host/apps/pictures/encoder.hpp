@@ -8,7 +8,7 @@
 
 namespace verp::pictures {
 
-/// Feeds pictures to an ffmpeg process. The file appears when it is complete.
+/// Feeds an ffmpeg process. The file appears when it is complete.
 class Encoder {
  public:
   /// .mp4, .gif or .webp. Throws ToolError if there is no ffmpeg.

@@ -5,10 +5,9 @@
 #include "host/apps/tool/walk_options.hpp"
 #include "host/show/scene/snapshot.hpp"
 
-/// The source of pictures.
 namespace verp::pictures {
 
-/// Receives the instants in order; returns false to stop.
+/// Receives the instants in order; false stops.
 using Show = std::function<bool(scene::Snapshot&&)>;
 
 /// A robot's walk in the twin, or a trace.
@@ -17,12 +16,12 @@ class Film {
   virtual ~Film() = default;
   const scene::Scene& scene() const { return scene_; }
   const model::Entity& entity() const { return *scene_.robots.front().entity; }
-  /// A note for the user in one line; may be empty.
+  /// One line for the user; may be empty.
   const std::string& note() const { return note_; }
   virtual double end_s() const = 0;  ///< an estimate
   virtual scene::Snapshot start() const = 0;
-  /// Plays from from_s on, every_s apart (0: each tick), until the end or until `show` stops it.
-  /// Call it once.
+  /// From from_s on, every_s apart (0: each tick), until the end or until `show` stops it. Call it
+  /// once.
   virtual void play(double from_s, double every_s, const Show& show) = 0;
 
  protected:
@@ -30,16 +29,15 @@ class Film {
   std::string note_;
 };
 
-/// A trace if the options' MODEL ends in .mcap, else a walk with these options. Throws ToolError,
-/// LoadError and TraceError.
+/// A trace if the options' MODEL ends in .mcap, else a walk. Throws ToolError, LoadError and
+/// TraceError.
 std::unique_ptr<Film> open_film(const tool::WalkOptions& options);
 
-/// Declares the walk options that a film needs, under their usual names.
 void declare_film(CLI::App& app, tool::WalkOptions& options);
 
 bool is_trace(const tool::WalkOptions& options);
 
-/// Throws ToolError if the user gives a walk option with a trace.
+/// Throws ToolError for a walk option with a trace.
 void refuse_walk_of_trace(const CLI::App& app, const tool::WalkOptions& options);
 
 }  // namespace verp::pictures

@@ -7,8 +7,7 @@
 
 namespace {
 
-/// Reports a RenderError as bad input: a size that the driver cannot draw or a picture that cannot
-/// be written is not a bug.
+/// Reports a RenderError as bad input: an oversized or unwritable picture is not a bug.
 verp::cli::Subcommand told(verp::cli::Subcommand command) {
   command.run = [run = std::move(command.run)] {
     try {
@@ -26,7 +25,6 @@ std::vector<verp::cli::Subcommand> commands(CLI::App& root) {
 
 }  // namespace
 
-/// `verp shot` and `verp video` are a program of their own, so that `verp` needs no OpenGL.
 int main(int argc, char** argv) {
   return verp::cli::run_program(argc, argv, commands);
 }

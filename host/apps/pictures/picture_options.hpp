@@ -23,14 +23,14 @@ void declare_picture(CLI::App& app, PictureOptions& options, const std::string& 
 /// Width and height of --size. Throws ToolError.
 render::Size size_of(const std::string& command, const PictureOptions& options);
 
-/// With --marks, includes the marks.
+/// Includes --marks.
 render::Effects effects_of(const PictureOptions& options);
 
 /// The view that --camera names. Throws ToolError that lists the views.
 scene::Camera camera_of(const std::string& command, const PictureOptions& options,
                         const scene::Scene& scene, const scene::Snapshot& now, render::Size size);
 
-/// Requires that the file's folder exists and its name has one of these endings. Throws ToolError.
+/// Throws ToolError unless the folder exists and the name has one of these endings.
 void require_place(const std::string& command, const std::string& file,
                    const std::vector<std::string>& endings);
 

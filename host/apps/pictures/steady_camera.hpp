@@ -5,7 +5,7 @@
 
 namespace verp::pictures {
 
-/// Follows the robot smoothly and does not sway with it.
+/// Follows the robot without its sway.
 class SteadyCamera {
  public:
   scene::Camera follow(scene::Camera wanted) {

@@ -10,7 +10,6 @@
 namespace verp::pictures {
 namespace {
 
-/// Copies a picture into another; (left, top) is its upper left corner.
 void paste(render::Image& onto, const render::Image& part, int left, int top) {
   const auto row = static_cast<std::ptrdiff_t>(3 * part.size.width);
   for (int y = 0; y < part.size.height; ++y) {

@@ -12,7 +12,7 @@
 #include "host/author/edit/names.hpp"
 #include "host/author/edit/parts.hpp"
 
-/// The editor's buttons, and the line that adds parts.
+/// Buttons, and the line that adds parts.
 namespace verp::view {
 
 QWidget* EditorPanel::make_adder() {

@@ -24,10 +24,9 @@
 namespace verp::view {
 namespace {
 
-constexpr int kTyping_ms = 250;  // a check takes some ten milliseconds, so it waits for a pause in
-                                 // typing
+constexpr int kTyping_ms = 250;  // a check takes some 10 ms: wait for a pause
 
-/// Reports each letter that the user types into a cell.
+/// Reports each letter typed into a cell.
 class Typing final : public QStyledItemDelegate {
  public:
   Typing(std::function<void(int, const QString&)> typed, QObject* parent)
@@ -158,7 +157,7 @@ void EditorPanel::select(const std::string& path) {
   tree_->scrollTo(index);
 }
 
-/// Makes an edit and pushes it on the undo stack, which applies it.
+/// The undo stack applies the edit.
 void EditorPanel::change(const Make& make) {
   if (!document_) return;
   try {

@@ -21,19 +21,18 @@ namespace verp::view {
 class EditorTable;
 class EditorTree;
 
-/// Editor of a robot's file: its parts, their values with units, and the result of `verp check`
-/// during typing. Each change is the smallest edit of the text and goes on the undo stack.
+/// Editor of a robot's file: parts, values with units, and the result of `verp check` during
+/// typing. Each change is the smallest edit of the text and goes on the undo stack.
 class EditorPanel final : public QWidget {
  public:
   explicit EditorPanel(QUndoStack& undo, QWidget* parent = nullptr);
   ~EditorPanel() override;
 
-  /// Returns the reason if the file cannot be edited, else empty. Refuses while there are unsaved
-  /// changes.
+  /// Returns empty or the reason. Refuses while there are unsaved changes.
   std::string open(const std::string& file, bool may_be_new = false);
   /// Returns empty, or the reason and where the text was put.
   std::string save();
-  /// Writes unsaved text beside the file and returns its path.
+  /// Writes unsaved text beside the file; returns a note that says where.
   std::string put_aside() const { return document_ ? document_->put_aside() : ""; }
   bool changed() const { return document_ && document_->changed(); }
   const edit::Document* document() const { return document_ ? &*document_ : nullptr; }

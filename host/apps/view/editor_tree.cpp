@@ -10,7 +10,7 @@
 namespace verp::view {
 namespace {
 
-// Elements that are parts inside parts; other children are values.
+// Nested parts; other children are values.
 constexpr std::array kInner = {"sensor", "collision", "visual", "verp:servo", "verp:joint"};
 
 }  // namespace

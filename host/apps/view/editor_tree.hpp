@@ -6,8 +6,8 @@
 
 namespace verp::view {
 
-/// The parts of a robot's file: links, joints, frames, sensors, buses with their servos. An index
-/// holds its element's number.
+/// Links, joints, frames, sensors, and buses with their servos. An index holds its element's
+/// number.
 class EditorTree final : public QAbstractItemModel {
  public:
   using QAbstractItemModel::QAbstractItemModel;
@@ -18,7 +18,7 @@ class EditorTree final : public QAbstractItemModel {
     return index.isValid() ? int(index.internalId()) : -1;
   }
   QModelIndex index_of(int element) const;
-  /// Marks the part that `verp check` complains about.
+  /// The part that `verp check` complains about.
   void mark(const std::string& path);
 
   QModelIndex index(int row, int column, const QModelIndex& parent = {}) const override;

@@ -28,8 +28,7 @@
 namespace verp::view {
 namespace {
 
-constexpr int kNumbersEvery = 4;                          // frames between updates of numbers,
-                                                          // which users cannot read faster
+constexpr int kNumbersEvery = 4;                          // frames; users cannot read faster
 constexpr scene::Colour kLinked{0.16F, 0.47F, 0.86F, 1};  // of the robot at the link
 constexpr int kLayout = 1;                                // version of the saved layout
 
@@ -223,7 +222,7 @@ void MainWindow::open(const QString& file) {
     if (file.endsWith(".mcap")) return watch(std::filesystem::path(file.toStdString()));
     watch(make_run_(file.toStdString()));
   } catch (const std::exception& error) {
-    // The editor opens a robot that is not sound, so that the user can repair it.
+    // Open it anyway: the user can repair a robot that is not sound.
     if (!file.endsWith(".mcap")) editor_->open(file.toStdString());
     say(QString::fromUtf8(error.what()));
   }

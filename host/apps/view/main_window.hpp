@@ -35,12 +35,11 @@ class StatePanel;
 class Transport;
 class TuningPanel;
 
-/// The main window: one robot in the twin or in a trace. Player holds what it shows, LiveRun acts
-/// on the robot; the window only connects them.
+/// The main window: one robot in the twin or in a trace. It only connects Player, which holds what
+/// it shows, and LiveRun, which acts on the robot.
 class MainWindow final : public QMainWindow {
  public:
-  /// `make_run` gives the run of a robot by name or file, or throws an exception with one line of
-  /// text.
+  /// Makes the run of a robot by name or file; throws an exception with one line of text.
   using MakeRun = std::function<RunSetup(const std::string& model)>;
   MainWindow(QSettings& settings, MakeRun make_run);
   ~MainWindow() override;
@@ -48,7 +47,7 @@ class MainWindow final : public QMainWindow {
   void watch(RunSetup setup);
   /// Throws record::TraceError.
   void watch(const std::filesystem::path& trace);
-  /// Shows the controller at that link beside each robot that is opened from now on. Throws
+  /// Shows the controller at that link beside each robot opened from now on. Throws
   /// link::EndpointError.
   void link_to(const std::string& link);
   /// Steers by that joystick whenever it is plugged in.
@@ -62,9 +61,9 @@ class MainWindow final : public QMainWindow {
   PosePanel& pose() { return *pose_; }
   EditorPanel& editor() { return *editor_; }
 
-  /// The window's reason to close by itself, else empty.
+  /// Why the window closed by itself, or empty.
   const std::string& failure() const { return failure_; }
-  /// Ends the run and its record. Returns what was lost, else empty.
+  /// Ends the run and its record. Returns what was lost, or empty.
   std::string finish();
 
  protected:
@@ -114,14 +113,13 @@ class MainWindow final : public QMainWindow {
   std::unique_ptr<Gamepad> gamepad_;
   std::unique_ptr<Player> player_;
   std::shared_ptr<const TraceFilm> trace_;     ///< null in a run
-  std::unique_ptr<StepOn> shadow_;             ///< continues by itself from a tick of the trace
-  std::size_t state_index_ = ~std::size_t{0};  ///< trace tick that the panel shows
+  std::unique_ptr<StepOn> shadow_;             ///< continues from a tick of the trace
+  std::size_t state_index_ = ~std::size_t{0};  ///< tick that the panel shows
   std::shared_ptr<const Film> film_;
   std::shared_ptr<const scene::Entity> entity_;
   std::unique_ptr<Steering> steering_;
-  std::shared_ptr<const scene::Entity> edited_;  ///< the robot in the editor, shown until time goes
-                                                 ///< on
-  std::string chosen_link_;                      ///< selected in the editor
+  std::shared_ptr<const scene::Entity> edited_;  ///< shown until time goes on
+  std::string chosen_link_;                      ///< in the editor
   QUndoStack* undo_;
   QUndoGroup* undos_;
   SceneView* scene_;
@@ -141,9 +139,8 @@ class MainWindow final : public QMainWindow {
   QLabel *mode_, *speed_, *faults_, *link_told_, *digest_;
   QByteArray first_layout_;
   std::string failure_, said_, happened_;
-  std::set<std::string> told_;              ///< notes about missing items, each reported once
-  std::optional<scene::Vec3> grip_link_m_;  ///< grip on a link other than a foot, in the link's
-                                            ///< frame
+  std::set<std::string> told_;              ///< notes already reported
+  std::optional<scene::Vec3> grip_link_m_;  ///< on a link other than a foot, in its frame
   std::optional<scene::Vec3> foot_from_m_;  ///< start of the dragged foot
   int frames_ = 0;
 };

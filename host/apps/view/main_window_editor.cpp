@@ -10,14 +10,12 @@
 #include "host/apps/view/pose_panel.hpp"
 #include "host/os/files/whole.hpp"
 
-/// Shows the edited robot, selects its parts and lets it walk.
 namespace verp::view {
 namespace {
 
 constexpr scene::Colour kChosen{0.95F, 0.55F, 0.12F, 1};
 
-/// A temporary file beside the robot's, so that included files are found by the same relative
-/// paths.
+/// A temporary file beside the robot's, so that relative includes work.
 class Beside {
  public:
   Beside(const std::filesystem::path& file, const std::string& text)
@@ -47,8 +45,8 @@ void MainWindow::make_editor() {
   undos_->addStack(undo_);
   undos_->addStack(stack);
   undos_->setActiveStack(undo_);
-  // Undo takes back the latest change in either stack. A stack's destructor clears it when the
-  // window and the group are gone; count() is 0 then.
+  // Undo takes back the latest change in either stack. The stacks outlive the window and end with
+  // count() 0.
   connect(stack, &QUndoStack::indexChanged, this, [this, stack] {
     if (stack->count() > 0) undos_->setActiveStack(stack);
   });

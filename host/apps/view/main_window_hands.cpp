@@ -7,7 +7,6 @@
 #include "host/apps/view/main_window.hpp"
 #include "host/apps/view/pose_panel.hpp"
 
-// User actions on the robot.
 namespace verp::view {
 namespace {
 
@@ -38,7 +37,7 @@ void MainWindow::stop(bool pressed) {
   stop_->setText(pressed ? "Release stop" : "Emergency stop");
 }
 
-/// The user takes control: the robot obeys only the window and stands once it is up.
+/// The robot obeys only the window and stands once it is up.
 void MainWindow::get_up() {
   if (live() == nullptr || !steering_ || !get_up_->isEnabled()) return;
   steering_->stop();
@@ -68,7 +67,6 @@ void MainWindow::show_get_up(const scene::RobotView& robot) {
   happened_ = status.happened;
 }
 
-/// The scene shows the held robot while there is one.
 void MainWindow::pick_up() {
   if (!player_) return;
   if (!pose_->posing()) return scene_->say("");
@@ -107,7 +105,7 @@ session::Intervention MainWindow::push_of(const SceneView::Hold& at) const {
   session::Intervention push{.kind = session::Intervention::Kind::kPush, .name = {}};
   push.name = entity_->nodes[static_cast<std::size_t>(at.node)].name;
   push.force_world_n = kPush_n_m * (at.to_world_m - at.at_world_m);
-  // Rounded, as a user would type it.
+  // Round as a user would type it.
   for (double& axis : push.force_world_n) axis = std::round(10 * axis) / 10;
   push.for_s = kPush_s;
   return push;

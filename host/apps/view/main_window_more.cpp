@@ -9,7 +9,7 @@
 #include "host/run/session/fault_names.hpp"
 #include "host/show/scene/plan_marks.hpp"
 
-// External inputs: a controller at a link, a gamepad, a trace's State.
+// A controller at a link, a gamepad, a trace's State.
 namespace verp::view {
 
 void MainWindow::link_to(const std::string& link) {
@@ -99,7 +99,7 @@ void MainWindow::step_on(int ticks) {
   player_->seek((shadow_->inputs().tick + 0.5) * player.trace().period_s());
 }
 
-/// The recorded robot with the goals of the controller that continues by itself.
+/// The recorded robot with the continuing controller's goals.
 Picture MainWindow::with_shadow(Picture now) const {
   if (!shadow_ || !now || now->robots.empty()) return now;
   auto picture = std::make_shared<scene::Snapshot>(*now);

@@ -15,7 +15,7 @@
 namespace verp::view {
 namespace {
 
-constexpr double kWindow_s = 10;  // width of a plot of a live run
+constexpr double kWindow_s = 10;  // shown of a live run
 constexpr double kClick_px = 4;
 
 QToolButton* button(QWidget* parent, const char* text, const char* tip) {
@@ -97,7 +97,7 @@ int PlotPanel::points_of(int signal) const {
   return 0;
 }
 
-/// The left axis has the first curve's unit, the right axis all other curves.
+/// Left axis: the first curve's unit; right axis: all others.
 void PlotPanel::lay_out() {
   QStringList left, right;
   for (std::size_t i = 0; i < curves_.size(); ++i) {

@@ -23,12 +23,12 @@ class PlotPanel final : public QWidget {
   void set_shown(int signal, bool shown);
   std::vector<int> shown() const;
   void clear();
-  /// Adds new points and moves the line to the instant that the scene shows.
+  /// Adds new points and moves the line to the shown instant.
   void refresh(double shown_s, bool follows);
   void fit();
   void restyle();
 
-  std::function<void(double t_s)> sought;  ///< the user clicked
+  std::function<void(double t_s)> sought;
 
   QCustomPlot& plot() { return *plot_; }
   int points_of(int signal) const;

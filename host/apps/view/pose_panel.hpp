@@ -25,12 +25,9 @@ class PosePanel final : public QWidget {
   bool posing() const;
   void set_posing(bool posing);
   PoseHand* hand() { return hand_.get(); }
-  /// Drags a point of a link, in the link's frame, to a place in the world.
   void drag_link(int node, const scene::Vec3& point_link_m, const scene::Vec3& to_world_m);
-  /// Drags a foot.
   void drag_foot(int side, const scene::Vec3& sole_world_m);
   scene::Vec3 sole_world_m(int side) const;
-  /// In the frame of that link.
   scene::Vec3 in_link_m(int node, const scene::Vec3& at_world_m) const;
   Picture picture() const;
 

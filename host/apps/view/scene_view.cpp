@@ -81,7 +81,7 @@ void SceneView::say(const QString& text) {
   overlay_->move(12, 12);
 }
 
-/// A robot's camera moves with its link; other views stay where the user left them.
+/// A robot's camera moves with its link; other views stay.
 scene::Camera SceneView::camera() const {
   for (const scene::Mount& mount : scene_.cameras) {
     if (view_ != "head" && view_ != mount.name) continue;
@@ -106,7 +106,7 @@ void SceneView::initializeGL() {
   try {
     renderer_ = std::make_unique<render::Renderer>();
     scene_changed_ = true;
-    if (renderer_->on_processor()) {  // the twin and its controller need the processor too
+    if (renderer_->on_processor()) {  // the twin needs the processor too
       effects_.quick = true;
       effects_.antialias = false;
     }
@@ -149,7 +149,7 @@ std::optional<SceneView::Hold> SceneView::take_hold(const QPointF& at) {
   return Hold{item.robot, item.node, hit.point_world_m, hit.point_world_m};
 }
 
-/// The point under the mouse at distance `ahead_m` from the camera's plane.
+/// The point under the mouse, `ahead_m` from the camera's plane.
 scene::Vec3 SceneView::under_mouse(const QPointF& at, double ahead_m) const {
   const scene::Camera from = camera();
   const scene::Vec3 ahead = (from.target_m - from.eye_m).normalized();

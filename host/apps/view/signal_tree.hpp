@@ -9,7 +9,7 @@ class QLineEdit;
 
 namespace verp::view {
 
-/// All signals that can be plotted, in groups, with a check box and the current value.
+/// Signals in groups, with a check box and the current value.
 class SignalTree final : public QWidget {
  public:
   explicit SignalTree(QWidget* parent = nullptr);

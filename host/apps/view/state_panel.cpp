@@ -98,7 +98,7 @@ void StatePanel::make_rows(const Fields& fields) {
   groups[".state"]->setExpanded(true);
 }
 
-/// A difference also marks all parents.
+/// Also marks all parents.
 void StatePanel::mark(QTreeWidgetItem& item, bool differs) {
   for (QTreeWidgetItem* each = &item; each != nullptr; each = each->parent()) {
     for (const int column : {0, 1}) {

@@ -14,8 +14,8 @@ class QTreeWidgetItem;
 
 namespace verp::view {
 
-/// All fields of State, Inputs and Outputs at a trace's tick, by name. While a controller continues
-/// from there by itself, also the recorded values.
+/// All fields of State, Inputs and Outputs at a trace's tick. While a controller continues from
+/// there, also the recorded values.
 class StatePanel final : public QWidget {
  public:
   explicit StatePanel(QWidget* parent = nullptr);
@@ -25,18 +25,17 @@ class StatePanel final : public QWidget {
     Inputs inputs;
     Outputs outputs;
   };
-  /// `recorded` is null while the record itself is shown.
+  /// `recorded` is null for the record itself.
   void show_tick(const Tick& now, const Tick* recorded);
-  /// Shows why there is no tick.
   void show_none(const QString& why);
-  /// Compares the continuing controller with the record; empty if there is no such controller.
+  /// Compares the continuing controller with the record; may be empty.
   void say(const QString& how);
 
-  /// Continues by so many ticks; 0: back to the record.
+  /// Called with the ticks to continue; 0: back to the record.
   std::function<void(int ticks)> stepped;
 
   int different() const { return different_; }
-  /// The text of a field by its path ("state.gait.phase"); empty if there is none.
+  /// Text of a field by its path ("state.gait.phase"); empty if there is no such field.
   QString value(const QString& path) const;
 
  private:

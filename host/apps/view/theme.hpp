@@ -5,7 +5,7 @@
 class QApplication;
 class QCustomPlot;
 
-/// The window's colours, the same as the report's.
+/// The same colours as the report's.
 namespace verp::view {
 
 struct Theme {
@@ -14,7 +14,6 @@ struct Theme {
   QColor series(int index) const;
 };
 
-/// The current theme.
 const Theme& theme();
 void apply_theme(QApplication& application, bool dark);
 void apply_theme(QCustomPlot& plot);

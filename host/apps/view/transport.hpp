@@ -10,7 +10,7 @@ namespace verp::view {
 
 class Player;
 
-/// Time control: reset, play, one tick back and forth, speed, and a slider over the whole time.
+/// Reset, play, one tick back and forth, speed, and a slider over the whole time.
 class Transport final : public QToolBar {
  public:
   explicit Transport(QWidget* parent = nullptr);
@@ -22,7 +22,7 @@ class Transport final : public QToolBar {
   QAction* back;
   QAction* tick;
   QAction* reset;
-  /// One step slower or faster.
+  /// By one step.
   void change_speed(int by);
 
  private:

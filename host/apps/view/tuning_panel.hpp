@@ -16,9 +16,9 @@ class TuningPanel final : public QWidget {
  public:
   TuningPanel(QUndoStack& undo, QWidget* parent = nullptr);
 
-  /// Sets the robot's own numbers; `live`: they can be changed.
+  /// `live`: the numbers can be changed.
   void set_robot(const Tuning& own, bool live);
-  /// Shows the numbers in effect.
+  /// Numbers in effect.
   void show_tuning(const Tuning& tuning);
 
   std::function<void(int id, float value)> wanted;

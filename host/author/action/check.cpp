@@ -19,7 +19,7 @@ constexpr int kMostTicks = 60000;
 constexpr int kCollideEvery = 5;  // ticks
 constexpr double kMostTorqueShare = 0.9;
 constexpr double kLeastMargin_m = -0.005;  // the balance can take this much
-constexpr double kTouch_m = 1e-3;          // depth to which resting links may touch
+constexpr double kTouch_m = 1e-3;          // depth of contact between resting links
 
 /// Makes the frame's condition come true.
 void fulfil(Condition condition, PlayerIn& in) {
@@ -128,7 +128,7 @@ class Checker {
   }
 
   void look_at_weight(const PlayerOut& out) {
-    if (out.stance == Stance::kNone) return;  // the ground forces are unknown then
+    if (out.stance == Stance::kNone) return;  // the ground forces are unknown
     const Torques torques = support_.torques(out);
     FrameCheck& now = result_.frames.back();
     for (int j = 0; j < params_.joint_count; ++j) {
@@ -144,7 +144,7 @@ class Checker {
 
   void look_at_zmp(const PlayerOut& out) {
     const bool carried = out.stance != Stance::kNone;
-    // Accelerations are valid only while the same foot is the reference.
+    // Accelerations need the same reference foot.
     const int reference = out.carry[0] >= 0.5F ? 0 : 1;
     if (!carried || reference != reference_) com_m_.clear();
     reference_ = reference;

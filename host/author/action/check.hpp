@@ -5,8 +5,8 @@
 #include "host/author/action/compile.hpp"
 #include "host/robot/model/entity.hpp"
 
-/// Checks an action on a robot without a world. The core's own player runs it from the stand and
-/// back; conditions come true and feet that carry do not move.
+/// Checks an action without a world. The core's player runs it from the stand and back; conditions
+/// come true and feet that carry do not move.
 namespace verp::action {
 
 /// One key frame: the way to it and its rest.
@@ -16,17 +16,16 @@ struct FrameCheck {
   double begin_s = 0, end_s = 0;
   double speed_share = 0;   ///< of the joint's limit
   std::string fastest;      ///< the joint of speed_share
-  double torque_share = 0;  ///< of the servo's stall torque, from weight alone
+  double torque_share = 0;  ///< of stall torque, from weight alone
   std::string hardest;
-  double zmp_margin_m = 1;  ///< inside the soles that carry; 1: no sole carries
-  std::string problem;      ///< the first bound that it breaks; empty: none
+  double zmp_margin_m = 1;  ///< inside the carrying soles; 1: none carries
+  std::string problem;      ///< the first broken bound; may be empty
 };
 
 struct Checked {
   std::vector<FrameCheck> frames;  ///< in the order played
   double length_s = 0;
-  bool whole = true;  ///< false: the check stopped at length_s, before the action's end
-  /// The first frame with a problem, or null.
+  bool whole = true;  ///< false: stopped at length_s, before the end
   const FrameCheck* first_bad() const;
 };
 

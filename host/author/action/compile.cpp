@@ -13,12 +13,12 @@
 namespace verp::action {
 namespace {
 
-/// Compiles all actions of a robot into one image.
+/// Compiles a robot's actions into one image.
 class Maker {
  public:
   Maker(const Params& params, std::vector<Document> documents)
       : params_(params), poser_(params), documents_(std::move(documents)) {
-    // A motion file's page without steps has nothing to play.
+    // A page without steps has nothing to play.
     std::erase_if(documents_,
                   [](const Document& each) { return each.frames.empty() && !each.mirror; });
     std::sort(documents_.begin(), documents_.end(),
@@ -96,7 +96,7 @@ class Maker {
     }
   }
 
-  /// The document that holds the action's frames: itself, or the one that it mirrors.
+  /// The document with the action's frames: itself or the mirrored one.
   const Document& source(std::size_t index) const {
     const Document& document = documents_[index];
     return document.mirror ? documents_[find(document, *document.mirror)] : document;
@@ -129,7 +129,7 @@ class Maker {
                                    : kToStand;
       if (text.exit) exit = text.exit;
       if (exit) frame.exit = resolve(index, *exit, false);
-      // A frame on the exit path continues to its next frame.
+      // A frame on the exit path goes to its next frame.
       const std::size_t at = first_[index] + i;
       if (frame.exit <= at && frame.exit >= first_[index]) frame.exit = frame.next;
       if (text.wait && text.wait->otherwise) {
@@ -187,8 +187,8 @@ class Maker {
     return good;
   }
 
-  /// A joint that keeps its direction passes its key frames; one that turns back, holds or waits
-  /// rests there.
+  /// A joint passes key frames while it keeps its direction; it rests where it turns back, holds or
+  /// waits.
   void set_speeds(std::size_t index) {
     Draft& own = drafts_[index];
     for (std::size_t i = 0; i < own.frames.size(); ++i) {
@@ -206,7 +206,7 @@ class Maker {
         const double in = (goal(now) - before) / (1e-3 * now.time_ms);
         const double out = (goal(next) - goal(now)) / (1e-3 * next.time_ms);
         if (in * out <= 0) continue;
-        // The harmonic mean is below twice the slower side, which prevents overshoot.
+        // The harmonic mean is below twice the slower side: no overshoot.
         const double speed = 2 * in * out / (in + out);
         now.speed_mrad_s[j] =
             static_cast<std::int16_t>(std::clamp(std::lround(1e3 * speed), -32767L, 32767L));

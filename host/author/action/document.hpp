@@ -9,7 +9,7 @@
 #include "common/action/library.hpp"
 #include "host/robot/model/load_error.hpp"
 
-/// An action as its file has it (host/guide/actions.md), before it is compiled for a robot.
+/// An action as in its file (host/guide/actions.md), not yet compiled.
 namespace verp::action {
 
 /// Displacement of the body or a sole from the stand, relative to the ground.
@@ -31,7 +31,7 @@ struct Stiffness {
   int line = 0;
 };
 
-/// Where a player may go: a frame of this action by its label, another action, or the stand.
+/// A destination: a frame of this action by its label, another action, or the stand.
 struct Target {
   std::string name;
   int line = 0;
@@ -48,15 +48,14 @@ struct Repeat {
   Target from;
 };
 
-/// Members that are not set keep the previous frame's values.
+/// Unset members keep the previous frame's values.
 struct FrameText {
   int line = 0;
   std::string label;
   double time_s = 0, hold_s = 0;
   std::optional<bool> smooth, balance;
   std::optional<Stance> stance;
-  std::optional<double> over_left;  ///< position of the centre of mass: 1 over the left sole, 0
-                                    ///< over the right
+  std::optional<double> over_left;  ///< centre of mass: 1 over the left sole, 0 over the right
   int over_line = 0;
   std::optional<Offset> body, foot[kFeet];
   std::vector<JointGoal> goals;
@@ -66,7 +65,7 @@ struct FrameText {
   std::optional<Repeat> repeat;
 };
 
-/// A page of a ROBOTIS motion file (robotis.hpp), for the parts that frames cannot express.
+/// Parts of a ROBOTIS page (robotis.hpp) that frames cannot express.
 struct PageText {
   int number = 0;
   std::vector<std::uint8_t> bytes;
@@ -76,8 +75,7 @@ struct Document {
   std::filesystem::path file;
   int line = 0;  ///< line of its name
   std::string name, note;
-  std::optional<Target> mirror;  ///< the action that this one mirrors; it then has no frames of its
-                                 ///< own
+  std::optional<Target> mirror;  ///< the action to mirror; `frames` is then empty
   std::vector<FrameText> frames;
   std::optional<PageText> page;  ///< with a page, `frames` may be empty
   std::optional<Target> link;    ///< follows the last frame; empty: the stand
@@ -90,7 +88,7 @@ Document parse_document(const std::filesystem::path& file, const std::string& te
 /// Text that parse_document() reads back as the same document.
 std::string text_of(const Document& document);
 
-/// A condition's name in files: "left_foot".
+/// As in files: "left_foot".
 const char* name_of(Condition condition);
 
 }  // namespace verp::action

@@ -17,7 +17,7 @@ int joint_of(const Params& params, const Document& document, int line, const std
   return joint_named(params, name, document.file, line);
 }
 
-/// State that one frame hands to the next.
+/// State that passes from one frame to the next.
 struct Held {
   bool smooth = true, balance = true;
   Stance stance = Stance::kBoth;
@@ -66,8 +66,8 @@ void take(const Params& params, const Poser& poser, const Document& document, co
   }
 }
 
-/// One motor turns a follower and its driver. Refuses a frame that separates them, and sets
-/// followers from their drivers.
+/// One motor turns a follower and its driver. Refuses a frame that separates them; sets followers
+/// from drivers.
 void couple(const Params& params, const Document& document, const FrameText& text,
             Angles& angle_rad) {
   constexpr float kApart_rad = 0.01F, kDegrees = 57.29578F;
@@ -143,7 +143,7 @@ std::uint32_t leg_joints(const Params& params) {
   return joints;
 }
 
-/// Joints that the action moves in any frame; they stand until a frame gives them a goal.
+/// Joints with a goal in any frame; they stand before their first goal.
 std::uint32_t joints_of(const Params& params, const Document& document) {
   std::uint32_t joints = 0;
   for (const FrameText& text : document.frames) {

@@ -7,7 +7,7 @@
 
 namespace verp::action {
 
-/// The library in the form of a board's flash, with its robot's mark.
+/// The library as in a board's flash, with its robot's mark.
 std::vector<std::uint8_t> kept_image(const Made& made, const Params& params);
 
 }  // namespace verp::action

@@ -7,12 +7,12 @@ struct Played {
   session::WalkResult run;
   double action_s = 0;  ///< from the stand to the stand
   double asked_s = 0;   ///< simulated time of the request
-  /// The body's way since the request, in its heading then: x ahead, y to the left.
+  /// Way since the request, in the heading then: x ahead, y to the left.
   sim::Vec2 went_m = sim::Vec2::Zero();
   double turned_rad = 0;  ///< to the left
 };
 
-/// Plays action `number` of plan.actions on the twin. Also runs the caller's `hooks`.
+/// Plays action `number` of plan.actions on the twin, and runs the caller's `hooks`.
 Played play(session::WalkPlan plan, int number, session::Hooks hooks, session::Options options);
 
 }  // namespace verp::action

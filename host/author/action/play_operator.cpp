@@ -31,7 +31,7 @@ void PlayOperator::observe(const State& state, const Outputs& outputs) {
   stood_s_ = is_in(outputs, safety::Mode::kStanding) ? stood_s_ + period_s_ : 0;
   if (state.action.number != 0) played_s_ += period_s_;
   if (!asked_) {
-    // The gyro's bias is known by then.
+    // Now the gyro's bias is known.
     if (stood_s_ >= kSettle_s && state.attitude.still_s >= balance::kCalibrated_s) {
       asked_ = changed_ = true;
       stood_s_ = waited_s_ = 0;

@@ -7,8 +7,8 @@
 
 namespace verp::action {
 
-/// An operator that lets the robot stand, requests an action once it stands quietly, and waits
-/// until it stands again.
+/// Lets the robot stand, requests an action once it stands quietly, and waits until it stands
+/// again.
 class PlayOperator {
  public:
   /// Time limits for the stand or the action's begin, and for the action.
@@ -20,9 +20,8 @@ class PlayOperator {
   void observe(const State& state, const Outputs& outputs);
 
   bool done() const { return done_; }
-  /// Seconds of the action so far.
   double played_s() const { return played_s_; }
-  /// The reason if the robot did not do as requested, else empty.
+  /// Why the robot did not obey, or empty.
   const char* failed() const { return failed_; }
 
  private:

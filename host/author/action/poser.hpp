@@ -10,7 +10,7 @@ namespace verp::action {
 
 using Angles = std::array<float, kMaxJoints>;
 
-/// The robot's stand, and leg angles for a moved body or soles.
+/// The stand, and leg angles for a moved body or soles.
 class Poser {
  public:
   explicit Poser(const Params& params);
@@ -22,8 +22,7 @@ class Poser {
     Offset body, foot[kFeet];
     std::optional<double> over_left;  ///< moves the body until the centre of mass is there
   };
-  /// Sets only the leg joints of `angle_rad`. Returns the reason if it cannot, else an empty
-  /// string.
+  /// Sets only the leg joints of `angle_rad`. Returns empty or the reason.
   std::string bend(const Legs& legs, Angles& angle_rad) const;
 
  private:

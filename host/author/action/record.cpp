@@ -20,7 +20,7 @@ double in_ms(double time_s) {
   return 1e-3 * std::round(1e3 * time_s);
 }
 
-/// The planned leg poses at the time of the goals.
+/// Planned leg poses at the time of the goals.
 void add_planned(const Params& params, const State& state, FrameText& frame) {
   const gait::Posture posture = gait::posture_before(params, state.tuning, state.gait, 0);
   for (int side = 0; side < kFeet; ++side) {
@@ -48,7 +48,7 @@ Document record_joints(const record::Trace& trace, const RecordOptions& options)
     if (time_s < options.from_s - 1e-9 || time_s > options.to_s + 1e-9) continue;
     if (time_s - last_s < options.every_s - 1e-9) continue;
     FrameText frame;
-    // The first frame takes 1 s, because the pose before it is unknown.
+    // The first frame takes 1 s: the pose before it is unknown.
     frame.time_s = document.frames.empty() ? 1.0 : in_ms(time_s - last_s);
     last_s = time_s;
     for (int j = 0; j < trace.params.joint_count; ++j) {
@@ -66,8 +66,8 @@ Document record_joints(const record::Trace& trace, const RecordOptions& options)
   return document;
 }
 
-/// The 16th state comes just before the next cycle's first, closer than frames may be. The longest
-/// frame gives back the added time, so that the cycle keeps its length.
+/// The 16th state comes before the next cycle's first by less than a frame's minimum. The longest
+/// frame gives the added time back, so that the cycle keeps its length.
 void give_back(double excess_s, std::vector<FrameText>& frames) {
   const auto longest =
       std::max_element(frames.begin() + 1, frames.end(),
@@ -102,7 +102,7 @@ Document record_gait(const record::Trace& trace, const std::string& name, int cy
     last_s = time_s;
     if (outputs.stance <= 2) frame.stance = static_cast<Stance>(outputs.stance);
     add_planned(trace.params, state, frame);
-    // The 17th state is the first of the next cycle and closes the loop.
+    // The 17th state closes the loop.
     if (document.frames.size() == kStates) frame.label = "again";
     document.frames.push_back(frame);
     if (document.frames.size() <= kStates) continue;

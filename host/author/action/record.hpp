@@ -13,12 +13,12 @@ struct RecordOptions {
   double every_s = 0.1;
 };
 
-/// A key frame of the measured joints at each interval, also for a robot moved by hand. Throws
-/// LoadError if the trace has no tick in that time.
+/// One key frame of measured joints per interval, also for a robot moved by hand. Throws LoadError
+/// without a tick in that time.
 Document record_joints(const record::Trace& trace, const RecordOptions& options);
 
 /// The 16 planned states of one cycle in the middle of a walk, without balance and gravity
-/// corrections, repeated `cycles` times. Throws LoadError if the trace has no whole cycle.
+/// corrections, `cycles` times. Throws LoadError without a whole cycle.
 Document record_gait(const record::Trace& trace, const std::string& name, int cycles);
 
 }  // namespace verp::action

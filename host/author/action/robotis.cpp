@@ -22,7 +22,7 @@ int sum_of(const Page& page) {
   return std::accumulate(page.begin(), page.end(), 0) & 0xFF;
 }
 
-/// A name that is valid in a file and not taken yet.
+/// A valid name that is not taken.
 std::string name_of_page(const Page& page, std::size_t number, std::set<std::string>& taken) {
   std::string name;
   for (std::size_t i = kName; i < kNameBytes && page[i] != 0; ++i) {
@@ -71,7 +71,7 @@ FrameText frame_of_page(const Params& params, const Page& page, std::size_t step
   frame.hold_s = page[at + kPause] * unit_s(page);
   if (step == 0) frame.balance = false;  // its goals are servo angles under load
   Stiffness off{{}, 0, 0}, on{{}, 100, 0};
-  bool was_off = false;  // a joint without torque stays so until a frame gives it torque
+  bool was_off = false;  // torque stays off until a frame turns it on
   for (int j = 0; j < params.joint_count; ++j) {
     const JointParams& joint = params.joint[j];
     if (joint.servo_id >= kPageServos) continue;

@@ -5,8 +5,8 @@
 
 #include "host/author/action/robotis.hpp"
 
-/// Byte layout of a page of 512 bytes, for robotis.cpp and robotis_write.cpp. Source: ROBOTIS'
-/// framework, op3_action_module's action_file_define.h.
+/// Layout of a page of 512 bytes. Source: ROBOTIS' framework, op3_action_module's
+/// action_file_define.h.
 namespace verp::action {
 
 namespace page {
@@ -40,7 +40,6 @@ inline double unit_s(const Page& page) {
 
 }  // namespace page
 
-/// A page's step as an action's frame.
 FrameText frame_of_page(const Params& params, const Page& page, std::size_t step);
 
 }  // namespace verp::action

@@ -8,7 +8,7 @@
 #include "common/model/counts.hpp"
 #include "host/author/action/robotis_page.hpp"
 
-// Writes the changes of actions to pages and refuses what a page cannot hold.
+// Writes changes of actions to pages; refuses what a page cannot hold.
 namespace verp::action {
 namespace {
 
@@ -33,9 +33,8 @@ const JointGoal* goal_in(const FrameText& frame, const char* joint) {
   return found == frame.goals.end() ? nullptr : &*found;
 }
 
-using Percents = std::map<std::string, int>;  // of joints with less than full stiffness
+using Percents = std::map<std::string, int>;  // of joints below full stiffness
 
-/// Stiffness after a frame, from that after the frame before.
 Percents stiffness_after(const Params& params, const FrameText& frame, Percents slack) {
   for (const Stiffness& each : frame.stiffness) {
     if (each.joints.empty()) {
@@ -57,7 +56,7 @@ int torque_bit(const Document& document, const FrameText& frame, const Percents&
          "give 0 or 100");
 }
 
-/// Writes the values that differ between the frame and the page.
+/// Writes values that differ from the page's.
 void put_frame(const Params& params, const Document& document, const FrameText& frame,
                const Percents& slack, std::size_t step, Page& page) {
   constexpr double kSame_s = 1e-5, kSame_rad = 1e-5;
@@ -119,7 +118,7 @@ void refuse_unknown_joints(const Params& params, const Document& document) {
 
 using Numbers = std::map<std::string, int>;  // pages by action name
 
-/// The page that a target is on; 0: there is none.
+/// A target's page; 0: there is none.
 int page_of(const Document& document, const std::optional<Target>& target, const Numbers& numbers) {
   if (!target) return 0;
   const auto found = numbers.find(target->name);
@@ -128,7 +127,7 @@ int page_of(const Document& document, const std::optional<Target>& target, const
          "a page's link and exit are actions that are written with it, on pages 1 to 255");
 }
 
-/// Where an action goes on, as its page has it.
+/// Where an action goes on.
 struct Way {
   int next = 0, exit = 0, repeat = 1;
   auto operator<=>(const Way&) const = default;
@@ -172,7 +171,7 @@ std::vector<Percents> stiffness_of(const Params& params, const Document& documen
   return all;
 }
 
-/// Refuses what the page does not keep, which would be lost silently.
+/// Throws for content that would be lost silently.
 void refuse_what_is_lost(const Params& params, const Document& document, const Document& kept) {
   if (document.page && document.name != kept.name) {
     refuse(document, document.line,
@@ -231,7 +230,7 @@ class Kept {
 
 using Placed = std::vector<std::pair<int, const Document*>>;
 
-/// Writes links, exits and repeats that differ from the page's.
+/// Writes links, exits and repeats that changed.
 void put_ways(const Params& params, const Placed& placed, const Numbers& numbers, Motion& motion) {
   const Kept before(params, motion);
   for (const auto& [number, document] : placed) {

@@ -70,7 +70,7 @@ void require_ready(ActionPort& port, const SendOptions& options) {
   fail(port, why + "; it keeps those that it has");
 }
 
-/// Offers until the controller has a place. A chip does not answer while it erases.
+/// Repeats the offer until there is a place. A chip does not answer while it erases.
 Offer offer_until(ActionPort& port, std::span<const std::uint8_t> image,
                   const SendOptions& options) {
   const Clock::time_point end = in(options.place_s);

@@ -11,33 +11,31 @@
 #include "host/twin/bus/client.hpp"
 #include "host/twin/can/client.hpp"
 
-/// Sends actions to a running controller, block by block.
+/// Sends actions to a running controller.
 namespace verp::action {
 
-/// Result of an offer of actions.
 enum class Offer {
-  kTaken,    ///< completely; the controller restarts with them
+  kTaken,    ///< completely; it restarts with them
   kStopped,  ///< by the caller
-  kNotYet,   ///< the controller makes a place: offer again
+  kNotYet,   ///< it makes a place: offer again
   kRefused,  ///< window_fault has the reason
   kArmed,    ///< its servos hold torque
   kNoRoom,   ///< for so many bytes
   kNotHere,  ///< it takes no actions in this way
 };
 
-/// A controller's registers and the path for its actions. Throws bus::DeviceError if the controller
-/// does not answer.
+/// A controller's registers and the path for its actions. Throws bus::DeviceError if it does not
+/// answer.
 class ActionPort {
  public:
   virtual ~ActionPort() = default;
-  /// Its name in errors.
+  /// The controller's name in errors.
   virtual std::string place() const = 0;
   virtual std::vector<std::uint8_t> read(const char* name) = 0;
-  /// Sends the image from its beginning. Calls `went(bytes)` with the progress; false stops it.
+  /// Sends the image from its beginning. `went(bytes)` gets the progress; false stops.
   virtual Offer offer(std::span<const std::uint8_t> image,
                       const std::function<bool(std::size_t)>& went) = 0;
 
-  /// A register that holds a number.
   std::uint32_t number(const char* name) {
     std::uint32_t value = 0;
     const std::vector<std::uint8_t> bytes = read(name);
@@ -46,7 +44,7 @@ class ActionPort {
   }
 };
 
-/// The register window at the operator's port of device `id`.
+/// The registers' window at the operator's port of device `id`.
 std::unique_ptr<ActionPort> serial_action_port(const link::Endpoint& endpoint, std::uint8_t id);
 /// The caller keeps the client.
 std::unique_ptr<ActionPort> serial_action_port(bus::Client& client, std::uint8_t id);
@@ -55,16 +53,16 @@ std::unique_ptr<ActionPort> can_action_port(const link::Endpoint& endpoint, std:
 std::unique_ptr<ActionPort> can_action_port(can::Client& client, std::uint8_t id);
 
 struct SendOptions {
-  std::string robot;  ///< the robot of the actions
-  int actions = 0;    ///< their number
+  std::string robot;
+  int actions = 0;  ///< their number
   std::function<bool(std::size_t)> went = [](std::size_t) { return true; };
   double place_s = 15;  ///< time limit to make a place
   double start_s = 30;  ///< time limit to write and restart
 };
 
-/// Sends the image (kept_image()) and waits until the controller has restarted with it. Returns
-/// false if `went` stopped it. Throws bus::DeviceError with the reason; unless that says otherwise,
-/// the controller keeps its old actions.
+/// Sends the image (kept_image()) and waits until the controller restarts with it. False: `went`
+/// stopped it. Throws bus::DeviceError; unless that says otherwise, the controller keeps its old
+/// actions.
 bool send_actions(ActionPort& port, std::span<const std::uint8_t> image,
                   const SendOptions& options);
 

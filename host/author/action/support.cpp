@@ -15,7 +15,7 @@ float cross2(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Convex hull, counter-clockwise (Andrew's monotone chain).
+/// Counter-clockwise (Andrew's monotone chain).
 std::vector<Vec2> hull(std::vector<Vec2> points) {
   std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
     return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
@@ -102,7 +102,7 @@ Torques Support::torques(const PlayerOut& now) const {
       if (leg.solver == LegSolver::kNone || (beyond >> leg.joint[kLegJoints - 1] & 1U) == 0) {
         continue;
       }
-      // The ground pushes below the centre of mass if the foot carries alone, else at its sole's
+      // The ground pushes below the centre of mass if the foot carries alone, else at the sole's
       // middle.
       const Vec3 below_m = com_m - (com_m - soles[foot].position_m).dot(up) * up;
       const Vec3 ground_m = now.stance == Stance::kBoth ? soles[foot].position_m : below_m;

@@ -8,7 +8,7 @@
 
 namespace verp::action {
 
-/// Reads a line of a file word by word; errors name file and line.
+/// One line of a file, word by word; errors name file and line.
 class Words {
  public:
   Words(const std::filesystem::path& file, int line, const std::string& text)

@@ -57,7 +57,7 @@ std::string indented(const std::string& block) {
   return out;
 }
 
-/// One new part; each word is read where it is needed.
+/// Reads each word of a new part where it is needed.
 class Adder {
  public:
   Adder(const Document& document, const KindWords& kind, const Words& words)

@@ -25,7 +25,7 @@ bool is_within(const Document& document, int inner, int outer) {
   return a.begin >= b.begin && a.end <= b.end;
 }
 
-/// Copies elements beside their originals with other names, ids and numbers.
+/// Copies elements with other names, ids and numbers.
 class Copier {
  public:
   Copier(const Document& document, int element, Rename renamed, bool mirrored)
@@ -88,7 +88,7 @@ class Copier {
     }
   }
 
-  /// The line break and indentation in front of an element; empty if it follows on its line.
+  /// Line break and indentation before an element; empty if it follows on its line.
   std::string lead(int element) const {
     const std::string& text = document_.text();
     const std::size_t at = document_.markup()[element].whole.begin;
@@ -128,7 +128,7 @@ class Copier {
     }
   }
 
-  /// Names of limbs, shapes and others, and shape names in contact sensors.
+  /// Renames limbs, shapes and others, and shape names in contact sensors.
   void plain_names(int element, std::vector<Splice>& changes) const {
     const auto& all = document_.markup().elements();
     const auto put = [&](Range at, const std::string& name) {
@@ -146,8 +146,7 @@ class Copier {
       const Attribute* name = all[i].attribute("name");
       const bool known = all[i].name == "verp:joint" || kind_of(document_, int(i)) != Kind::kNone;
       if (name == nullptr || known) continue;
-      const bool alone = all[i].parent == document_.model();  // a limb, a child of the robot's
-                                                              // model
+      const bool alone = all[i].parent == document_.model();  // a limb
       put(name->value_at, mirrored_ || alone ? renamed_(name->value) : "");
     }
   }
@@ -195,7 +194,7 @@ std::string free_name(const Document& document, const std::string& name) {
 std::string other_side(const std::string& name) {
   struct Pair {
     std::string_view from, to;
-    bool word;  ///< counts only where letters of one case end, not between others
+    bool word;  ///< counts where letters of one case end
   };
   constexpr std::array<Pair, 10> kSides = {{{"left", "right", true},
                                             {"right", "left", true},
@@ -240,7 +239,7 @@ Edit duplicate(const Document& document, int element, const std::string& name) {
   const std::string what = "duplicate " + document.path(element);
   Edit edit = Copier(document, element, renamed, false).copies(what);
   if (!servo) return edit;
-  // A servo has no name; its joint attribute changes.
+  // A servo's name is its joint's.
   return together(document, what, [&](Document& copy) {
     copy.apply(edit);
     const auto& siblings = copy.markup()[copy.markup()[element].parent].children;
@@ -259,7 +258,7 @@ Edit mirror(const Document& document, int element) {
   const std::string what = "mirror " + document.path(element);
   Edit edit = Copier(document, element, other_side, true).copies(what);
   if (kind_of(document, element) != Kind::kNone) return edit;
-  // For a servo or a sensor's place, the name that it refers to changes side.
+  // The copy of a servo or of a sensor's place refers to the other side's name.
   return together(document, what, [&](Document& copy) {
     copy.apply(edit);
     const auto& siblings = copy.markup()[copy.markup()[element].parent].children;

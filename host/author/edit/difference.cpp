@@ -9,9 +9,8 @@
 namespace verp::edit {
 namespace {
 
-constexpr std::size_t kAround = 3;              // context lines before and after a change
-constexpr std::size_t kMostCells = 20'000'000;  // of the table; above this, all lines are one
-                                                // change
+constexpr std::size_t kAround = 3;              // context lines
+constexpr std::size_t kMostCells = 20'000'000;  // above, all lines are one change
 
 using Lines = std::vector<std::string_view>;
 
@@ -30,7 +29,7 @@ struct Row {
   std::string_view line;
 };
 
-/// Rows for the lines between the common ends, by longest common subsequence.
+/// Compares the lines between the common ends by longest common subsequence.
 std::vector<Row> rows_of(const Lines& from, const Lines& to) {
   std::vector<Row> rows;
   const std::size_t n = from.size(), m = to.size();

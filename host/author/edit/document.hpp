@@ -10,7 +10,6 @@
 
 namespace verp::edit {
 
-/// A replacement: place in the text, old text and new text.
 struct Splice {
   std::size_t at = 0;
   std::string before, after;
@@ -18,21 +17,20 @@ struct Splice {
 
 /// One change as the user sees it: several splices in text order, not nested.
 struct Edit {
-  std::string what;  ///< in words: "set mass of trunk"
+  std::string what;  ///< "set mass of trunk"
   std::vector<Splice> splices;
 
   bool empty() const { return splices.empty(); }
-  /// The inverse edit.
   Edit reversed() const;
 };
 
 // Errors are model::LoadError: one line with the remedy.
 
-/// The text of a robot's file, its elements, and what was read from the disk.
+/// A robot's text, its elements, and what was read from the disk.
 class Document {
  public:
-  /// Throws model::LoadError for a file that cannot be read or is not well-formed. An empty file
-  /// becomes an empty robot named after it; so does a missing one if `may_be_new`.
+  /// Throws model::LoadError for an unreadable or malformed file. An empty file becomes an empty
+  /// robot named after it; so does a missing one if `may_be_new`.
   static Document open(const std::filesystem::path& file, bool may_be_new = false);
   Document(std::filesystem::path file, std::string text);
 
@@ -40,32 +38,31 @@ class Document {
   const std::string& text() const { return text_; }
   const Markup& markup() const { return markup_; }
   bool is_urdf() const { return markup_[markup_.root()].name == "robot"; }
-  /// The element that holds links and joints: <model> or <robot>.
+  /// <model> or <robot>, which holds links and joints.
   int model() const;
 
   void apply(const Edit& edit);
-  /// The text after an edit.
   std::string with(const Edit& edit) const;
 
   bool changed() const { return !on_disk_ || *on_disk_ != text_; }
   /// Writes the whole text or nothing. Throws LoadError if another program has changed the file or
-  /// it cannot be written; the message says where the text was put instead.
+  /// it cannot be written; the message says where the text was put.
   void save();
-  /// Writes the text beside the file and returns its path.
+  /// Writes the text beside the file; returns a note that says where.
   std::string put_aside() const;
 
-  /// An element's path for users and find(): "link:trunk/inertial/mass".
+  /// For users and find(): "link:trunk/inertial/mass".
   std::string path(int element) const;
-  /// The element of a path; throws LoadError that lists the candidates.
+  /// Throws LoadError that lists the candidates.
   int find(const std::string& path) const;
-  /// The same, but empty if there is no such element.
+  /// Empty if there is no such element.
   std::optional<int> look_for(const std::string& path) const;
   std::string text_of(int element) const { return markup_.text(element, text_); }
-  /// A child's text or an attribute; empty if there is none.
+  /// Empty if there is none.
   std::string child_text(int element, std::string_view child) const;
   std::string attribute(int element, std::string_view name) const;
   int child(int element, std::string_view name) const;  ///< -1: none
-  /// The innermost element around a line.
+  /// The innermost around a line.
   int at_line(int line) const;
 
  private:
@@ -77,18 +74,18 @@ class Document {
   Markup markup_;
 };
 
-/// The first complaint of `verp check` about a robot's text, and its part; empty if the robot is
-/// sound. For a URDF alone only XML and numbers can be checked.
+/// The first complaint of `verp check` and its part; empty if the robot is sound. For a URDF alone
+/// only XML and numbers are checked.
 struct Complaint {
   std::string file;
   int line = 1;
   std::string message, fix, part;
-  bool unfinished = true;  ///< true: something may still be missing; false: it is wrong
+  bool unfinished = true;  ///< true: something may be missing; false: it is wrong
   std::string line_of_text() const;
 };
 std::optional<Complaint> check(const Document& document);
 
-/// The differing lines in the form of `diff -u`; may be empty.
+/// In the form of `diff -u`; may be empty.
 std::string difference(const std::string& before, const std::string& after,
                        const std::string& file);
 

@@ -7,14 +7,14 @@
 namespace verp::edit {
 namespace {
 
-/// The link that a joint names as its parent or child.
+/// A joint's parent or child link.
 std::string end_of(const Document& document, int joint, std::string_view which) {
   const int found = document.child(joint, which);
   if (found < 0) return "";
   return document.is_urdf() ? document.attribute(found, "link") : document.text_of(found);
 }
 
-/// Names of parts that belong together, and their elements.
+/// Parts that belong together.
 struct Group {
   std::set<std::string> links, joints, frames, sensors;
   std::set<int> elements;
@@ -25,7 +25,7 @@ bool take(Group& group, std::set<std::string>& names, const std::string& name, i
   return group.elements.insert(element).second;
 }
 
-/// One pass over all parts; false if nothing was added.
+/// One pass; false if nothing was added.
 bool grow(const Document& document, Group& group) {
   bool more = false;
   for (const int each : document.markup()[document.model()].children) {
@@ -47,7 +47,7 @@ bool grow(const Document& document, Group& group) {
   return more;
 }
 
-/// The element that depends on the named part; -1 if the mention only places it.
+/// The element that depends on the named part; -1 if it is only placed by it.
 int dependent(const Document& document, int element) {
   const Markup& markup = document.markup();
   if (markup[element].name.starts_with("verp:")) return element;

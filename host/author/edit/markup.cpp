@@ -26,7 +26,7 @@ std::string unescaped(std::string_view text) {
   return out;
 }
 
-/// One pass over the text, with a stack: recursion would let the file choose its depth.
+/// One pass with a stack: recursion would let the file choose its depth.
 class Scanner {
  public:
   Scanner(std::string_view text, const std::string& file, std::vector<Element>& out)

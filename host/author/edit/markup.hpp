@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-/// Byte ranges of each element and attribute in an XML text. tinyxml2 knows only lines and
+/// Byte ranges of the elements and attributes of an XML text. tinyxml2 knows only lines and
 /// reformats a file; an editor that keeps the rest unchanged needs bytes.
 namespace verp::edit {
 
@@ -34,14 +34,14 @@ struct Element {
 
 class Markup {
  public:
-  /// Throws model::LoadError that names `file` if the text is not well-formed.
+  /// Throws model::LoadError that names `file` for malformed text.
   Markup(const std::string& text, const std::string& file);
 
   const std::vector<Element>& elements() const { return elements_; }
   const Element& operator[](int index) const { return elements_[std::size_t(index)]; }
   int root() const { return 0; }
-  /// Range of an element's own text without surrounding spaces and comments. If there is none, an
-  /// empty range at its content's end. `of` is the scanned text.
+  /// An element's own text without surrounding spaces and comments; else an empty range at its
+  /// content's end. `of` is the scanned text.
   Range text_at(int index, std::string_view of) const;
   /// That text, unescaped.
   std::string text(int index, std::string_view of) const;

@@ -17,7 +17,7 @@ std::string negated(const std::string& number) {
   return "-" + number.substr(number.starts_with('+') ? 1 : 0);
 }
 
-/// Negates some numbers of a row; blanks between them stay.
+/// Negates some numbers of a row and keeps the blanks.
 std::string negated(const std::string& row, const std::vector<std::size_t>& which) {
   std::string out;
   std::size_t number = 0;
@@ -79,7 +79,6 @@ class Mirror {
     return changes_sign_ ? std::vector<std::size_t>{1} : std::vector<std::size_t>{0, 2};
   }
 
-  /// Lower becomes the negated upper and the reverse.
   void swap(const Element& element, const char* low, const char* high) {
     const Attribute *lower = element.attribute(low), *upper = element.attribute(high);
     if (lower == nullptr && upper == nullptr) return;

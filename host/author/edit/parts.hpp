@@ -7,13 +7,11 @@
 #include "host/author/edit/document.hpp"
 #include "host/robot/model/entity.hpp"
 
-/// New parts of a robot.
 namespace verp::edit {
 
 using model::Mat3;
 using model::Vec3;
 
-/// A primitive shape of SDF and URDF.
 struct Solid {
   enum class Kind { kBox, kSphere, kCapsule, kCylinder } kind = Kind::kBox;
   Vec3 centre_m = Vec3::Zero(), rpy_rad = Vec3::Zero();
@@ -39,18 +37,18 @@ struct Body {
 };
 Body body_of(const Solid& solid, double mass_kg);
 
-/// Lines of a <link>'s content; `name` is for the shapes.
+/// Lines of a <link>; `name` is for the shapes.
 std::string link_content(const Document& document, const std::string& name, const Body& body);
-/// A link on that joint or frame (SDF; empty: on the model).
+/// Adds a link on that joint or frame (SDF; empty: on the model).
 Edit add_link(const Document& document, const std::string& name, const Body& body,
               const std::string& on);
 
-/// Adds a part from a kind ("link", "joint", "servo", ...) and name=value words, as a user types
-/// them. Throws model::LoadError that says what is missing or unknown.
+/// Adds a part of a kind ("link", "joint", "servo", ...) from name=value words. Throws
+/// model::LoadError for a missing or unknown word.
 using Words = std::map<std::string, std::string>;
 Edit add(const Document& document, const std::string& kind, const Words& words);
 std::vector<std::string> kinds();
-/// The words that a kind takes, for help: "name parent child at axis lower upper".
+/// For help: "name parent child at axis lower upper".
 std::string words_of(const std::string& kind);
 
 }  // namespace verp::edit

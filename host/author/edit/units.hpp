@@ -3,7 +3,7 @@
 
 namespace verp::edit {
 
-/// Unit of a path's value, from its last part: "kg" for link:trunk/inertial/mass, "rad" for
+/// Unit of a value, from its path's last part: "kg" for link:trunk/inertial/mass, "rad" for
 /// servo:l_knee@lower_rad. Empty: no unit, or unknown.
 std::string unit_of(const std::string& path);
 

@@ -10,28 +10,27 @@
 
 namespace verp::camera {
 
-/// The drawing program is missing, finds no OpenGL, cannot read a file, or has ended; the message
-/// is one line.
+/// The drawing program is missing, has ended, or lacks OpenGL or a file; one line.
 class CameraError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Path of the drawing program: VERP_CAMERA_PROGRAM if set; else libexec/verp where this program or
-/// library is installed; else the build tree.
+/// VERP_CAMERA_PROGRAM if set; else libexec/verp where this program or library is installed; else
+/// the build tree.
 std::filesystem::path find_program();
 
-/// The drawing program, ready, with this end of its socket. Only that program uses OpenGL, so the
+/// The running drawing program and this end of its socket. Only that program uses OpenGL, so the
 /// caller needs none and survives a driver's crash.
 class DrawingProgram {
  public:
   enum class Life {
-    kOfThread,  ///< ends with the thread that started it: create it on the main thread
+    kOfThread,  ///< ends with its starting thread: create it on the main thread
     kOfSocket   ///< ends when the socket closes: for any thread
   };
   using Seconds = std::chrono::seconds;
-  /// Starts it and waits until it can draw. Throws CameraError. `patience` is the socket's time
-  /// limit; 0: no limit.
+  /// Starts it and waits until it can draw. Throws CameraError. `patience`: the socket's time
+  /// limit; 0: none.
   DrawingProgram(const std::filesystem::path& program, const Stage& stage,
                  Life life = Life::kOfThread, Seconds patience = Seconds(0));
   ~DrawingProgram();
@@ -39,12 +38,11 @@ class DrawingProgram {
   DrawingProgram& operator=(const DrawingProgram&) = delete;
 
   int socket() const { return socket_; }
-  /// Gives the program the lowest priority, so that a run in real time never waits for a core that
-  /// draws its pictures.
+  /// Lowest priority: a run in real time must not wait for a core that draws its pictures.
   void step_back();
   pid_t process() const { return child_->id(); }
-  /// Call it when the socket gave nothing and errno says why. Ends the program if it still runs,
-  /// and returns whether it hung or had ended.
+  /// For a socket that gave nothing, with errno set. Ends the program; returns whether it hung or
+  /// had ended.
   std::string end();
 
  private:

@@ -9,9 +9,8 @@
 
 namespace verp::camera {
 
-/// Draws a moment on request and waits for the picture, for callers that look into a run now and
-/// then. Works on any thread, one call at a time. A run that keeps all its pictures uses a Rig,
-/// which draws while the run goes on.
+/// Draws a moment on request and waits for the picture. A run that keeps all its pictures uses a
+/// Rig, which draws meanwhile. Works on any thread, one call at a time.
 class Painter {
  public:
   using Seconds = DrawingProgram::Seconds;
@@ -22,12 +21,11 @@ class Painter {
       : program_(std::make_unique<DrawingProgram>(program, stage, DrawingProgram::Life::kOfSocket,
                                                   patience)) {}
 
-  /// One picture, with depth two, from each camera of moment.robot that looks in this moment.
-  /// Throws CameraError if the program has ended or does not answer; the painter is then useless.
+  /// One picture, with depth two, per camera of moment.robot that looks. Throws CameraError if the
+  /// program has ended or does not answer; the painter is then useless.
   std::vector<Picture> look(const Moment& moment);
-  /// A picture from outside, rgb8. Also throws std::invalid_argument if there is no such view.
+  /// From outside, rgb8. Also throws std::invalid_argument for an unknown view.
   Picture look(const Moment& moment, const Outside& from);
-  /// True while the painter can be asked again.
   bool works() const { return program_ != nullptr; }
 
  private:

@@ -8,19 +8,19 @@
 
 namespace verp::camera {
 
-/// Writes what the robot's cameras see into its trace. Images go to /NAME/image/compressed
-/// (colour), /NAME/depth or /NAME/labels, the lens to /NAME/camera_info. Their frame is
-/// NAME_optical, which /tf_static attaches to the camera's link. In the file a picture comes a
-/// little after the ticks of its time.
+/// Writes camera pictures into the robot's trace: to /NAME/image/compressed (colour), /NAME/depth
+/// or /NAME/labels, with the lens on /NAME/camera_info. Their frame is NAME_optical, which
+/// /tf_static attaches to the camera's link. In the file a picture comes a little after the ticks
+/// of its time.
 class Recorder {
  public:
   /// All arguments must outlive the recorder.
   Recorder(Rig& rig, const model::Entity& entity, const Params& params, record::TraceWriter& trace);
 
-  /// For session::Hooks::exposed. Never throws: an error ends the pictures, not the run, and is in
-  /// failure().
+  /// For session::Hooks::exposed. Never throws: an error, in failure(), ends the pictures and not
+  /// the run.
   void exposed(const sim::Exposure& exposure, std::uint64_t stamp_ns);
-  /// Waits for pictures in progress; call it before the trace is closed.
+  /// Waits for pictures in progress; before the trace is closed.
   void finish();
 
   std::uint64_t pictures() const { return pictures_; }

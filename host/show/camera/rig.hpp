@@ -12,15 +12,15 @@
 
 namespace verp::camera {
 
-/// A run's cameras. A separate program draws on another core while the run goes on. Pictures return
-/// in the order of moments.
+/// A run's cameras. A separate program draws on another core meanwhile. Pictures return in the
+/// order of moments.
 class Rig {
  public:
   enum class Pace {
     kEveryPicture,  ///< the run waits for the pictures
     kNeverWaits     ///< the rig drops pictures
   };
-  /// Starts `program` and waits until it can draw. Throws CameraError. Call it on the main thread
+  /// Starts `program` and waits until it can draw. Throws CameraError. On the main thread
   /// (DrawingProgram).
   Rig(const std::filesystem::path& program, const Stage& stage, Pace pace);
   ~Rig();
@@ -29,8 +29,8 @@ class Rig {
 
   /// Throws CameraError if the program has ended.
   void expose(const Moment& moment);
-  /// The pictures of the next moment that is due, else empty. With kEveryPicture the moment kAhead
-  /// before the last is due, otherwise any that is done.
+  /// The pictures of the next moment that is due, else empty. With kEveryPicture that is the one
+  /// kAhead before the last, otherwise any that is done.
   std::vector<Picture> take();
   /// Waits for the pictures of the next moment; empty after the last.
   std::vector<Picture> take_last();
@@ -39,7 +39,7 @@ class Rig {
   std::uint64_t dropped() const { return dropped_; }  ///< not drawn
   double processor_s() const;                         ///< used by the program so far
 
-  /// Moments in progress at most. Fixed, so that drawing speed does not decide which pictures a run
+  /// Most moments in progress. Fixed, so that drawing speed does not decide which pictures a run
   /// gets when.
   static constexpr std::uint64_t kAhead = 8;
 
@@ -53,7 +53,7 @@ class Rig {
   std::uint64_t sent_ = 0, taken_ = 0, dropped_ = 0;
   mutable std::mutex mutex_;
   std::condition_variable came_;
-  std::deque<std::vector<Picture>> done_;  ///< one per moment that is drawn but not taken
+  std::deque<std::vector<Picture>> done_;  ///< one per moment that is drawn, not taken
   std::uint64_t processor_us_ = 0;
   bool ended_ = false;
   std::thread listener_;

@@ -10,14 +10,13 @@
 
 namespace verp::camera {
 
-/// One of a twin's cameras behind hal/contract/camera.hpp; a rig draws its pictures. It takes all
-/// of the twin's exposures, so other cameras of the twin get none. Cameras of only depth or labels
-/// give no pictures here. Drawer is a Rig or a test's replacement; if its take() never waits,
-/// read() does not wait either.
+/// One of a twin's cameras behind hal/contract/camera.hpp. It takes all of the twin's exposures, so
+/// other cameras get none. Cameras of only depth or labels give no pictures. Drawer is a Rig or a
+/// test's replacement; if its take() never waits, read() does not either.
 template <class Drawer = Rig>
 class TwinCamera {
  public:
-  /// The twin must have been made with TwinOptions::cameras.
+  /// The twin needs TwinOptions::cameras.
   TwinCamera(Drawer& drawer, sim::TwinRobot& twin, std::uint32_t camera)
       : drawer_(drawer), twin_(twin), camera_(camera) {}
 
@@ -57,7 +56,7 @@ class TwinCamera {
     picture_ = std::move(picture);
     return true;
   }
-  /// Exposures are at whole periods of simulated time, so the time gives the sequence number.
+  /// Exposures are at whole periods of simulated time, which give the sequence number.
   void tell(hal::CameraFrame& frame) {
     const double rate_hz = twin_.entity().cameras[camera_].rate_hz;
     const auto period = std::llround(1e-6 * static_cast<double>(picture_.time_us) * rate_hz);

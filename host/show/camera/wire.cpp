@@ -81,7 +81,7 @@ class Unpacker {
   bool good_ = true;
 };
 
-/// Increase it when the messages change, so that a program of another build is refused.
+/// Increase it with each change of the messages: a program of another build is refused.
 constexpr std::uint32_t kBuild = 0x63616d03;
 
 struct Head {

@@ -9,7 +9,7 @@
 #include "host/twin/sim/exposure.hpp"
 
 /// Messages between a run and its drawing program over a socket pair. Both are of one build on one
-/// PC, so numbers have the machine's form.
+/// PC: numbers are in machine form.
 namespace verp::camera {
 
 /// The world and robots to draw.
@@ -22,19 +22,17 @@ struct Stage {
   std::string world_file;  ///< empty: a level floor
 };
 
-/// One moment of a stage.
 struct Moment {
   std::uint64_t time_us = 0;
-  std::vector<std::uint32_t> cameras;                     ///< the cameras that look
-  std::vector<std::vector<model::Transform>> link_world;  ///< one list per robot
+  std::vector<std::uint32_t> cameras;                     ///< that look
+  std::vector<std::vector<model::Transform>> link_world;  ///< per robot
   std::vector<model::Transform> body_world;               ///< of the world's moving objects
-  std::uint32_t robot = 0;                                ///< the robot whose cameras look
+  std::uint32_t robot = 0;                                ///< whose cameras look
   bool raw = false;                                       ///< colour as rgb8, not as PNG
 };
 
-/// A viewpoint outside the robots.
 struct Outside {
-  std::string view;  ///< a name for scene::view() of moment.robot; empty: from eye_m to target_m
+  std::string view;  ///< of scene::view(), for moment.robot; empty: from eye_m to target_m
   model::Vec3 eye_m = model::Vec3::Zero(), target_m = model::Vec3::Zero();
   double vertical_fov_rad = 0.5;
   std::uint32_t width = 0, height = 0;
@@ -47,8 +45,7 @@ struct Picture {
   std::uint64_t time_us = 0;
   std::uint32_t width = 0, height = 0;
   std::string encoding, data;
-  std::vector<std::string> names =
-      {};  ///< of labels from 1 on; an empty name means that nothing in view has that number
+  std::vector<std::string> names = {};  ///< of labels from 1 on; empty: not in view
 };
 
 enum class Kind : std::uint32_t {
@@ -57,9 +54,9 @@ enum class Kind : std::uint32_t {
   kFailed,   ///< from it: the reason, in one line
   kMoment,   ///< to it
   kPicture,  ///< from it, one or two for each camera that looked
-  kDone,     ///< from it, after the pictures of a moment: its processor time so far, us
-  kOutside,  ///< to it, a moment and a viewpoint: answered by kPicture and kDone, or by kRefused
-  kRefused   ///< from it: why it cannot draw that, in one line; it still works
+  kDone,     ///< from it, after a moment's pictures: its processor time so far, us
+  kOutside,  ///< to it, a moment and a viewpoint; then kPicture and kDone, or kRefused
+  kRefused   ///< from it: why not, in one line; it still works
 };
 
 struct Message {
@@ -67,9 +64,9 @@ struct Message {
   std::string data;
 };
 
-/// Waits until all bytes are sent. Returns false if the other end is gone.
+/// Waits until all bytes are sent. False: the other end is gone.
 bool send(int socket, Kind kind, std::string_view data);
-/// Waits for the next message; empty if the other end is gone.
+/// Waits for the next; empty: the other end is gone.
 std::optional<Message> receive(int socket);
 
 std::string pack(const Stage& stage);
@@ -77,7 +74,7 @@ std::string pack(const Moment& moment);
 std::string pack(const Moment& moment, const Outside& from);
 std::string pack(const Picture& picture);
 std::string pack(std::uint64_t number);
-/// Reverses pack(). Empty if the data has another form; a stage is also refused from another build.
+/// Reverses pack(); empty for other data. A stage of another build is refused too.
 std::optional<Stage> unpack_stage(std::string_view data);
 std::optional<Moment> unpack_moment(std::string_view data);
 std::optional<std::pair<Moment, Outside>> unpack_outside(std::string_view data);

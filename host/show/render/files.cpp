@@ -14,8 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostMeshBytes = 200u << 20;  // an STL of a whole robot for printing is 50
-                                                       // MB
+constexpr std::uintmax_t kMostMeshBytes = 200u << 20;  // a printer's STL of a whole robot is 50 MB
 constexpr int kMostTexture = 8192;
 
 [[noreturn]] void refuse(const std::string& file, const std::string& what, const std::string& fix) {
@@ -32,7 +31,7 @@ bool is_sound(const aiVector3D& point) {
   return std::abs(point.x) < kFar && std::abs(point.y) < kFar && std::abs(point.z) < kFar;
 }
 
-/// Returns false if a point is not finite or too far off.
+/// False: a point is not finite or too far off.
 bool add_part(scene::Triangles& out, const aiMesh& part, const aiMatrix4x4& pose) {
   const auto first = static_cast<std::uint32_t>(out.points.size());
   const aiMatrix3x3 turn(pose);
@@ -116,7 +115,7 @@ scene::Triangles read_mesh(const std::string& file) {
 
 namespace {
 
-/// Reads the pixels of a PNG whose header has been read.
+/// For a PNG whose header has been read.
 Image finish_reading(const std::string& name, Png& png) {
   if (png.image.width > kMostTexture || png.image.height > kMostTexture) {
     refuse(name,

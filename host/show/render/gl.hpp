@@ -7,12 +7,12 @@
 
 #include "host/show/scene/scene.hpp"
 
-/// Owning handles for OpenGL objects. Private to this folder.
+/// Owning handles of OpenGL objects. Private to this folder.
 namespace verp::render {
 
 using Mat4 = Eigen::Matrix4f;
 
-/// One OpenGL object; Delete frees it.
+/// Delete frees the object.
 template <void (*Delete)(GLuint)>
 class GlName {
  public:
@@ -50,7 +50,6 @@ Texture new_texture();
 FrameBuffer new_frame();
 RenderBuffer new_renderbuffer();
 
-/// A linked program and the locations of its uniforms.
 class Program {
  public:
   /// Throws RenderError with the compiler's first line.
@@ -68,7 +67,6 @@ class Program {
   std::map<std::string, GLint> at_;
 };
 
-/// Triangles in the driver's memory.
 class GpuMesh {
  public:
   GpuMesh() = default;
@@ -84,12 +82,11 @@ class GpuMesh {
   Eigen::AlignedBox3f around_;
 };
 
-/// A render target that can be read back: colour and depth.
+/// A render target with colour and depth, to be read back.
 class Canvas {
  public:
   Canvas() = default;
-  /// `format` is the colour's; samples 0: no multisampling. Throws RenderError if the driver
-  /// refuses the size.
+  /// samples 0: no multisampling. Throws RenderError if the driver refuses the size.
   Canvas(int width, int height, GLenum format, int samples);
   bool fits(int width, int height, int samples) const {
     return frame_.id() != 0 && width == width_ && height == height_ && samples == samples_;

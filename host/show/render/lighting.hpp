@@ -7,21 +7,21 @@
 #include "host/show/render/projection.hpp"
 #include "host/show/render/shaders.hpp"
 
-/// Shaders for a scene's lights, and the sun's shadows. Private to this folder.
+/// A scene's lights and the sun's shadows. Private to this folder.
 namespace verp::render {
 
-/// Linear colour, as the shaders use it.
+/// Converts sRGB to linear colour.
 Eigen::Vector3f linear(const scene::Colour& colour);
 
 class Lighting {
  public:
   Lighting() { make_shadow_map(kShadowTexels); }
 
-  /// Index of the light that casts shadows, or -1.
+  /// The light that casts shadows, or -1.
   static int shadow_light(const scene::Scene& scene, const Effects& effects);
-  /// Draws the solid items as the sun sees them.
+  /// Draws solid items as the sun sees them.
   void draw_shadows(const std::vector<Placed>& placed, const Mat4& sun, const Effects& effects);
-  /// The shader for an item, in use and with the uniforms that all items of a picture share.
+  /// An item's shader, in use, with the uniforms that a picture's items share.
   Program& program(const scene::Scene& scene, const View& view, const Effects& effects,
                    bool of_floor, bool textured);
 

@@ -3,7 +3,6 @@
 
 namespace verp::render {
 
-/// Coloured triangles for marks: arrows, balls, outlines on the floor.
 struct Marks {
   struct Vertex {
     float point[3], normal[3], colour[4];
@@ -15,7 +14,7 @@ struct Marks {
            const scene::Colour& colour);
   void arrow(const scene::Vec3& from_m, const scene::Vec3& to_m, double radius_m,
              const scene::Colour& colour);
-  /// A convex area, level at height_m.
+  /// Convex, level at height_m.
   void area(const std::vector<scene::Vec2>& corners_m, double height_m,
             const scene::Colour& colour);
   void outline(const std::vector<scene::Vec2>& corners_m, double height_m, double width_m,
@@ -31,7 +30,7 @@ struct Marks {
             double to_radius_m, const scene::Colour& colour);
 };
 
-/// The marks of all robots that the effects ask for.
+/// The marks that the effects ask for, of all robots.
 Marks marks_of(const scene::Scene& scene, const scene::Snapshot& now, const Effects& effects);
 
 }  // namespace verp::render

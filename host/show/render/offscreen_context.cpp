@@ -32,7 +32,7 @@ void require_libraries() {
 }  // namespace
 
 OffscreenContext::OffscreenContext() {
-  ::setenv("EGL_LOG_LEVEL", "fatal", 0);  // we report the cause of libEGL's lines ourselves
+  ::setenv("EGL_LOG_LEVEL", "fatal", 0);  // our message replaces libEGL's lines
   require_libraries();
   if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
     no_driver("EGL has no surfaceless platform here");

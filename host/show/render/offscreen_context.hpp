@@ -2,11 +2,11 @@
 
 namespace verp::render {
 
-/// An OpenGL context without a window or display (EGL's surfaceless platform). The constructor
-/// makes it current in its thread.
+/// An OpenGL context without a window or display (EGL's surfaceless platform), current in the
+/// constructor's thread.
 class OffscreenContext {
  public:
-  /// Throws RenderError if no driver supports it.
+  /// Throws RenderError without a driver.
   OffscreenContext();
   ~OffscreenContext();
   OffscreenContext(const OffscreenContext&) = delete;

@@ -85,8 +85,8 @@ struct Renderer::Impl {
     View unshaded = view;
     unshaded.shadow_light = -1;
     if (view.shadow_light < 0) return draw_floor_part(unshaded, effects, all);
-    // Shades only the part that the shadow map covers; most of the floor lies outside. The parts
-    // overlap by a shadowless margin, so that no crack shows between them.
+    // Shades only the part in the shadow map; most of the floor is outside. The parts overlap by a
+    // shadowless margin, so that no crack shows.
     constexpr double kOverlap_m = 0.001;
     const Area in = view.shaded.intersection(all);
     if (in.isEmpty()) return draw_floor_part(unshaded, effects, all);
@@ -121,7 +121,7 @@ struct Renderer::Impl {
     solid.set("glow", linear(material.glow));
     solid.set("roughness", material.roughness);
     solid.set("metallic", material.metallic);
-    // The far side of a closed shape is hidden. Meshes from files may be open or wind either way.
+    // A closed shape hides its far side. Meshes from files may be open or wind either way.
     const bool closed = placed.item->shape < scene::Shape::kPlane;
     (closed ? glEnable : glDisable)(GL_CULL_FACE);
     glActiveTexture(GL_TEXTURE1);
@@ -176,7 +176,7 @@ struct Renderer::Impl {
     glDrawArrays(GL_TRIANGLES, 0, count);
   }
 
-  /// Solid items come first, then floor and sky: a hidden pixel costs little.
+  /// Solid items before floor and sky: a hidden pixel costs little.
   void draw_all(const scene::Snapshot& now, const scene::Camera& camera, Size size,
                 const Effects& effects, GLuint target) {
     const std::vector<Placed> placed = stage.place(now, effects);
@@ -208,7 +208,7 @@ struct Renderer::Impl {
     glBindVertexArray(0);
   }
 
-  /// Draws into the canvas, limited to what the scene's file leaves on.
+  /// Limited to what the scene's file leaves on.
   void draw_canvas(const scene::Snapshot& now, const scene::Camera& camera, Size size,
                    Effects effects) {
     effects.antialias &= stage.scene().antialias;

@@ -9,21 +9,20 @@
 #include "host/show/scene/camera.hpp"
 #include "host/show/scene/snapshot.hpp"
 
-/// Renders snapshots with OpenGL 3.3 core through libepoxy, in the current context: a window's or
-/// an OffscreenContext.
+/// OpenGL 3.3 core through libepoxy, in the current context: a window's or an OffscreenContext.
 namespace verp::render {
 
-/// No driver, no context, or a file that cannot be drawn; the message is one line.
+/// No driver, no context, or a bad file; one line.
 class RenderError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Options of a picture. All can change from one picture to the next.
+/// All can change between pictures.
 struct Effects {
   bool antialias = true;
   bool shadows = true;
-  bool quick = false;  ///< coarser shadows, for a window that the PC's processor draws
+  bool quick = false;  ///< coarser shadows, for a window drawn by the PC's processor
   bool fog = true;
   bool textures = true;
   bool transparency = true;
@@ -58,9 +57,9 @@ struct Measured {
   std::vector<std::uint16_t> label;  ///< scene::label_of
 };
 
-/// Its OpenGL objects belong to the context that is current in the constructor; the same context
-/// must be current in the destructor. A snapshot never makes it throw: it skips items whose numbers
-/// are not finite.
+/// Its OpenGL objects belong to the context that is current in the constructor, which must be
+/// current in the destructor. A snapshot never makes it throw: it skips items whose numbers are not
+/// finite.
 class Renderer {
  public:
   /// Throws RenderError without a context of OpenGL 3.3 or later.
@@ -69,17 +68,17 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// True if the PC's processor draws: pictures cost its time.
+  /// Pictures cost the PC's processor time.
   bool on_processor() const;
 
-  /// Uploads shapes, meshes and textures. Leaves out files that it cannot read; notes() has a line
-  /// for each.
+  /// Uploads shapes, meshes and textures. Leaves out files that it cannot read, with a line in
+  /// notes().
   void set_scene(const scene::Scene& scene);
-  /// Sets other materials, lights, fog, sky or ground for the same items, without an upload.
+  /// Other materials, lights, fog, sky or ground for the same items, without an upload.
   void set_looks(const scene::Scene& scene);
   const std::vector<std::string>& notes() const;
 
-  /// Draws into `framebuffer` (in a window, QOpenGLWidget::defaultFramebufferObject()).
+  /// Into `framebuffer` (in a window, QOpenGLWidget::defaultFramebufferObject()).
   void draw(const scene::Snapshot& now, const scene::Camera& camera, Size size,
             const Effects& effects, unsigned framebuffer = 0);
 
@@ -88,8 +87,7 @@ class Renderer {
   Measured measure(const scene::Snapshot& now, const scene::Camera& camera, Size size,
                    const Effects& effects = {});
 
-  /// Finds the item at a pixel (from the top left): an index into Scene::items, or -1, and the
-  /// point.
+  /// The item at a pixel (from the top left): an index into Scene::items, or -1, and the point.
   struct Hit {
     int item = -1;
     scene::Vec3 point_world_m = scene::Vec3::Zero();

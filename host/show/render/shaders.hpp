@@ -1,11 +1,11 @@
 #pragma once
 
-/// GLSL 3.30. Lighting is computed in linear colour and world coordinates.
+/// GLSL 3.30. Lighting is in linear colour and world coordinates.
 namespace verp::render {
 
 extern const char* const kSolidVertex;  ///< position, normal, texture coordinate
-/// Compiled behind a header of lit_header() that leaves out what a picture does not need. A
-/// software driver runs both sides of every `if` and looks up what a loop indexes.
+/// lit_header() leaves out what a picture does not need: a software driver runs both sides of every
+/// `if` and looks up what a loop indexes.
 extern const char* const kLitFragment;
 extern const char* const kShadowVertex;  ///< depth seen from the sun
 extern const char* const kShadowFragment;

@@ -3,7 +3,7 @@
 
 namespace verp::render {
 
-/// Triangles of the plain shapes in the item's frame at true size, winding outward.
+/// In the item's frame at true size, winding outward.
 scene::Triangles box(const scene::Vec3& edges_m, double round_m);
 scene::Triangles sphere(double radius_m, int around = 24);
 scene::Triangles capsule(double radius_m, double length_m, int around = 20);
@@ -14,7 +14,7 @@ scene::Triangles plane(double x_m, double y_m);
 scene::Triangles turned(const std::vector<Eigen::Vector2f>& profile,
                         const std::vector<Eigen::Vector2f>& normals, int around);
 
-/// One normal a face, for meshes without normals.
+/// One normal a face.
 void add_flat_normals(scene::Triangles& mesh);
 
 }  // namespace verp::render

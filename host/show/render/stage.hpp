@@ -19,17 +19,16 @@ struct Placed {
 
 class Stage {
  public:
-  /// Uploads all shapes. Bad files do not throw; notes() lists those left out.
+  /// Bad files do not throw; notes() lists those left out.
   void fill(const scene::Scene& scene);
   void set_looks(const scene::Scene& scene);
   const scene::Scene& scene() const { return scene_; }
   const std::vector<std::string>& notes() const { return notes_; }
 
-  /// The items to draw at an instant. Skips items of robots or bodies that the snapshot lacks, and
-  /// poses that are not finite.
+  /// Skips items of robots or bodies that the snapshot lacks, and poses that are not finite.
   std::vector<Placed> place(const scene::Snapshot& now, const Effects& effects) const;
 
-  /// The sphere that the sun's shadows must cover.
+  /// A ball that the sun's shadows must cover.
   struct Ball {
     scene::Vec3 centre_m = scene::Vec3::Zero();
     double radius_m = 1;

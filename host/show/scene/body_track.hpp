@@ -5,7 +5,7 @@
 
 namespace verp::scene {
 
-/// Poses of all links at a tick's measured angles.
+/// Link poses at a tick's measured angles.
 class TickPoses {
  public:
   TickPoses(const Entity& entity, const Params& params) : entity_(entity), params_(params) {}
@@ -18,16 +18,16 @@ class TickPoses {
 };
 
 Transform to_transform(const record::ros::BodyPose& pose);
-/// Interpolates between two poses; `part` runs from 0 to 1.
+/// `part` runs from 0 to 1.
 Transform between(const Transform& from, const Transform& to, double part);
 
-/// The body's pose tick by tick. Interpolates the trace's true poses if it has any. Otherwise takes
-/// tilt and heading from the controller's estimate and position from the lower sole, which does not
-/// slide.
+/// The body's pose tick by tick. Interpolates the trace's true poses if there are any. Otherwise
+/// tilt and heading are the controller's estimate, and position follows from the lower sole, which
+/// does not slide.
 class BodyTrack {
  public:
   BodyTrack(const record::Trace& trace, const TickPoses& poses) : trace_(trace), poses_(poses) {}
-  /// Call it for one tick after the other; state and outputs are those after the tick.
+  /// For one tick after the other; state and outputs after the tick.
   Transform at(std::size_t index, const State& state, const Outputs& outputs);
 
  private:
@@ -36,7 +36,7 @@ class BodyTrack {
 
   const record::Trace& trace_;
   const TickPoses& poses_;
-  std::size_t next_ = 0;  ///< index into Trace::bodies: the first after the tick
+  std::size_t next_ = 0;  ///< in Trace::bodies: the first after the tick
   int standing_ = -1;     ///< the foot that carried last
   Vec2 stands_m_ = Vec2::Zero();
 };

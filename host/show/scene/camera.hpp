@@ -8,7 +8,6 @@
 
 namespace verp::scene {
 
-/// Where a picture is taken from.
 struct Camera {
   Vec3 eye_m = Vec3(1.2, -1.2, 0.8);
   Vec3 target_m = Vec3(0, 0, 0.25);
@@ -20,16 +19,15 @@ struct Camera {
 /// A camera on a sphere around its target, turned by the mouse.
 struct Orbit {
   Vec3 target_m = Vec3(0, 0, 0.25);
-  double azimuth_rad = -0.65;   ///< 0: from ahead of a robot that looks along x; positive: toward
-                                ///< its left
+  double azimuth_rad = -0.65;   ///< 0: from ahead of a robot along x; positive: from its left
   double elevation_rad = 0.28;  ///< 0: level
   double distance_m = 1.6;
   double vertical_fov_rad = 0.5;
 
   Camera camera() const;
-  /// Turns by angles in radians; stops short of the pole.
+  /// Angles in radians; stops short of the pole.
   void turn(double azimuth_rad, double elevation_rad);
-  /// Moves in the picture's plane, in picture heights: the point under the mouse stays there.
+  /// In the picture's plane, in picture heights: the point under the mouse stays there.
   void pan(double right, double up);
   void zoom(double factor);
 };
@@ -37,8 +35,8 @@ struct Orbit {
 /// front, side, three-quarter, back, top, follow, head, and the names of the scene's cameras.
 std::vector<std::string> view_names(const Scene& scene);
 
-/// The named view of one robot; empty if there is no such view. `aspect` is the picture's width /
-/// height and sets the distance. A declared camera keeps its horizontal field.
+/// Empty for an unknown name. `aspect` is the picture's width / height and sets the distance. A
+/// declared camera keeps its horizontal field.
 std::optional<Camera> view(const std::string& name, const Scene& scene, const Snapshot& now,
                            int robot, double aspect);
 

@@ -19,8 +19,7 @@
 namespace verp::scene {
 namespace {
 
-constexpr std::size_t kEvery = 125;  // ticks between stored States: a seek recomputes at most this
-                                     // many
+constexpr std::size_t kEvery = 125;  // ticks between stored States, recomputed at most
 
 bool is_same_robot(const Entity& entity, const Params& params) {
   if (entity.joints.size() != params.joint_count) return false;
@@ -83,7 +82,6 @@ struct TracePlayer::Film {
     }
   }
 
-  /// The controller after that tick.
   void run_to(std::size_t index, State& state, Outputs& outputs) const {
     const action::Library actions = trace.library();
     state = states[index / kEvery];

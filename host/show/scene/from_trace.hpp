@@ -9,17 +9,17 @@
 namespace verp::scene {
 
 /// Shows a trace at any time. Runs the controller again over the recorded Inputs, so its goals are
-/// known even if the trace holds no State.
+/// known even without recorded State.
 class TracePlayer {
  public:
-  /// Throws TraceError. If the robot's file is gone or has other joints now, shows a robot made of
-  /// the trace's Params and says so in note().
+  /// Throws TraceError. If the robot's file is gone or has other joints, shows a robot made of the
+  /// trace's Params; note() says so.
   explicit TracePlayer(const std::filesystem::path& file);
   ~TracePlayer();
 
   const record::Trace& trace() const;
   const Entity& entity() const;
-  /// The trace's world; null: a level floor.
+  /// Null: a level floor.
   const model::World* world() const;
   const std::string& note() const;
   double begin_s() const;

@@ -5,8 +5,7 @@
 
 namespace verp::scene {
 
-/// The view of a robot at a session's tick, for session::Hooks::ticked. Only reads: the run has the
-/// same bits with and without it.
+/// For session::Hooks::ticked. Only reads: the run has the same bits with and without it.
 RobotView look(const session::Tick& tick, const Entity& entity, const Params& params);
 
 /// Snapshot of one robot's run.

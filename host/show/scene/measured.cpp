@@ -9,7 +9,7 @@
 namespace verp::scene {
 namespace {
 
-/// A sole this close to the floor stands on it, for feet without force cells.
+/// A sole this close to the floor stands on it, if feet have no force cells.
 constexpr double kTouches_m = 0.004;
 
 Vec3 com_of(const RobotView& view, const Entity& entity) {
@@ -22,7 +22,7 @@ Vec3 com_of(const RobotView& view, const Entity& entity) {
   return mass_kg > 0 ? Vec3(moment / mass_kg) : view.link_world.front().translation();
 }
 
-/// The force cells are at the sole's corners: front-left, front-right, back-left, back-right.
+/// Cells at the sole's corners: front-left, front-right, back-left, back-right.
 constexpr std::size_t kCorner[kFootSensors] = {0, 1, 3, 2};
 
 void add_foot_cells(RobotView& view, const sim::Truth& feet, const Params& params,

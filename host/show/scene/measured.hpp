@@ -6,7 +6,7 @@
 #include "host/show/scene/snapshot.hpp"
 #include "host/twin/sim/truth.hpp"
 
-/// A view from a robot's own sensors, where the true state is unknown.
+/// From a robot's own sensors, where the true state is unknown.
 namespace verp::scene {
 
 /// Text of a name in Params.
@@ -14,11 +14,11 @@ std::string text_of(const char (&name)[kNameLength]);
 
 std::vector<double> measured_rad(const Inputs& inputs, const Params& params);
 
-/// Adds soles, CoM, support and foot forces to a view whose link poses are set.
+/// Adds soles, CoM, support and foot forces to a view with link poses.
 void add_measured(RobotView& view, const Entity& entity, const Params& params,
                   const Inputs& inputs);
 
-/// The feet of such a view in the form of the twin's truth.
+/// The feet in the form of the twin's truth.
 sim::Truth soles_of(const RobotView& view, const Entity& entity);
 
 }  // namespace verp::scene

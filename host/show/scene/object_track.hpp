@@ -5,8 +5,8 @@
 
 namespace verp::scene {
 
-/// Poses of a world's moving objects, interpolated between the poses in a trace. An object that the
-/// trace does not name stays where it began.
+/// Poses of a world's moving objects, interpolated between a trace's. An object that the trace does
+/// not name stays where it began.
 class ObjectTrack {
  public:
   ObjectTrack(const record::Trace& trace, const model::World& world);

@@ -4,7 +4,7 @@
 
 namespace verp::scene {
 
-/// A robot made of the controller's Params alone: tree and soles, with bones to draw.
+/// Made of Params alone: tree and soles, with bones to draw.
 Entity entity_of(const Params& params);
 
 }  // namespace verp::scene

@@ -4,16 +4,15 @@
 #include "common/model/params.hpp"
 #include "host/show/scene/snapshot.hpp"
 
-/// Adds the controller's own numbers to a view.
 namespace verp::scene {
 
-/// Goals, mode, phase, state, stance and faults.
+/// Adds goals, mode, phase, state, stance and faults.
 void add_outputs(RobotView& view, const Outputs& outputs, const Params& params);
 
-/// Gyro and accelerometer in body axes.
+/// Adds gyro and accelerometer in body axes.
 void add_imu(RobotView& view, const Inputs& inputs, const Params& params);
 
-/// The planned footholds, placed relative to the stance foot: the plan is in the gait's own frame.
+/// Placed relative to the stance foot: the plan is in the gait's own frame.
 std::vector<Footstep> footsteps(const gait::GaitState& gait, const Transform& left_sole_world,
                                 const Transform& right_sole_world);
 

@@ -3,7 +3,6 @@
 namespace verp::scene {
 namespace {
 
-/// Number of links of all robots before this one.
 int links_before(const Scene& scene, int robot) {
   int links = 0;
   for (int r = 0; r < robot; ++r) {

@@ -7,7 +7,7 @@
 #include "host/robot/model/entity.hpp"
 
 /// Shapes, materials and lights (Scene) and one instant of them (snapshot.hpp). All displays take
-/// these two and nothing else. Nothing here touches physics or a controller.
+/// only these two. Nothing here touches physics or a controller.
 namespace verp::scene {
 
 using model::Entity;
@@ -25,10 +25,10 @@ struct Material {
   float roughness = 0.55F;
   float metallic = 0;
   Colour glow{0, 0, 0, 1};
-  std::string texture = {};  ///< image file, multiplied with the colour; may be empty
+  std::string texture = {};  ///< image file, times the colour; may be empty
 };
 
-/// Triangles in the item's frame, metres. Without normals the faces are flat.
+/// In the item's frame, metres. Without normals, faces are flat.
 struct Triangles {
   std::vector<Eigen::Vector3f> points, normals;
   std::vector<Eigen::Vector2f> texture_at;  ///< empty: no texture
@@ -47,12 +47,11 @@ enum class Shape {
 
 inline constexpr int kWorld = -1;
 
-/// One shape with one material, on a robot's link or in the world.
+/// A shape on a robot's link or in the world.
 struct Item {
   std::string name;
   int robot = kWorld;  ///< index into Scene::robots
-  /// The robot's link; for the world, the index into Snapshot::body_world, or kWorld if it is
-  /// fixed.
+  /// The robot's link; in the world, the index into Snapshot::body_world, or kWorld if fixed.
   int node = 0;
   Transform pose = Transform::Identity();  ///< in the frame of `node`
   Shape shape = Shape::kBox;
@@ -61,37 +60,37 @@ struct Item {
   Material material;
   std::string mesh_file;
   std::shared_ptr<const Triangles> triangles;
-  bool collision = false;  ///< a collision shape, drawn only if Effects::collisions is set
+  bool collision = false;  ///< drawn only if Effects::collisions is set
 };
 
 struct Light {
   enum class Kind { kSun, kPoint, kSpot } kind = Kind::kSun;
   Vec3 position_m = Vec3::Zero();
-  Vec3 direction = Vec3(-0.4, 0.3, -1);  ///< direction of the light's rays
+  Vec3 direction = Vec3(-0.4, 0.3, -1);  ///< of the light's rays
   Colour colour;
   float strength = 1;
   double range_m = 10;  ///< point, spot
-  /// Point and spot at distance d: strength / (x + y d + z d^2), reduced near the end of the range.
+  /// Point and spot at distance d: strength / (x + y d + z d^2), less near the end of the range.
   Vec3 fading = Vec3(0.01, 0, 1);
   double inner_rad = 0.4, outer_rad = 0.6;
-  bool shadows = false;  ///< only the first sun with this flag casts them
+  bool shadows = false;  ///< only the first such sun casts them
 };
 
 struct Fog {
   bool on = false;
   Colour colour{0.8F, 0.83F, 0.87F, 1};
   double begin_m = 4, end_m = 30;  ///< linear between the two
-  double density_1_m = 0;  ///< if above 0, used instead: e^-(density d) remains at distance d
-  bool squared = false;    ///< e^-(density d)^2
+  double density_1_m = 0;          ///< if above 0, instead: e^-(density d) remains at distance d
+  bool squared = false;            ///< e^-(density d)^2
 };
 
-/// The backdrop, a soft gradient; smooth surfaces mirror it.
+/// A soft gradient; smooth surfaces mirror it.
 struct Sky {
   Colour zenith{0.62F, 0.72F, 0.84F, 1};
   Colour horizon{0.93F, 0.945F, 0.96F, 1};
 };
 
-/// The floor z = 0; it fades into the horizon.
+/// z = 0; fades into the horizon.
 struct Ground {
   bool on = true;
   Colour light{0.80F, 0.815F, 0.835F, 1};
@@ -101,7 +100,7 @@ struct Ground {
   double fade_m = 6;  ///< at this distance it is half horizon
 };
 
-/// A camera that a file declares on a robot or in the world (robot: kWorld).
+/// A camera from a file, on a robot or in the world (robot: kWorld).
 struct Mount {
   std::string name;
   int robot = 0, node = 0;
@@ -113,8 +112,8 @@ struct Mount {
 
 struct Robot {
   std::string name;
-  std::shared_ptr<const Entity> entity;  ///< its tree, limits and soles
-  double height_m = 0.5;                 ///< standing
+  std::shared_ptr<const Entity> entity;
+  double height_m = 0.5;  ///< standing
 };
 
 struct Scene {
@@ -128,14 +127,13 @@ struct Scene {
   Ground ground;
   bool antialias = true, textures = true, transparency = true;  ///< what its file leaves on
   std::vector<Mount> cameras;
-  std::vector<std::string> notes;  ///< what a robot's file names but lacks, one line a robot
+  std::vector<std::string> notes;  ///< what robot files name but lack, one line a robot
 };
 
-/// An item's value in a segmentation picture. Links count from 1 in the order of robots and links,
-/// then the world's things, where consecutive items of one name share a value. 0: nothing or the
-/// floor.
+/// Value in a segmentation picture. Links count from 1, by robot and link; then the world's things,
+/// where consecutive items of one name share a value. 0: nothing or the floor.
 int label_of(const Scene& scene, const Item& item);
-/// The name of such a value: ROBOT/LINK, or the item's.
+/// ROBOT/LINK, or the item's name.
 std::string label_name(const Scene& scene, int label);
 
 }  // namespace verp::scene

@@ -16,14 +16,13 @@ struct ContactForce {
   Vec3 force_world_n = Vec3::Zero();  ///< on the robot
 };
 
-/// Where a foot will stand.
 struct Footstep {
   int side = 0;  ///< 0 left, 1 right
   Vec2 at_world_m = Vec2::Zero();
   double yaw_rad = 0;
 };
 
-/// One robot at one instant. Members that the source does not know are empty.
+/// Members that the source does not know are empty.
 struct RobotView {
   std::vector<Transform> link_world;  ///< one per node
   std::vector<double> joint_rad, goal_rad, torque_use;
@@ -43,19 +42,18 @@ struct RobotView {
   std::array<double, 3> gyro_rad_s{}, accel_m_s2{};  ///< body axes
 };
 
-/// A path, its latest point last.
+/// The latest point is last.
 struct Trail {
   Colour colour;
   std::vector<Vec3> points_world_m;
 };
 
-/// A range finder's ray from the sensor to the hit.
+/// A ray from a range finder to the hit.
 struct Ray {
   Vec3 from_world_m = Vec3::Zero(), to_world_m = Vec3::Zero();
   bool hit = true;
 };
 
-/// One instant of a Scene.
 struct Snapshot {
   double t_s = 0;  ///< simulated time, or the trace's
   std::uint32_t tick = 0;

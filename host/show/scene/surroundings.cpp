@@ -8,8 +8,7 @@ namespace {
 
 using Kind = model::Shape::Kind;
 
-constexpr double kMostRound_m = 0.004;  // larger would show another shape than the one that physics
-                                        // touches
+constexpr double kMostRound_m = 0.004;  // larger would look unlike what physics touches
 
 Colour colour_of(const model::Color& c) {
   return {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2]),
@@ -27,7 +26,7 @@ Shape shape_of(Kind kind) {
   return kShapes[static_cast<int>(kind)];
 }
 
-/// SDF gives only the brightness of highlights: bright ones become a smooth surface.
+/// SDF gives only the brightness of highlights: bright means smooth.
 Material material_of(const model::Material& m) {
   const double shine = std::max({m.specular[0], m.specular[1], m.specular[2]});
   Material out;
@@ -158,7 +157,7 @@ class WorldBuilder {
     item.round_m = std::min(rounding_m(item.shape, item.size_m), kMostRound_m);
     if (shape.mesh && !shape.mesh->triangle.empty()) {
       item.triangles = triangles_of(*shape.mesh);
-    } else if (shape.mesh) {  // for display only: any format, read by the renderer
+    } else if (shape.mesh) {  // display only: any format, read by the renderer
       item.shape = Shape::kMesh;
       item.mesh_file = shape.mesh->file;
     }
@@ -171,7 +170,7 @@ class WorldBuilder {
     add(object, visual.shape, visual.pose).material = material_of(visual.material);
   }
 
-  /// A level plane at height 0 is drawn without an end, as physics treats it.
+  /// A level plane at height 0 has no end, as in physics.
   bool is_floor(const model::WorldVisual& visual) const {
     const Transform pose = frame_ * visual.pose;
     return visual.shape.kind == Kind::kPlane && visual.material.texture.empty() &&

@@ -3,10 +3,10 @@
 
 namespace verp::scene {
 
-/// Paths of one robot's centre of mass and soles so far.
+/// Paths of one robot's centre of mass and soles.
 class Trails {
  public:
-  /// Adds this instant and writes the trails into the snapshot.
+  /// Adds this instant; writes the trails into the snapshot.
   void follow(Snapshot& now, const Entity& entity);
 
  private:

@@ -57,7 +57,7 @@ Json rgb(const scene::Colour& c) {
   return {c.r, c.g, c.b};
 }
 
-/// The world around the robot; viewer.js has its own studio.
+/// A scene's own lights, floor and sky; viewer.js has a studio of its own.
 Json air_json(const scene::Scene& scene) {
   Json lights = Json::array();
   for (const scene::Light& light : scene.lights) {
@@ -74,7 +74,7 @@ Json air_json(const scene::Scene& scene) {
           {"lights", lights}};
 }
 
-/// One frame: one row of viewer.js's columns.
+/// One frame: a row of viewer.js's columns.
 class Row {
  public:
   explicit Row(std::vector<float>& out) : out_(out) {}

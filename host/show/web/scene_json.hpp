@@ -6,9 +6,9 @@
 
 namespace verp::web {
 
-/// The first robot of a scene and its motion, as viewer.js reads them: its tree, its shapes, and
-/// the frames as float32 in base64. A frame holds the body's pose, the joint angles and the marks.
-/// `with_air` adds the scene's own floor, sky and lights in place of the page's.
+/// The first robot and its motion for viewer.js: tree, shapes, and frames as float32 in base64. A
+/// frame holds the body's pose, the joint angles and the marks. `with_air` adds the scene's own
+/// floor, sky and lights in place of the page's.
 std::string scene_json(const scene::Scene& scene, const std::vector<scene::Snapshot>& frames,
                        bool with_air);
 

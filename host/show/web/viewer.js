@@ -1,4 +1,4 @@
-// Draws the run that is embedded in the page; the user can turn, play and scrub it.
+// Draws the run in the page; the user can turn, play and scrub it.
 (function () {
   'use strict';
   const section = document.getElementById('replay');
@@ -80,14 +80,14 @@
     }
   }
 
-  // A box with round edges: grid points on the box, projected onto spheres around an inner box.
+  // Grid points on the box, projected onto spheres around an inner box.
   function roundBox(size, round) {
     const geometry = new THREE.BoxBufferGeometry(size[0], size[1], size[2], 8, 8, 8);
     const at = geometry.attributes.position, normal = geometry.attributes.normal;
     const half = size.map((s) => s / 2), r = Math.min(round, 0.98 * Math.min(...half));
     if (!(r > 0)) return geometry;
     const p = new THREE.Vector3(), inner = new THREE.Vector3();
-    const spread = (v, h) => {  // puts the grid lines into the corners' arcs
+    const spread = (v, h) => {  // grid lines lie in the corners' arcs
       const k = Math.round(4 * v / h);
       if (Math.abs(k) === 4) return v;
       return Math.sign(k) * (h - r * (1 - Math.tan(Math.PI / 4 * Math.abs(k) / 4)));

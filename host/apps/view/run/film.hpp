@@ -22,22 +22,22 @@ class Film {
   virtual ~Film() = default;
   virtual const scene::Entity& entity() const = 0;
   virtual std::vector<Signal> all_signals() const { return signals_of(entity()); }
-  /// The trace's world; null for a level floor or a live run.
+  /// Null for a level floor or a live run.
   virtual const model::World* world() const { return nullptr; }
   virtual double period_s() const = 0;
   virtual bool empty() const = 0;
   virtual double begin_s() const = 0;
   virtual double end_s() const = 0;
-  /// The instant at t_s or just before; null if the film is empty.
+  /// At t_s or just before; null if the film is empty.
   virtual Picture at(double t_s) const = 0;
-  /// Appends that signal's points after `after_s`.
+  /// Appends the points after `after_s`.
   virtual void points(int signal, double after_s, std::vector<Point>& out) const = 0;
 };
 
 /// The last minutes of a run. One thread adds, any thread reads.
 class LiveFilm final : public Film {
  public:
-  /// `beside`: the second robot of each snapshot is like the first, for comparison.
+  /// `beside`: each snapshot has a second robot like the first, for comparison.
   LiveFilm(std::shared_ptr<const scene::Entity> entity, double period_s, bool beside = false);
 
   void add(scene::Snapshot now);
@@ -65,7 +65,7 @@ class LiveFilm final : public Film {
   const bool beside_;
   mutable std::mutex mutex_;
   std::deque<Instant> instants_;
-  std::size_t pictures_ = 0;  ///< number of newest instants with a picture
+  std::size_t pictures_ = 0;  ///< newest instants with a picture
 };
 
 }  // namespace verp::view

@@ -12,9 +12,9 @@ namespace verp::view {
 namespace {
 
 constexpr double kMost = 32767;
-constexpr double kDead = 0.15;  // of a stick's range: worn sticks do not return to the middle
+constexpr double kDead = 0.15;  // of the range: worn sticks do not return to the middle
 constexpr int kLookAgain = 30;  // polls
-// The numbers in the kernel's drivers for common gamepads.
+// From the kernel's drivers for common gamepads.
 constexpr int kLeftX = 0, kLeftY = 1, kRightX = 3;
 constexpr int kStand = 0, kStop = 1;
 
@@ -55,7 +55,7 @@ Gamepad::News Gamepad::poll() {
     } else if (count < 0 && errno == EINTR) {
       continue;
     } else {
-      if (count >= 0 || errno != EAGAIN) close(news);  // end of file, or ENODEV: it was unplugged
+      if (count >= 0 || errno != EAGAIN) close(news);  // end of file, or ENODEV: unplugged
       break;
     }
   }

@@ -22,8 +22,8 @@ using namespace std::chrono_literals;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint32_t kTimeout_us = 50'000;
-constexpr auto kPause = 25ms;       // between two polls: as often as a picture is drawn
-constexpr auto kLostPause = 500ms;  // before a silent link is polled again
+constexpr auto kPause = 25ms;       // as often as a picture is drawn
+constexpr auto kLostPause = 500ms;  // before the next poll of a silent link
 constexpr double kApart_m = 0.45;
 constexpr double kTiltCount_rad = 1e-4;
 

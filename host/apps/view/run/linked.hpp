@@ -11,8 +11,8 @@
 
 namespace verp::view {
 
-/// Reads a controller's registers over a link, at its operator's port or as a CAN node; writes
-/// nothing. Its own thread polls until the controller answers, so a dead link delays no one else.
+/// Reads a controller's registers at its operator's port or as a CAN node; writes nothing. Its own
+/// thread polls until the controller answers, so a dead link delays no one else.
 class Linked {
  public:
   /// Throws link::EndpointError, link::LinkError.
@@ -23,12 +23,12 @@ class Linked {
   Linked& operator=(const Linked&) = delete;
 
   struct Told {
-    bool lost = false;    ///< it answered once, but not now
-    std::string trouble;  ///< why there is no answer now; empty: there is one
+    bool lost = false;    ///< answered once, but not now
+    std::string trouble;  ///< why there is no answer now, or empty
     std::uint64_t looks = 0, digest = 0;
     std::uint32_t tick = 0;
     double roll_rad = 0, pitch_rad = 0;
-    scene::RobotView robot;  ///< from the last answer, without poses; no joints before the first
+    scene::RobotView robot;  ///< without poses; no joints before the first answer
   };
   Told told() const;
 
@@ -48,7 +48,7 @@ class Linked {
   const std::shared_ptr<const scene::Entity> entity_;
   const Params params_;
   std::unique_ptr<Registers> registers_;
-  bool known_ = false;  ///< the controller is of such a robot; used by the thread only
+  bool known_ = false;  ///< the controller is of such a robot; thread only
   mutable std::mutex mutex_;
   std::condition_variable woken_;
   Told told_;

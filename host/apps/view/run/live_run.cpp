@@ -13,7 +13,6 @@
 
 namespace verp::view {
 
-/// One run from its first tick to its last.
 struct LiveRun::Going {
   explicit Going(const sim::WorldOptions& world) : session({.world = world, .interrupted = {}}) {}
 
@@ -193,7 +192,7 @@ void LiveRun::loop() {
   }
 }
 
-/// Does one thing or waits for the clock. Returns false if there is nothing to do.
+/// Does one thing or waits for the clock. False: nothing to do.
 bool LiveRun::work(std::unique_lock<std::mutex>& lock) {
   if (!touches_.empty()) {
     const auto touch = std::move(touches_.front());

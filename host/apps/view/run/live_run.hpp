@@ -20,20 +20,20 @@ namespace verp::view {
 
 struct RunSetup {
   session::WalkPlan plan;
-  std::vector<session::WalkPlan> others = {};  ///< robots of the same world that are only watched
+  std::vector<session::WalkPlan> others = {};  ///< of the same world, only watched
   /// A robot drawn beside ours that is not in the world. Called in the run's thread after each tick
   /// with our robot's view.
   std::function<scene::RobotView(const scene::RobotView&)> beside = {};
   sim::WorldOptions world = {};
-  std::string record_file = {};  ///< records the run as it goes on; empty: none
+  std::string record_file = {};  ///< records the run; may be empty
   record::mcap::StringMap metadata = {};
 };
 
-/// A session in a thread of its own, for a window. User actions reach it only between two ticks, so
-/// the window's speed changes no bit of the run.
+/// A session in its own thread for a window. User actions reach it only between two ticks, so the
+/// window's speed changes no bit of the run.
 class LiveRun {
  public:
-  /// Paused before the first tick.
+  /// Starts paused.
   explicit LiveRun(RunSetup setup);
   ~LiveRun();
   LiveRun(const LiveRun&) = delete;
@@ -44,7 +44,7 @@ class LiveRun {
   void tick_once();
   /// 1: real time; 0: as fast as it can.
   void set_speed(double factor);
-  /// Restarts the run, played or paused as before; a record begins anew.
+  /// Restarts the run and its record, played or paused as before.
   void reset();
 
   /// Handles for the user's actions between two ticks.
@@ -53,18 +53,18 @@ class LiveRun {
     session::Robot& robot;
     session::LiveOrders& orders;
   };
-  /// Calls `what` in the run's thread before its next tick. Status::complaint gets its exception.
+  /// Runs in the run's thread before the next tick. Its exception becomes Status::complaint.
   void touch(std::function<void(Hands&)> what);
 
-  /// A push or a quantity set to a value, as in `verp walk`: recorded with its tick.
+  /// A push or a set quantity, as in `verp walk`: recorded with its tick.
   void intervene(session::Intervention what);
 
-  /// The robot gets up after each fall by itself, if it has actions for it.
+  /// Lets the robot get up after each fall, if it has actions for it.
   void let_get_up(bool by_itself);
 
-  /// Writes the run so far as a trace. Returns the reason if it cannot, else empty.
+  /// Writes the run so far as a trace. Returns empty or the reason.
   std::string save(const std::filesystem::path& file);
-  /// Ends the run and completes its record. Returns the reason if it cannot, else empty.
+  /// Ends the run and completes its record. Returns empty or the reason.
   std::string finish();
 
   struct Status {
@@ -75,9 +75,9 @@ class LiveRun {
     std::uint64_t ticks = 0, digest = 0;
     std::optional<Tuning> tuning = {};  ///< in effect
     std::string failure = {};           ///< why the run is over
-    std::string complaint = {};         ///< error of the last touch that failed
-    std::string happened = {};          ///< last event of a robot that falls or lies, in words
-    int runs = 0;                       ///< number of starts
+    std::string complaint = {};         ///< of the last touch that failed
+    std::string happened = {};          ///< last event of a fallen robot, in words
+    int runs = 0;
   };
   Status status() const;
 

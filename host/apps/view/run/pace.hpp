@@ -4,20 +4,20 @@
 
 namespace verp::view {
 
-/// Paces simulated time against wall time. The caller passes both times; Pace reads no clock.
+/// Paces simulated time against wall time. The caller passes both; Pace reads no clock.
 class Pace {
  public:
   /// 1: real time; 0: as fast as it can.
   void set_speed(double factor, double simulated_s, double wall_s);
   double speed() const { return speed_; }
-  /// Restarts here, as after a pause: earlier delay is not made up.
+  /// Restarts here: earlier delay is not made up.
   void begin(double simulated_s, double wall_s);
 
-  /// Wait before a tick that begins at that simulated time. A delay above kMostLate_s is not made
-  /// up: a busy PC slows a run and never makes it hurry.
+  /// Wait before a tick at that simulated time. A delay above kMostLate_s is not made up: a busy PC
+  /// slows a run and never makes it hurry.
   double wait_s(double simulated_s, double wall_s);
 
-  /// Delay of the last paced tick, even if it is not made up.
+  /// Delay of the last paced tick, even if not made up.
   double late_s() const { return late_s_; }
 
   /// Real-time factor over the last second.
@@ -33,8 +33,8 @@ class Pace {
   std::deque<std::pair<double, double>> last_;
 };
 
-/// Time to the window's next picture. Drawing shares the PC's cores with the twin, which comes
-/// first: a late run gets fewer pictures.
+/// Time to the window's next picture. The twin comes first on the shared cores, so a late run gets
+/// fewer pictures.
 int frame_ms(double late_s);
 
 }  // namespace verp::view

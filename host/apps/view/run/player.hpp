@@ -6,8 +6,8 @@
 
 namespace verp::view {
 
-/// Plays a run or a trace at the instant that is shown. A rewound run is paused; play() continues
-/// it at its newest instant, not at the one shown.
+/// Plays a run or a trace at the shown instant. A rewound run is paused; play() continues it at its
+/// newest instant.
 class Player {
  public:
   explicit Player(RunSetup setup);
@@ -20,18 +20,18 @@ class Player {
   void play();
   void pause();
   bool playing() const;
-  /// Moves by so many ticks; a run at its newest instant runs one tick.
+  /// Moves by ticks; a run at its newest instant runs one tick.
   void step(int ticks);
   void seek(double t_s);
   void set_speed(double factor);
   double speed() const { return speed_; }
-  /// Restarts a run; moves a trace to its beginning.
+  /// Restarts a run; rewinds a trace.
   void reset();
 
-  /// True while the newest instant of a run is shown.
+  /// True while a run's newest instant is shown.
   bool follows() const { return follows_; }
   double shown_s() const { return shown_s_; }
-  /// The picture to show. Call it once a frame with the wall time. Null: nothing yet.
+  /// The picture to show, or null. Call it once a frame with the wall time.
   Picture now(double wall_s);
 
  private:

@@ -8,9 +8,9 @@
 
 namespace verp::view {
 
-/// A robot held in the air by its body, whose joints and links the user moves: kinematics, no
-/// physics. Feet use the controller's inverse kinematics; other links use damped least squares over
-/// the joints between them and the body.
+/// A robot held in the air by its body; the user moves joints and links, without physics. Feet use
+/// the controller's inverse kinematics; other links use damped least squares over the joints to the
+/// body.
 class PoseHand {
  public:
   PoseHand(const scene::Entity& entity, const Params& params);
@@ -19,18 +19,17 @@ class PoseHand {
   const std::vector<double>& joint_rad() const { return joint_rad_; }
   void stand();
 
-  /// Moves the sole (0 left, 1 right) there, as near as the leg reaches, and keeps its orientation.
+  /// Moves the sole (0 left, 1 right) as near as the leg reaches and keeps its orientation.
   void move_foot(int side, const scene::Vec3& sole_body_m);
   scene::Vec3 sole_body_m(int side) const;
-  /// The foot that the node is part of, or -1.
+  /// The foot of the node, or -1.
   int foot_of(int node) const;
   bool has_leg(int side) const;
 
-  /// Moves that point of a link there, as near as its joints reach; does nothing for the body
-  /// itself.
+  /// Moves a link's point as near as its joints reach; does nothing for the body itself.
   void move_link(int node, const scene::Vec3& point_link_m, const scene::Vec3& to_body_m);
   scene::Vec3 point_body_m(int node, const scene::Vec3& point_link_m) const;
-  /// Result of the last move_link() in words; "" if there was none since stand().
+  /// Result of the last move_link() in words; "" if none since stand().
   const std::string& link_reach() const { return link_reach_; }
 
   /// Result of the last move in words, such as "within reach".
@@ -42,9 +41,9 @@ class PoseHand {
 
  private:
   kinematics::LegChain chain(int side) const;
-  /// The joints between the body and that link that have motors of their own.
+  /// Joints between the body and that link that have their own motors.
   std::vector<std::size_t> joints_to(int node) const;
-  /// One step of move_link(); returns false if nothing moved.
+  /// One step of move_link(); false if nothing moved.
   bool step_to(const std::vector<std::size_t>& joints, int node, const scene::Vec3& point_link_m,
                const scene::Vec3& to_body_m);
 

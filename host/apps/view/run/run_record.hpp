@@ -11,8 +11,8 @@
 
 namespace verp::view {
 
-/// A run in memory that can be saved later: each tick's inputs, the body's pose and the joint
-/// efforts. save() computes State again from these.
+/// A run in memory: each tick's inputs, body pose and joint efforts. save() computes State again
+/// from these.
 class RunRecord {
  public:
   void add(const session::Tick& tick);
@@ -20,7 +20,7 @@ class RunRecord {
   void note(const std::string& what);
   std::size_t ticks() const { return ticks_.size(); }
 
-  /// `actions` is the image of the controller's library. Throws record::TraceError.
+  /// `actions`: image of the controller's library. Throws record::TraceError.
   void save(const std::filesystem::path& file, const Params& params,
             const record::mcap::StringMap& metadata,
             const std::vector<std::uint32_t>& actions = {}) const;

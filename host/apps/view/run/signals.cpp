@@ -41,7 +41,7 @@ void add_point(Row& row, const std::optional<scene::Vec2>& point) {
   row.add(point->y());
 }
 
-/// Values of the robot at the link, and its difference to ours.
+/// The robot at the link, and its difference to ours.
 void add_beside(Row& row, const scene::RobotView& robot, const scene::RobotView& beside,
                 std::size_t joints) {
   for (std::size_t j = 0; j < joints; ++j) {

@@ -6,7 +6,7 @@
 
 namespace verp::view {
 
-/// A number of one robot that can be plotted over time.
+/// A number of one robot to plot over time.
 struct Signal {
   std::string group;  ///< "Joints/l_knee", "Centre of mass"
   std::string name;   ///< "goal"
@@ -15,11 +15,11 @@ struct Signal {
   std::string label() const { return group + " " + name; }
 };
 
-/// All signals of a robot, group by group; a signal's number is its index. `beside` adds those of a
-/// second robot that is compared joint by joint.
+/// All signals, group by group; a signal's number is its index. `beside` adds a second robot,
+/// compared joint by joint.
 std::vector<Signal> signals_of(const scene::Entity& entity, bool beside = false);
 
-/// Values of all signals at one instant. Unknown values are NaN.
+/// Values of all signals at one instant; unknown values are NaN.
 std::vector<float> values_of(const scene::RobotView& robot, const scene::Entity& entity,
                              const scene::RobotView* beside = nullptr);
 

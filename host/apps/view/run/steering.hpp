@@ -10,7 +10,7 @@ class Steering {
  public:
   explicit Steering(const Params& params);
 
-  /// Quarters ahead, to the left, and of a turn to the left. The robot walks.
+  /// Quarters ahead, to the left, and of a turn to the left.
   void nudge(int ahead, int left, int turn);
   /// The same by sticks, from -1 to 1; all 0: stand.
   void lean(double ahead, double left, double turn);

@@ -7,7 +7,6 @@
 
 namespace verp::view {
 
-/// A trace from its first tick to its last.
 class TraceFilm final : public Film {
  public:
   /// Throws record::TraceError.

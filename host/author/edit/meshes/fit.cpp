@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kThin_m = 1e-3;  // a sheet has no thickness, a solid needs some
 
-/// Candidate rotations: none, and along the points' principal axes.
+/// None, and along the points' principal axes.
 std::vector<Mat3> turns(const Triangles& mesh) {
   Vec3 mean = Vec3::Zero();
   for (const Vec3& p : mesh.points_m) mean += p / double(mesh.points_m.size());
@@ -26,8 +26,7 @@ std::vector<Mat3> turns(const Triangles& mesh) {
       all.push_back(turn);
     }
   }
-  std::rotate(all.begin(), all.begin() + 2, all.begin() + 3);  // unrotated first, so that it wins
-                                                               // ties
+  std::rotate(all.begin(), all.begin() + 2, all.begin() + 3);  // unrotated wins ties
   return all;
 }
 

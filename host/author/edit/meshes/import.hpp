@@ -8,7 +8,7 @@
 namespace verp::edit {
 
 struct ImportOptions {
-  double unit_m = 1;   ///< metres per unit of the file, on top of a DAE's own unit
+  double unit_m = 1;   ///< metres per unit; a DAE's own unit is on top
   double mass_kg = 0;  ///< 0: from the density
   double density_kg_m3 = 1000;
   std::string fit = "box";  ///< box, capsule, cylinder, sphere or "smallest"
@@ -16,15 +16,15 @@ struct ImportOptions {
 
 struct Imported {
   Body body;
-  std::string told;  ///< one line: size, volume, fitted shape, doubts
+  std::string told;  ///< one line: size, volume, fit, doubts
 };
 
-/// Throws model::LoadError that names the mesh if it is not a mesh or too large.
+/// Throws model::LoadError for a file that is no mesh or too large.
 Imported import_mesh(const std::filesystem::path& mesh, const std::filesystem::path& robot,
                      const ImportOptions& options);
 
-/// Replaces the link's inertia, shapes and visuals by the mesh's. Creates a missing link on that
-/// joint (empty: on the model).
+/// Replaces the link's inertia, shapes and visuals. Creates a missing link on joint `on` (empty: on
+/// the model).
 Edit put_mesh(const Document& document, const std::string& link, const Body& body,
               const std::string& on);
 

@@ -13,18 +13,18 @@ struct Triangles {
   std::vector<std::array<std::uint32_t, 3>> corners;
 };
 
-/// All surfaces of a mesh file. Throws model::LoadError.
+/// Throws model::LoadError.
 Triangles read_triangles(const std::filesystem::path& file, double unit_m);
 
 struct Filling {
-  bool closed = false;  ///< each edge joins two triangles, so the mesh has an inside
+  bool closed = false;  ///< each edge joins two triangles
   double volume_m3 = 0;
   Vec3 centre_m = Vec3::Zero();
   Mat3 inertia_per_kg = Mat3::Zero();  ///< about the centre, m2
 };
 Filling filling(const Triangles& mesh);
 
-/// The solid of that kind around all points, in the rotation where it is smallest.
+/// The smallest solid of that kind around all points.
 Solid fitted(const Triangles& mesh, Solid::Kind kind);
 
 }  // namespace verp::edit

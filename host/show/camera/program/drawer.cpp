@@ -15,8 +15,8 @@
 namespace verp::camera {
 namespace {
 
-/// No marks, as in a camera. Shadows and multisampling are off: they cost most of a picture where
-/// the PC's processor draws 30 a second. smooth_edges() takes the place of samples.
+/// As in a camera, no marks. No shadows or multisampling: they cost most of a picture where the
+/// PC's processor draws 30 a second. Edges are smoothed afterwards instead.
 render::Effects effects() {
   render::Effects effects;
   effects.quick = true;
@@ -25,9 +25,8 @@ render::Effects effects() {
   return effects;
 }
 
-/// Adds noise, as a fraction of white, to the 8-bit values, as a sensor's chip does last. A sum of
-/// four uniform numbers from one 64-bit draw approximates a normal well enough: a picture needs
-/// 230,000.
+/// Noise, as a fraction of white, on the 8-bit values, as a sensor's chip does last. Four uniform
+/// numbers from one 64-bit draw sum to a good enough normal: a picture needs 230,000.
 void add_noise(const model::CameraSensor& camera, sim::Random& random, render::Image& image) {
   if (camera.noise_stddev == 0 && camera.noise_mean == 0) return;
   constexpr float kMean = 4 * 0.5F * 65535, kStddev = 37836.6F;  // 65536 * sqrt(4 / 12)
@@ -55,7 +54,7 @@ std::string depth_mm(const model::CameraSensor& camera, sim::Random& random,
   const bool noisy = camera.noise_stddev != 0 || camera.noise_mean != 0;
   for (const float depth : depth_m) {
     const auto true_m = static_cast<double>(depth);
-    // Always draw a number, so that one pixel does not change the noise of others.
+    // Always draws a number, so that pixels do not change each other's noise.
     const double noise_m = noisy ? camera.noise_mean + camera.noise_stddev * random.normal() : 0;
     const double mm = 1000 * (true_m + noise_m);
     const bool there = true_m >= camera.near_m && true_m <= camera.far_m && mm >= 0.5;
@@ -65,7 +64,7 @@ std::string depth_mm(const model::CameraSensor& camera, sim::Random& random,
   return bytes_of(out);
 }
 
-/// Removes the drawn lenses, which are around the cameras' eyes.
+/// The drawn lenses are around the cameras' eyes.
 scene::Scene without_lenses(scene::Scene scene, int robot,
                             const std::vector<model::CameraSensor>& cameras) {
   std::erase_if(scene.items, [&](const scene::Item& item) {

@@ -10,17 +10,17 @@
 
 namespace verp::camera {
 
-/// A stage's scene, its robots' cameras, and a renderer for each robot whose cameras look.
+/// A stage's scene, its cameras, and a renderer for each robot whose cameras look.
 class Drawer {
  public:
   /// Throws LoadError and RenderError.
   explicit Drawer(const Stage& stage);
 
-  /// One picture, with depth two, from that camera of moment.robot. It does not depend on other
-  /// pictures: noise depends on the robot's seed, the camera and the time. Throws
-  /// std::invalid_argument if the stage lacks the robot or link.
+  /// One picture, with depth two, from that camera of moment.robot. Independent of other pictures:
+  /// noise depends on the robot's seed, the camera and the time. Throws std::invalid_argument for
+  /// an unknown robot or link.
   std::vector<Picture> draw(const Moment& moment, std::uint32_t camera);
-  /// A picture from outside the robots. Throws std::invalid_argument if there is no such view.
+  /// From outside. Throws std::invalid_argument for an unknown view.
   Picture draw(const Moment& moment, const Outside& from);
 
  private:
@@ -40,7 +40,7 @@ class Drawer {
 
   std::vector<Eyes> eyes_;  ///< one per robot
   scene::Scene scene_;
-  std::vector<std::string> names_;  ///< of the labels, computed on first use
+  std::vector<std::string> names_;  ///< of labels, made on first use
   render::OffscreenContext context_;
   std::map<int, render::Renderer> renderers_;  ///< by the robot that looks; kWorld: from outside
 };

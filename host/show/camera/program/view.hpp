@@ -6,13 +6,13 @@
 
 namespace verp::camera {
 
-/// One camera's view. Renderers draw plain pinholes only, so a distorted camera's picture is
-/// sampled from a wider pinhole's.
+/// One camera's view. Renderers draw only plain pinholes, so a distorted picture is sampled from a
+/// wider one.
 class View {
  public:
   explicit View(const model::CameraSensor& camera);
 
-  /// The camera and size to render.
+  /// The camera to render from.
   scene::Camera camera(const model::Transform& link_world) const;
   render::Size drawn() const { return drawn_; }
 
