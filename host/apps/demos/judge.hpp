@@ -24,7 +24,6 @@ class Line {
   std::vector<double> along_m_;
 };
 
-/// Statistics of many values.
 struct Spread {
   double rms = 0, worst = 0, least = 0;
 };

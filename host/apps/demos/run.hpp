@@ -16,7 +16,6 @@ namespace verp::demos {
 
 struct Run;
 
-/// A number in the verdict.
 struct Fact {
   std::string name;
   double value = 0;
@@ -76,7 +75,6 @@ struct Track {
   std::string trace_failure;
 };
 
-/// Positions of a movable object over time.
 struct ThingTrack {
   std::string name;
   std::vector<brain::Point> at_m;

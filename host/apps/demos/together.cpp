@@ -15,7 +15,6 @@ namespace {
 constexpr double kLeads_m_s = 0.12;
 constexpr double kGuides_m_s = 0.11;
 
-/// Failures common to these demos.
 std::string trouble_of(const Run& run) {
   for (const Track& track : run.robots) {
     if (track.touches > 0) return fmt::format("{} touched something", track.name);

@@ -7,7 +7,6 @@
 
 namespace verp::tool {
 
-/// One target of a board's firmware.
 struct FirmwareBuild {
   std::string board, target;
   std::filesystem::path tree;              ///< build tree; empty: the preset fw-<board>

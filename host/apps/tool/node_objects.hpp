@@ -10,7 +10,6 @@
 #include "host/twin/bus/register_names.hpp"
 #include "host/twin/can/client.hpp"
 
-/// Objects of CANopen nodes: names and values.
 namespace verp::tool {
 
 /// One object of a node, with its name and type from the EDS data.

@@ -35,9 +35,7 @@ class Check {
   std::uint64_t unsettled() const { return unsettled_; }
   /// Times that ticks were incomplete and the State was requested again.
   std::uint64_t gaps() const { return gaps_; }
-  /// Restarts of the controller.
   std::uint64_t boots() const { return boots_; }
-  /// The last tick compared.
   std::uint32_t tick() const { return shadow_.admit.tick; }
   std::uint64_t digest() const { return shadow_.digest.chain; }
   /// Time of the last tick or answer; 0: never.
@@ -60,7 +58,6 @@ class Check {
   /// Judges `suspicion` with the controller's testimony. `misheard`: why the State is requested
   /// again if only this PC's Inputs were wrong.
   void conclude(const Suspicion& suspicion, const char* misheard);
-  /// Requests the State again.
   virtual void lose(const std::string& why);
   void refuse(const std::string& why);
 

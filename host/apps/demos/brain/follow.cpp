@@ -35,7 +35,6 @@ std::optional<Pace> heard(const Message& message) {
   return pace;
 }
 
-/// Reports the pace every kSay_s.
 class Talker {
  public:
   void talk(double now_s, const Pace& pace, Orders& orders) {

@@ -11,7 +11,6 @@ struct Bend {
   double long_m = 0, bent = 0;
 };
 
-/// A sequence of bends.
 class Route {
  public:
   Route(const Pose& from, std::vector<Bend> bends);
