@@ -26,7 +26,6 @@ void add_json_flag(CLI::App& app, bool& json);
 /// Adds the argument MODEL, with one text for all commands, and --robot MODEL, which is the same.
 CLI::Option* add_model(CLI::App& app, std::string& model);
 
-/// Adds --bus, the name of one of the robot's buses.
 void add_bus_option(CLI::App& app, std::string& bus);
 
 /// Parses all of `text` as a decimal number within [low, high]. Throws CLI::ValidationError with

@@ -16,7 +16,6 @@ void catch_interrupts_to_the_end();
 /// Number of requests: 0, 1, or 2 for more.
 int presses();
 
-/// Whether the user requested the end.
 bool interrupted();
 
 /// The shell's status for a run that failed after an interrupt: 130 after Ctrl-C, 143 after

@@ -7,10 +7,8 @@ namespace verp::cli {
 /// Keys keep their insertion order.
 using Json = nlohmann::ordered_json;
 
-/// Writes one object and a newline to stdout.
 void print_json(const Json& object);
 
-/// Prints the JSON object or the text to stdout.
 void print_answer(bool as_json, const Json& object, const std::string& text);
 
 }  // namespace verp::cli

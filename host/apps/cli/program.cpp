@@ -35,7 +35,6 @@ int fail(int status, const std::string& line, bool json) {
   return status;
 }
 
-/// The deepest subcommand on the command line.
 const CLI::App* addressed(const CLI::App& root) {
   const CLI::App* app = &root;
   for (auto inner = app->get_subcommands(); !inner.empty(); inner = app->get_subcommands()) {

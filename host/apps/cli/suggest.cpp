@@ -8,7 +8,6 @@
 namespace verp::cli {
 namespace {
 
-/// Number of changed, added or dropped letters between two words.
 std::size_t edit_distance(std::string_view from, std::string_view to) {
   std::vector<std::size_t> row(to.size() + 1);
   for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;

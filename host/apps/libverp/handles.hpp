@@ -34,7 +34,6 @@ class Handles {
   Handles(const Handles&) = delete;
   Handles& operator=(const Handles&) = delete;
 
-  /// One call's use of an object, from start to end.
   class Use {
    public:
     Use(Handles& all, std::uint64_t id, std::shared_ptr<Object> object)

@@ -32,11 +32,9 @@ class Seat {
   session::LiveOrders& orders() { return orders_; }
   /// Only the library's user orders this robot.
   bool own_orders() const { return own_orders_; }
-  /// The tuning in force.
   const Tuning& tuning() const {
     return state_.admit.started != 0 ? state_.tuning : plan_.params.tuning;
   }
-  /// After the last tick.
   const State& state() const { return state_; }
   std::uint64_t digest() const { return state_.digest.chain; }
   /// Appends to the trace, at the time of the last tick.

@@ -4,7 +4,6 @@
 
 namespace verp::abi {
 
-/// All open sessions.
 Handles<Run>& sessions();
 
 /// Marks a session that ticks on this thread. Until it ends, any caller on this thread is a

@@ -168,7 +168,6 @@ class Session {
       std::rethrow_exception(std::exchange(*thrown_, nullptr));
     return checked(status) == VERP_OK;
   }
-  /// The robot's last tick.
   const verp_tick& seen(std::uint32_t robot = 0) const {
     if (robot < ticks_.size()) return *ticks_[robot];
     throw Error(VERP_BAD_ARGUMENT, "Session::seen: there is no robot " + std::to_string(robot) +

@@ -56,7 +56,6 @@ double rms_about(const std::vector<double>& values, double mean) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// The steps of one comparison.
 class Comparing {
  public:
   Comparing(const record::Trace& a, const record::Trace& b, const Options& options)
@@ -128,7 +127,6 @@ class Comparing {
     }
   }
 
-  /// Finds the whole cycles in which both walk steadily.
   void find_gait() {
     if (!a_.ordered_s() || std::abs(a_.cycle_s() - b_.cycle_s()) > 1e-6) return;
     const double from_s = out_.from_s + kSettleCycles * a_.cycle_s();

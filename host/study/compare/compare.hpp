@@ -29,7 +29,6 @@ struct JointResult {
   std::optional<double> gain, phase_lag_rad;
 };
 
-/// How the two traces were aligned.
 enum class Alignment {
   kGiven,    ///< Options::shift_s
   kDecided,  ///< the controller began to walk or to act
@@ -40,10 +39,10 @@ const char* name_of(Alignment alignment);
 
 struct Comparison {
   Alignment alignment = Alignment::kClocks;
-  double shift_s = 0;             ///< B's clock minus A's
+  double shift_s = 0;             ///< B's clock minus A's           ///< B's clock minus A's
   double from_s = 0, to_s = 0;    ///< compared interval, s from A's first tick
   std::optional<double> delay_s;  ///< common to all moving joints
-  double error_rms_rad = 0;       ///< over all joints
+  double error_rms_rad = 0;
   std::optional<double> gait_hz;  ///< nullopt: both never walk for two cycles
   std::vector<JointResult> joints;
   std::vector<std::string> notes;  ///< remarks for the reader, one line each

@@ -8,7 +8,6 @@ namespace verp::compare {
 
 /// Both angles of each joint, over some common cycles.
 report::Plot angles_plot(const Comparison& comparison, const Pair& pair);
-/// Error, offset and delay of each joint, side by side.
 report::Plot joints_plot(const Comparison& comparison);
 
 }  // namespace verp::compare

@@ -42,7 +42,7 @@ class Motion {
   double period_s_;
   std::size_t slots_ = 0;  ///< ticks from first to last, including missing ones
   std::vector<std::string> joints_;
-  std::vector<std::vector<double>> rad_;  ///< of each joint in each slot
+  std::vector<std::vector<double>> rad_;
   std::vector<double> read_share_;
   std::vector<Command> orders_;
   std::optional<double> begun_s_, ordered_s_;

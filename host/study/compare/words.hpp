@@ -6,10 +6,8 @@
 
 namespace verp::compare {
 
-/// Degrees per radian, for printed angles.
 inline constexpr double kDegrees = 180 / std::numbers::pi;
 
-/// For a terminal: the alignment, a line per joint, notes.
 std::string text_of(const Comparison& comparison);
 
 /// A line per joint, units in the header. Missing values are empty cells.

@@ -59,9 +59,8 @@ class Fit {
   const survey::Watch& watch_;
   std::vector<std::size_t> joints_;
   std::vector<double> scale_;
-  /// [joint][tick], counts: how far two twins are apart there that differ by their encoders' noise
   /// [joint][tick], counts: encoder noise, and the distance of two twins that differ only in that
-  /// noise. It is large where a link rattles in its backlash and its position is undetermined.
+  /// noise. It is large where a link rattles in its backlash.
   std::vector<std::vector<float>> sigma_;
   double nominal_v_;
   bool stopped_ = false;

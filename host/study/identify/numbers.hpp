@@ -24,7 +24,6 @@ struct Number {
 /// all drag that grows with speed.
 const std::vector<Number>& numbers();
 
-/// Sets the number in all servos of that type.
 void set_number(model::Entity& entity, const std::string& type, const Number& number, double value);
 
 /// The first servo of that type; null: the robot has none.

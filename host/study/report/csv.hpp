@@ -4,7 +4,6 @@
 
 #include "host/study/report/run_data.hpp"
 
-/// The numbers of the page, one text per file.
 namespace verp::report {
 
 std::string samples_csv(const Run& run);

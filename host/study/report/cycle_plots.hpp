@@ -2,7 +2,6 @@
 #include "host/study/report/csv.hpp"
 #include "host/study/report/plots.hpp"
 
-/// Plots of one steady cycle.
 namespace verp::report {
 
 Plot joint_plot(const Run& run, const Range& cycle);

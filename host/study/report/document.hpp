@@ -10,20 +10,16 @@
 /// Parts of pages: no scripts, no external files, light and dark.
 namespace verp::report {
 
-/// Escapes text for HTML.
 std::string escape(const std::string& text);
 
 /// A complete page: `body` is HTML, the rest is text.
 std::string document(const std::string& title, const std::string& verdict, bool good,
                      const std::string& body);
 
-/// Named numbers, side by side.
 std::string facts(const std::vector<Fact>& facts);
 
-/// A section with a picture.
 std::string section(const Picture& picture);
 
-/// Plots as sections, as far as gnuplot can draw them.
 struct Sections {
   std::string body;
   bool poster = false;  ///< the file was written

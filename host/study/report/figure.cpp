@@ -49,7 +49,6 @@ class Strip {
   double right_mm() const { return kIntervals * pitch_mm() + front_mm_; }
   const Sample& state(int i) const { return *states_[static_cast<std::size_t>(i)]; }
 
-  /// Drawn position of a point of the i-th state.
   double x_mm(int i, const Point3& point) const {
     return i * pitch_mm() + 1000 * (ahead_m(point) - ahead_m(state(i).body));
   }
@@ -87,7 +86,6 @@ class Strip {
   double back_mm_ = 0, front_mm_ = 0, height_mm_ = 0;
 };
 
-/// Heads as circles: x, z, radius.
 std::string heads(const Run& run, const Strip& strip) {
   Data data("heads");
   for (int i = 0; i < kStates; ++i) {

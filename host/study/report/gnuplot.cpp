@@ -65,7 +65,6 @@ std::string for_page(std::string svg) {
   return svg;
 }
 
-/// Output of a script on stdout.
 std::optional<std::string> output_of(const std::string& script, std::string& error) {
   const files::TemporaryDirectory scratch;
   const fs::path file = scratch.path() / "plot.gp";

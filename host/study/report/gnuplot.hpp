@@ -6,7 +6,6 @@
 
 namespace verp::report {
 
-/// Whether gnuplot is installed.
 bool gnuplot_available();
 
 /// The plot as SVG for embedding in a page: no XML prolog, colours as the page's CSS variables. On

@@ -14,7 +14,6 @@ struct Plot {
   std::string script;
 };
 
-/// The plots of the page for which the run has data.
 std::vector<Plot> plots(const Run& run);
 
 }  // namespace verp::report

@@ -58,7 +58,6 @@ constexpr const char* name_of(SweepWalk::End end) {
   return kNames[static_cast<int>(end)];
 }
 
-/// One row of a sweep over step lengths.
 struct SweepRow {
   double step_m = 0;  ///< requested
   SweepWalk with;     ///< with multibody correction
@@ -68,7 +67,6 @@ struct SweepRow {
   bool limited() const { return with.step_m && *with.step_m < step_m - 5e-4; }
 };
 
-/// A named number of the page.
 struct Fact {
   std::string name, value, note;
 };

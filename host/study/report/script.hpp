@@ -3,10 +3,8 @@
 
 #include <string>
 
-/// Parts of gnuplot scripts.
 namespace verp::report {
 
-/// The common style of all plots.
 std::string preamble();
 
 /// A named data block with rows of numbers; NaN for missing ones.

@@ -23,7 +23,6 @@ bool shows_sole(const Run& run, const Range& range, std::size_t i, std::size_t f
          s.contact[foot];
 }
 
-/// Extent of the soles, mm.
 struct Extent {
   Point2 low{1e9, 1e9}, high{-1e9, -1e9};
   void add(const std::array<Point2, 4>& corners) {

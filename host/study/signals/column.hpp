@@ -10,11 +10,10 @@
 /// A trace as columns of numbers: a row per tick, a column per signal.
 namespace verp::signals {
 
-/// Number format of a column in CSV.
 enum class Format : std::uint8_t {
   kWhole,
-  kFixed4,   ///< four decimals
-  kFixed6,   ///< six decimals
+  kFixed4,
+  kFixed6,
   kDigits5,  ///< five significant digits
   kDigits6,
   kState,  ///< a field of State, as in fields.hpp

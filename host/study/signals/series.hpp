@@ -7,7 +7,6 @@
 
 namespace verp::signals {
 
-/// Some columns of a trace over a time interval, for drawing.
 struct Series {
   std::vector<Column> columns;
   std::vector<double> time_s;

@@ -9,7 +9,6 @@
 
 namespace verp::survey {
 
-/// A map's report for people.
 struct Page {
   std::string title, verdict;
   bool good = true;

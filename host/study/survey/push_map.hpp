@@ -17,7 +17,6 @@ class SurveyError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Options of the push survey: how hard a push the robot survives, by gait phase and direction.
 struct PushOptions {
   bool standing = false;  ///< pushes a standing robot; `phases` is then 1
   int phases = 16;        ///< in a gait cycle, evenly spaced

@@ -5,7 +5,6 @@
 #include "host/study/survey/push_map.hpp"
 #include "host/study/survey/stability_map.hpp"
 
-/// Maps as text and as CSV, and their summaries.
 namespace verp::survey {
 
 /// Survived impulses of one direction, over the phases that were tried.
@@ -26,7 +25,6 @@ std::string csv_of(const PushMap& map);
 std::string text_of(const StabilityMap& map, const StabilityOptions& options);
 std::string csv_of(const StabilityMap& map);
 
-/// Number of cells with that end.
 int count_of(const StabilityMap& map, StabilityCell::End end);
 
 }  // namespace verp::survey

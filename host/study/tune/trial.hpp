@@ -6,7 +6,6 @@
 
 namespace verp::tune {
 
-/// One walk with a Tuning and a seed.
 struct Trial {
   double walk_s = 10;
   std::uint64_t seed = 1;

@@ -23,7 +23,6 @@ constexpr double kOffSpeed = 0.1;   // largest speed error of a walk that counts
 // The robot of the file and a random one; a gait must work on both.
 constexpr int kTrials = 2;
 
-/// Evaluates Tunings by walks.
 class Judge {
  public:
   Judge(const session::WalkPlan& plan, const sim::WorldOptions& world, const Options& options,

@@ -12,7 +12,7 @@
 namespace verp::tune {
 
 struct Options {
-  double speed_m_s = 0.2;           ///< straight ahead
+  double speed_m_s = 0.2;
   int generations = 8;              ///< after the first grid of cycles and hip heights
   int children = 12;                ///< tries per generation, even
   int checks = 10;                  ///< random robots of this kind that judge the result
@@ -43,7 +43,7 @@ struct Result {
   std::vector<Number> numbers;  ///< that changed; empty: nothing better was found
   Check before, after;
   std::string limit;  ///< what stops a robot that walked with no tried Tuning; empty: it walks
-  int walks = 0;      ///< simulated walks
+  int walks = 0;
   bool interrupted = false;
 };
 

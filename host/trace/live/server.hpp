@@ -21,7 +21,7 @@
 namespace verp::live {
 
 struct ServerOptions {
-  std::string name = "VERP";                       ///< shown by viewers
+  std::string name = "VERP";
   std::vector<std::string> origins = {};           ///< further Origins whose pages may connect
   std::size_t most_bytes = 16 * 1024 * 1024;       ///< largest queue of one viewer
   std::chrono::milliseconds patience{2000};        ///< at the end, for a viewer that reads nothing

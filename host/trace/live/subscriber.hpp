@@ -37,7 +37,6 @@ class Subscriber {
   bool offer(std::uint32_t channel, const Stamped& message);
   void offer_time(std::uint64_t time_ns);
 
-  /// The next frame to send.
   std::optional<Frame> next();
   bool is_empty() const { return texts_.empty() && waiting_.empty(); }
   /// Reports the number of lost messages, unless it was reported already.

@@ -65,7 +65,6 @@ class CdrReader {
     if (good) at_ += length;
     return found;
   }
-  /// The next `length` bytes.
   std::string_view bytes(std::size_t length) {
     good = good && at_ <= data_.size() && length <= data_.size() - at_;
     const std::string_view found = good ? data_.substr(at_, length) : "";

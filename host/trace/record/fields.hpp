@@ -40,7 +40,6 @@ std::string scalar_text(Scalar value) {
   }
 }
 
-/// Decimal only, for tables.
 template <class Scalar>
 std::string scalar_plain(Scalar value) {
   if constexpr (std::is_enum_v<Scalar>) {

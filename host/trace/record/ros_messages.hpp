@@ -33,7 +33,6 @@ struct BodyPose {
   std::array<double, 4> orientation_xyzw{0, 0, 0, 1};
 };
 
-/// An object of the world and its pose.
 struct ObjectPose {
   std::string name;
   BodyPose pose;
@@ -78,7 +77,6 @@ std::optional<std::string> read_string(std::string_view message);
 /// The body's pose in a message of transforms(); nullopt: not such a message.
 std::optional<BodyPose> body_pose(std::string_view transforms);
 
-/// Angle of a joint from its raw count.
 inline double joint_rad(const JointParams& joint, std::int32_t count) {
   if (joint.counts_per_rad == 0.0f) return 0;
   return (static_cast<double>(count) - static_cast<double>(joint.zero_count)) /

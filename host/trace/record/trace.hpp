@@ -81,7 +81,6 @@ struct Trace {
   std::uint64_t digest() const {
     return ticks.empty() ? start().digest.chain : ticks.back().digest.chain;
   }
-  /// The controller's State before the first tick.
   State start() const { return before.value_or(State{}); }
   /// Valid while `actions` exists. Checks all actions, so call it once per run, not per tick.
   action::Library library() const { return {actions.data(), 4 * actions.size()}; }
@@ -102,7 +101,6 @@ std::string core_of(const Trace& trace);
 /// This program's source revision, core version, compiler and flags, for metadata.
 mcap::StringMap build_info();
 
-/// A camera picture of a trace.
 struct RecordedPicture {
   std::string topic;
   std::uint64_t time_ns = 0;

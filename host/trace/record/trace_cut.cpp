@@ -14,7 +14,6 @@ namespace {
 constexpr std::uint64_t kCutChunkTicks = 125;
 constexpr std::string_view kStaticTopic = "/tf_static";  ///< camera poses, valid for the whole run
 
-/// Copies the messages between two ticks of a trace into a new file.
 class Copy {
  public:
   Copy(const Trace& trace, const mcap::File& from, TickRange ticks, mcap::Writer& to)

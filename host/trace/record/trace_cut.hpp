@@ -7,7 +7,6 @@
 
 namespace verp::record {
 
-/// Result of a cut.
 struct Cut {
   std::size_t ticks = 0;
   std::uint32_t first_tick = 0, last_tick = 0;

@@ -16,7 +16,6 @@ class TraceError : public std::runtime_error {
                            "; " + remedy),
         file_(file),
         offset_(offset) {}
-  /// For problems of the file as a whole.
   TraceError(const std::filesystem::path& file, const std::string& problem,
              const std::string& remedy)
       : std::runtime_error(file.string() + ": " + problem + "; " + remedy), file_(file) {}

@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::size_t kChunkMessages = 2000;
 
-/// An input trace, and the output channels of its messages.
 class Source {
  public:
   explicit Source(const NamedTrace& named)
@@ -68,7 +67,7 @@ class Source {
     Channel(std::string_view robot, std::string_view topic, const mcap::Schema& schema)
         : team(robot, topic, schema) {}
     TeamChannel team;
-    std::uint16_t id = 0;  ///< in the merged file
+    std::uint16_t id = 0;
   };
   std::map<std::uint16_t, Channel> channels_;
 };

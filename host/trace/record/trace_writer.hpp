@@ -25,7 +25,7 @@ struct TraceOptions {
   bool compress = false;                 ///< by zstd, to about a fifth
   std::optional<State>
       before{};  ///< State before the first tick, if the run's beginning was cut off
-  mcap::Listener* listener = nullptr;  ///< receives every message as it is written
+  mcap::Listener* listener = nullptr;
 };
 
 /// Attaches the State from which a replay starts.
@@ -65,7 +65,6 @@ class TraceWriter {
   /// Adds `result` as metadata, ends the file and renames it.
   void close(const mcap::StringMap& result = {});
 
-  /// Removes the file. Add nothing afterwards.
   void discard() { writer_.discard(); }
   /// Ticks that the operating system has, and that a crash cannot lose.
   std::uint64_t safe_ticks() const { return safe_ticks_; }
@@ -92,8 +91,8 @@ class TraceWriter {
                 odometry_ = 0;
   JointSpeeds speeds_;
   std::map<std::string, std::uint16_t> sensors_;
-  std::optional<std::uint16_t> objects_;  ///< channel, created for the first movable object
-  std::optional<std::uint16_t> changed_;  ///< channel, created at the first change
+  std::optional<std::uint16_t> objects_;
+  std::optional<std::uint16_t> changed_;
   std::uint64_t ticks_ = 0, safe_ticks_ = 0;
   std::uint32_t faults_ = 0;
 };

@@ -14,7 +14,6 @@ namespace Verp {
 
     /// <summary>Returns to the state at power-on.</summary>
     public void Reset() { Checked(Native.verp_core_reset(handle)); }
-    /// <summary>Runs one control tick.</summary>
     public void Step(ref verp_inputs inputs, ref verp_outputs outputs) {
       fixed (verp_inputs* seen = &inputs)
       fixed (verp_outputs* sent = &outputs) Checked(Native.verp_core_step(handle, seen, sent));

@@ -47,7 +47,6 @@ namespace Verp {
 
     public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
 
-    /// <summary>Calls the library's close function.</summary>
     protected abstract int CloseNow();
     /// <summary>Releases the memory that the library used.</summary>
     protected virtual void LetGo() {}
@@ -67,7 +66,6 @@ namespace Verp {
       Checked(status);
     }
 
-    /// <summary>Called by the finalizer.</summary>
     protected override bool ReleaseHandle() {
       bool closed = CloseNow() >= 0;
       LetGo();

@@ -10,7 +10,6 @@ namespace Verp {
   }
 
   public sealed unsafe partial class Session {
-    /// <summary>The cameras of the robot's file.</summary>
     public verp_camera[] Cameras(uint robot = 0) {
       uint count;
       Checked(Native.verp_session_cameras(handle, robot, &count));

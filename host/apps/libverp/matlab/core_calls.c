@@ -1,4 +1,3 @@
-/* Calls of the controller without a world. */
 #include <string.h>
 
 #include "host/apps/libverp/matlab/calls.h"

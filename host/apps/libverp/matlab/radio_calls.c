@@ -1,4 +1,3 @@
-/* Radio calls. */
 #include <string.h>
 
 #include "host/apps/libverp/matlab/calls.h"

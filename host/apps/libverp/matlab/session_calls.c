@@ -1,4 +1,3 @@
-/* Session calls. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
