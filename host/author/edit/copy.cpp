@@ -194,7 +194,7 @@ std::string free_name(const Document& document, const std::string& name) {
 std::string other_side(const std::string& name) {
   struct Pair {
     std::string_view from, to;
-    bool word;  ///< counts where letters of one case end
+    bool word;  ///< counts where letters of one case end, not only between other characters
   };
   constexpr std::array<Pair, 10> kSides = {{{"left", "right", true},
                                             {"right", "left", true},
@@ -239,7 +239,7 @@ Edit duplicate(const Document& document, int element, const std::string& name) {
   const std::string what = "duplicate " + document.path(element);
   Edit edit = Copier(document, element, renamed, false).copies(what);
   if (!servo) return edit;
-  // A servo's name is its joint's.
+  // A servo has no name of its own: set its joint's.
   return together(document, what, [&](Document& copy) {
     copy.apply(edit);
     const auto& siblings = copy.markup()[copy.markup()[element].parent].children;

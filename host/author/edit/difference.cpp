@@ -10,7 +10,7 @@ namespace verp::edit {
 namespace {
 
 constexpr std::size_t kAround = 3;              // context lines
-constexpr std::size_t kMostCells = 20'000'000;  // above, all lines are one change
+constexpr std::size_t kMostCells = 20'000'000;  // above this table size, all lines are one change
 
 using Lines = std::vector<std::string_view>;
 

@@ -212,7 +212,7 @@ int Document::at_line(int line) const {
   for (std::size_t i = 0; i < markup_.elements().size(); ++i) {
     const Element& element = markup_[int(i)];
     if (element.line > line || line_at(text_, element.whole.end) < line) continue;
-    // The first that begins on the line, else the innermost.
+    // The first element that begins on the line, else the innermost.
     if (markup_[found].line < element.line || found == markup_.root()) found = int(i);
   }
   return found;

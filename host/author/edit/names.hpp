@@ -23,7 +23,7 @@ struct Mention {
   std::string name;
   bool defines = false;
 };
-/// All such places, in text order.
+/// All places, in text order, that name or mention a part of that kind.
 std::vector<Mention> mentions(const Document& document, Kind kind);
 
 bool is_taken(const Document& document, Kind kind, const std::string& name);

@@ -38,7 +38,7 @@ class DrawingProgram {
   DrawingProgram& operator=(const DrawingProgram&) = delete;
 
   int socket() const { return socket_; }
-  /// Lowest priority: a run in real time must not wait for a core that draws its pictures.
+  /// Sets the lowest priority: a run in real time must not wait for a core that draws its pictures.
   void step_back();
   pid_t process() const { return child_->id(); }
   /// For a socket that gave nothing, with errno set. Ends the program; returns whether it hung or

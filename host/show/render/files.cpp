@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostMeshBytes = 200u << 20;  // a printer's STL of a whole robot is 50 MB
+constexpr std::uintmax_t kMostMeshBytes = 200u << 20;  // a whole robot for 3D printing is 50 MB
 constexpr int kMostTexture = 8192;
 
 [[noreturn]] void refuse(const std::string& file, const std::string& what, const std::string& fix) {

@@ -7,8 +7,8 @@
 
 namespace verp::render {
 
-/// Any format of assimp (STL, OBJ, DAE, glTF), in the file's units. Throws RenderError that names
-/// file, fault and remedy.
+/// Reads any format of assimp (STL, OBJ, DAE, glTF), in the file's units. Throws RenderError that
+/// names file, fault and remedy.
 scene::Triangles read_mesh(const std::string& file);
 
 /// Throws RenderError.

@@ -130,7 +130,7 @@ void Lighting::set_lights(const scene::Scene& scene, Program& program, double su
   glBindTexture(GL_TEXTURE_2D, shadow_.id());
 }
 
-/// Uniforms that a picture's items share.
+/// Sets the uniforms that a picture's items share.
 void Lighting::set_common(const scene::Scene& scene, Program& program, const View& view) {
   program.use();
   program.set("clip_world", view.clip);

@@ -35,7 +35,7 @@ Mat4 perspective(const scene::Camera& camera, Size size) {
   return clip;
 }
 
-/// Orthographic, along the light, over a ball.
+/// Orthographic projection along the light over a ball.
 Mat4 sun_of(const Vec3& direction, const Stage::Ball& ball) {
   const Vec3 toward = direction.normalized();
   const Mat4 view = look_at(ball.centre_m - 2 * ball.radius_m * toward, ball.centre_m,
@@ -48,7 +48,7 @@ Mat4 sun_of(const Vec3& direction, const Stage::Ball& ball) {
   return clip * view;
 }
 
-/// Where light past the ball's box meets the floor.
+/// The floor area that light past the ball's box reaches.
 Area shaded_by(const Mat4& sun, const Vec3& direction, const Stage::Ball& ball) {
   Area area;
   const Vec3 toward = direction.normalized();

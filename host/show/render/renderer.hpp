@@ -68,17 +68,17 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Pictures cost the PC's processor time.
+  /// True if the PC's processor draws: pictures cost its time.
   bool on_processor() const;
 
   /// Uploads shapes, meshes and textures. Leaves out files that it cannot read, with a line in
   /// notes().
   void set_scene(const scene::Scene& scene);
-  /// Other materials, lights, fog, sky or ground for the same items, without an upload.
+  /// Sets other materials, lights, fog, sky or ground for the same items, without an upload.
   void set_looks(const scene::Scene& scene);
   const std::vector<std::string>& notes() const;
 
-  /// Into `framebuffer` (in a window, QOpenGLWidget::defaultFramebufferObject()).
+  /// Draws into `framebuffer` (in a window, QOpenGLWidget::defaultFramebufferObject()).
   void draw(const scene::Snapshot& now, const scene::Camera& camera, Size size,
             const Effects& effects, unsigned framebuffer = 0);
 

@@ -19,7 +19,7 @@ Vec3 extent(Shape shape, const Vec3& size_m) {
     case Shape::kCylinder:
       return {2 * size_m.x(), 2 * size_m.x(), size_m.z()};
     case Shape::kMesh:
-      return Vec3::Constant(0.2);  // keeps the box smaller than a servo
+      return Vec3::Constant(0.2);  // larger than any servo
     default:
       return size_m;
   }

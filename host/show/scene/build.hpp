@@ -18,10 +18,10 @@ enum class Meshes { kFromFiles, kNone };
 /// collision shapes.
 int add_robot(Scene& scene, const Entity& entity, Meshes meshes = Meshes::kFromFiles);
 
-/// Distinguishes robots of the same model.
+/// Colours a robot to distinguish it from others of its model.
 void tint(Scene& scene, int robot, const Colour& colour);
 
-/// On its feet in its own stance at start_m, as the twin begins.
+/// A robot on its feet in its own stance at start_m, as the twin begins.
 RobotView standing(const Entity& entity, const Vec3& start_m = Vec3::Zero(), double yaw_rad = 0);
 
 RobotView posed(const Entity& entity, const Transform& body_world,

@@ -19,7 +19,8 @@
 namespace verp::scene {
 namespace {
 
-constexpr std::size_t kEvery = 125;  // ticks between stored States, recomputed at most
+constexpr std::size_t kEvery = 125;  // ticks between stored States: a seek recomputes at most this
+                                     // many
 
 bool is_same_robot(const Entity& entity, const Params& params) {
   if (entity.joints.size() != params.joint_count) return false;

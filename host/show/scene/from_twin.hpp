@@ -5,7 +5,8 @@
 
 namespace verp::scene {
 
-/// For session::Hooks::ticked. Only reads: the run has the same bits with and without it.
+/// A robot's view at a tick, for session::Hooks::ticked. Only reads: the run has the same bits with
+/// and without it.
 RobotView look(const session::Tick& tick, const Entity& entity, const Params& params);
 
 /// Snapshot of one robot's run.

@@ -3,7 +3,7 @@
 
 namespace verp::scene {
 
-/// For a visual without a colour, by its place in the robot.
+/// A material for a visual without a colour, by its place in the robot.
 Material default_material(const Entity& entity, int node, const Vec3& extent_m);
 
 /// Edge radius, so that light shows the edges.

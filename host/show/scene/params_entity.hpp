@@ -4,7 +4,7 @@
 
 namespace verp::scene {
 
-/// Made of Params alone: tree and soles, with bones to draw.
+/// A robot made of Params alone: tree and soles, with bones to draw.
 Entity entity_of(const Params& params);
 
 }  // namespace verp::scene

@@ -12,7 +12,7 @@ void add_outputs(RobotView& view, const Outputs& outputs, const Params& params);
 /// Adds gyro and accelerometer in body axes.
 void add_imu(RobotView& view, const Inputs& inputs, const Params& params);
 
-/// Placed relative to the stance foot: the plan is in the gait's own frame.
+/// The planned footholds, placed relative to the stance foot: the plan is in the gait's own frame.
 std::vector<Footstep> footsteps(const gait::GaitState& gait, const Transform& left_sole_world,
                                 const Transform& right_sole_world);
 

@@ -127,7 +127,7 @@ struct Scene {
   Ground ground;
   bool antialias = true, textures = true, transparency = true;  ///< what its file leaves on
   std::vector<Mount> cameras;
-  std::vector<std::string> notes;  ///< what robot files name but lack, one line a robot
+  std::vector<std::string> notes;  ///< missing files that a robot's file names, one line a robot
 };
 
 /// Value in a segmentation picture. Links count from 1, by robot and link; then the world's things,

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostBytes = 200u << 20;  // a printer's STL of a whole robot is 50 MB
+constexpr std::uintmax_t kMostBytes = 200u << 20;  // a whole robot for 3D printing is 50 MB
 constexpr std::size_t kMostTriangles = 2'000'000;
 constexpr double kMost_m = 10;  // size of a link; a robot is 2 m
 
@@ -113,7 +113,7 @@ Triangles read_triangles(const fs::path& file, double unit_m) {
 Filling filling(const Triangles& mesh) {
   Filling out;
   out.closed = is_closed(mesh);
-  // Sum of tetrahedra from one point to each triangle.
+  // Sums signed volumes of tetrahedra from one point to each triangle.
   const Vec3 from = mesh.points_m.front();
   double volume = 0;
   Vec3 first = Vec3::Zero();
