@@ -22,8 +22,8 @@ struct EmulationPlan {
 };
 
 /// Plans the board with the image for this bus protocol, the pieces in its memory and its links in
-/// `folder`. Throws FlashError if the board has no emulator or no such image, or a link path is too
-/// long. Throws FlashError or NoSuchBoard if the image is not built.
+/// `folder`. Throws FlashError if there is no emulator or image, or a link path is too long;
+/// FlashError or NoSuchBoard if the image is not built.
 EmulationPlan plan_emulation(const Recipe& recipe, BusProtocol protocol,
                              const std::vector<Piece>& pieces, const std::filesystem::path& folder);
 

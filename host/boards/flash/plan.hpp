@@ -47,8 +47,7 @@ struct Step {
 };
 
 /// Tool for a board and a port: the requested one, else stm32flash if the port is a path, else the
-/// board's default. Throws FlashError if the board does not support the tool, the tool needs a
-/// port, or the port belongs to another tool.
+/// board's default. Throws FlashError if board, tool and port do not fit together.
 Tool choose_tool(const Recipe& recipe, const std::string& asked, const std::string& port);
 
 /// All steps in order. The chip erases whole sectors. If a piece shares its sector with another

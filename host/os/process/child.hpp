@@ -27,8 +27,8 @@ struct Command {
 
 /// A child process in its own process group. A terminal's Ctrl-C reaches only us, and we then end
 /// the child in order. It ends at the latest with this object or this process, even a killed one.
-/// Create it on the main thread unless the command says otherwise, because the kernel treats the
-/// end of the starting thread as the parent's death.
+/// Create it on the main thread unless the command says otherwise: to the kernel, a thread that
+/// ends is a parent that died.
 class Child {
  public:
   /// Returns when the program runs. Throws std::system_error with the reason if it cannot start;

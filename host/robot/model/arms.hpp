@@ -4,9 +4,9 @@
 
 namespace verp::model {
 
-/// Sets Params::arm and arm_rad_per_m. The joints are the first in left_arm and right_arm with an
-/// axis along y and a servo. The factors make the arms, in the stand pose, cancel the legs' angular
-/// momentum about the vertical. Robots without two arms and two legs have none. `params` must
+/// Sets Params::arm and arm_rad_per_m: the first joint with a servo and an axis along y in left_arm
+/// and right_arm, and the factor with which it cancels, in the stand pose, the legs' angular
+/// momentum about the vertical. Robots without two arms and two legs get neither. `params` must
 /// already contain joints and legs.
 void find_arms(const Entity& entity, Params& params);
 

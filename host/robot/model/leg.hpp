@@ -6,8 +6,8 @@
 namespace verp::model {
 
 /// Solver of a six-joint leg, with the reason. Closed form needs the order yaw, roll, pitch, pitch,
-/// pitch, roll along the body's axes at the zero pose. The hip axes must meet in one point, the
-/// ankle axes too, without lateral offset between the two. Other legs use Newton.
+/// pitch, roll along the body's axes at the zero pose. Hip axes and ankle axes must each meet in
+/// one point, without lateral offset between the two points. Other legs use Newton.
 struct LegGeometry {
   bool closed_form = false;
   std::string reason;  ///< reason against closed form; empty: closed form

@@ -96,7 +96,7 @@ class Tags {
     }
   }
 
-  // These two assume the usual indentation.
+  // These two rely on the usual indentation.
   /// The first later tag that is indented no more than `unclosed`.
   std::size_t should_be_closed_at(const Tag& unclosed) const {
     for (const std::size_t at : tags_) {

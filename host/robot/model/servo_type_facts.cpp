@@ -60,7 +60,7 @@ void read_motor(const XmlElement& e, ServoType& type) {
       e.number_within("stall_current_a", 1e-6, 1e4, " A, like 2.3", type.stall_current_a);
 }
 
-// An own number is exact; an inherited one keeps its band.
+// An own number has no band by default; an inherited one keeps its band.
 void read_bands(const XmlElement& e, ServoType& type) {
   const auto given = [&](std::initializer_list<const char*> names) {
     return std::any_of(names.begin(), names.end(), [&](const char* name) { return e.has(name); });

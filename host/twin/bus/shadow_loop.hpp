@@ -163,8 +163,8 @@ class ShadowLoopOver final : public Shadow {
     tape_.ticking = ready && !tape_.torn;
   }
   /// Like run(); false and no change if the tape ends first. Polls do not show where a tick ends:
-  /// after an error the next tick begins with a poll that clears the line. So the loop tries a
-  /// tick, and tries it again when more polls are known.
+  /// after an error the next tick begins with a poll that clears the line. So the loop tries a tick
+  /// again when more polls are known.
   bool try_to_run() {
     const Loop before(*loop_);
     const typename Tape::Mark mark = tape_.here;

@@ -68,8 +68,8 @@ std::string to_text(canopen::Address at);
 /// bus::DeviceError with the abort's reason, SilentError without an answer; the constructor throws
 /// LinkError.
 ///
-/// It asks the controller's node over a separate channel (plan::kToolSdo) if the node has one.
-/// Clients of the default channel then do not take its answers for theirs.
+/// It asks the controller's node over its separate channel (plan::kToolSdo), if any, so that
+/// clients of the default channel do not take its answers for theirs.
 class Client {
  public:
   static constexpr int kAttempts = 3;  ///< per unanswered transfer

@@ -6,12 +6,12 @@
 
 namespace verp::can {
 
-/// Detects whether another device acts as a node of the twin's robot on the interface: the robot
+/// Detects another device that acts as a node of the twin's robot on the interface: the robot
 /// itself or another twin. Its answers would mix with ours in the controller's Inputs.
 ///
-/// It takes the frames of others. Five heartbeats, TPDOs or SDO answers of one node, in the form
-/// used on a robot's bus, are proof. Three random frames look like this now and then, five hardly
-/// ever (tests/host/can/other_nodes_test.cpp).
+/// The proof is five heartbeats, TPDOs or SDO answers of one node, in the form used on a robot's
+/// bus. Three random frames look like this now and then, five hardly ever
+/// (tests/host/can/other_nodes_test.cpp).
 class OtherNodes {
  public:
   explicit OtherNodes(const Params& params) : nodes_(params) {}

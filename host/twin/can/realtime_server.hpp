@@ -32,10 +32,10 @@ class RealtimeServer {
 
   explicit RealtimeServer(VirtualCan& bus) : bus_(bus) {}
 
-  /// Handles all waiting frames in one turn: advances time to each arrival and appends the bus's
-  /// frames to `answer`. The clock now shows `clock_us`; time advances to it once for all frames,
-  /// even if they waited long. Otherwise, on a slow PC, a master that asks more often than there
-  /// are turns would get later and later answers.
+  /// Handles all waiting frames in one turn: for each, advances time to its arrival (at most
+  /// kMostBehind_us / 2 before `clock_us`) and appends the bus's frames to `answer`. It skips once
+  /// for all frames. Otherwise, on a slow PC, a master that asks more often than there are turns
+  /// would get later and later answers.
   void hear(std::span<const Heard> frames, std::uint64_t clock_us, std::vector<CanFrame>& answer);
   /// Advances to `clock_us` without a frame; does nothing before the first frame.
   void turn(std::uint64_t clock_us, std::vector<CanFrame>& answer);

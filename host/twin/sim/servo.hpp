@@ -6,10 +6,10 @@
 #include "host/twin/sim/profile.hpp"
 #include "host/twin/sim/random.hpp"
 
-/// One position servo: encoder, position loop, DC motor, gearbox, housing temperature. It is
-/// independent of the physics engine. Before a step it converts the joint's state to a line in the
-/// torque-speed plane, which any engine with an implicit velocity motor can apply. After the step
-/// the caller passes back the result.
+/// One position servo: encoder, position loop, DC motor, gearbox, housing temperature. Independent
+/// of the physics engine: before a step it converts the joint's state to a line in the torque-speed
+/// plane, for any engine with an implicit velocity motor. After the step the caller passes back the
+/// result.
 namespace verp::sim {
 
 /// The joint's drive during one physics step: a line over the joint's speed at the end of the step.

@@ -57,7 +57,7 @@ class Room {
   double* begin() { return more_.empty() ? usual_ : more_.data(); }
 
  private:
-  // A robot's hinges and servos need at most 150 rows; only a robot pinned by contacts needs more.
+  // A robot's hinges and servos need at most 150 rows; larger systems use more_.
   static constexpr std::size_t kUsual = 256;
   double usual_[kEach * kUsual];
   std::vector<double> more_;

@@ -4,9 +4,9 @@
 #include <cstring>
 
 /// The loops of solver.hpp, independent of the instruction set: the including file inlines them
-/// into one function per set. Most of a robot's joint matrix is zero, and rows begin with zeros up
-/// to the first joint with which they share a body. The loops skip only products with +0, which
-/// change no bit of a sum that began at +0 (non-finite numbers aside).
+/// into one function per set. Rows of a robot's matrix begin with zeros up to the first joint with
+/// which they share a body. The loops skip only products with +0, which change no bit of a sum that
+/// began at +0 (non-finite numbers aside).
 namespace verp::sim::lanes {
 
 using Index = std::size_t;
