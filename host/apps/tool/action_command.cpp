@@ -30,7 +30,6 @@ namespace {
 constexpr double kDegreesOfRad = 180 / std::numbers::pi;
 constexpr double kStand_m = 1;  ///< no leg of such a robot reaches the floor
 
-/// The library's data on an action.
 cli::Json facts(const action::Made& made, int number) {
   const action::Library library = made.library();
   const action::Action& own = library.action(number);

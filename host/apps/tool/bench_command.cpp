@@ -177,7 +177,6 @@ void add_board_rows(const cli::Json& line, std::vector<BenchRow>& rows, cli::Jso
   add("image_bytes", "code and constants of the replay image", "bytes", Bar::kNone, 0, true);
 }
 
-/// Adds a line of window_bench.
 void add_picture_rows(const cli::Json& line, std::vector<BenchRow>& rows) {
   const int robots = line.at("robots");
   const std::string kind = line.value("antialias", false) ? "antialiased" : "as a window draws it";

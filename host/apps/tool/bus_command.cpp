@@ -37,7 +37,6 @@ void add_id(CLI::App* app, const std::shared_ptr<BusOptions>& options) {
                               dxl::controller::kDefaultId, canopen::plan::kControllerNode));
 }
 
-/// The range of ids depends on the link.
 void check_id(const BusOptions& options, bool can) {
   if (can && !canopen::is_node(static_cast<unsigned>(options.id))) {
     throw cli::ToolError(cli::kBadInput,

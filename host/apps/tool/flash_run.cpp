@@ -195,7 +195,6 @@ std::string to_text(const FlashOptions& options, const flash::EmulationPlan& pla
                             plan.links[0].place, plan.links[1].place);
 }
 
-/// Runs until an interrupt.
 void run_on(flash::Emulation& emulation) {
   while (!cli::interrupted()) {
     if (!emulation.running()) throw board::BoardError(emulation.described("the emulator ended"));

@@ -14,7 +14,6 @@
 namespace verp::session {
 namespace {
 
-/// Computes the robot's ticks.
 struct Law {
   Robot* robot = nullptr;
   void operator()(const Params&, State& state, const Inputs& inputs, Outputs& outputs) {
@@ -22,7 +21,6 @@ struct Law {
   }
 };
 
-/// In this process.
 template <class Bus>
 class LocalController final : public Controller {
  public:

@@ -9,7 +9,6 @@ struct FaultName {
   std::uint32_t bit;  ///< safety::Fault
   const char* name;
 };
-/// All fault bits.
 std::span<const FaultName> all_fault_names();
 
 /// Names of the set fault bits, e.g. "fall, servo silent"; empty if none is set.

@@ -9,9 +9,9 @@
 namespace verp::session {
 
 /// A coroutine for a foreign loop: its body runs only inside resume(), until its next pause(). It
-/// has its own stack but runs in the caller's thread, so nothing runs concurrently, and a switch
-/// costs no more than two calls. (A thread cost a scheduler turn per switch: four robots took 59 s
-/// for 13 s of work on a busy PC.) Do not call pause() in an exception handler.
+/// has its own stack but runs in the caller's thread, so nothing runs concurrently. A switch costs
+/// no more than two calls; with a thread it cost a scheduler turn, and four robots took 59 s for 13
+/// s of work on a busy PC. Do not call pause() in an exception handler.
 class Flow {
  public:
   explicit Flow(std::function<void(Flow&)> body) : body_(std::move(body)) {}

@@ -33,7 +33,7 @@ struct ServeOptions {
   /// The run ends when a controller releases the robot and hangs up; else the twin waits for
   /// another.
   bool ends_with_controller = false;
-  // Empty members are allowed.
+  // Functions may be empty.
   std::function<void(const std::string&)> told = {};  ///< receives events as text
   /// Called for a CAN interface before anything is sent; may throw.
   std::function<void(const link::CanInterface&)> check = {};
@@ -155,7 +155,6 @@ class Served : public Controller {
 /// The server for the robot's bus: byte link or CAN. Throws what opening a link throws.
 std::unique_ptr<Served> make_served(Robot& robot, const ServeOptions& options);
 
-/// The two implementations.
 std::unique_ptr<Served> make_served_on_serial(Robot& robot, const ServeOptions& options);
 std::unique_ptr<Served> make_served_on_can(Robot& robot, const ServeOptions& options);
 

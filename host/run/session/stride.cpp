@@ -33,7 +33,6 @@ class Plan {
     for (double t_s = 0; t_s < duration_s; t_s += period_s()) tick();
   }
 
-  /// Measures the walk's beginning.
   Fastest measure(double duration_s) {
     fastest_ = {};
     run(true, duration_s);

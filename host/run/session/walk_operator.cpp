@@ -51,8 +51,8 @@ bool WalkOperator::look_after_fall(safety::Mode mode) {
   return changed_ = true;
 }
 
-/// How long the gait continues if the stop is ordered now, or after one more step: queued steps,
-/// shrinking strides, the step that closes the feet and the final one, as the gait will plan them.
+/// How long the gait continues if the stop is ordered now, or after one more step. Plans the rest
+/// as the gait will: queued steps, shrinking strides, the step that closes the feet, the final one.
 double WalkOperator::lead_s(const State& state, bool one_more) const {
   const GaitTuning& tuning = state.tuning.gait;
   const gait::GaitState& gait = state.gait;

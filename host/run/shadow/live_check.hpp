@@ -32,7 +32,7 @@ class LiveCheck final : public Check {
   bool next(CanFrame& frame, std::uint64_t now_us);
 
  private:
-  /// What each SDO transfer is for, in order.
+  /// The purpose of each SDO transfer, in order.
   enum class Step {
     kName,
     kCore,

@@ -93,7 +93,7 @@ Pose matched(const Grid& grid, const Pose& about_there, const std::vector<Hit>& 
   if (hits.size() < kFewestRays) return about_there;
   Pose best = about_there;
   double best_fit = grid.fit(best, hits);
-  // Searches around the best pose, finer each time. Of equal fits, the nearer wins.
+  // Searches around the best pose, finer each time. The nearer of equal fits wins.
   for (const double scale : {1.0, 0.5, 0.25}) {
     constexpr int kSteps = 2;
     const double step_m = 0.04 * scale, step_rad = 0.02 * scale;
