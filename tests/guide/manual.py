@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""manual.py words PROGRAM: every `./verp` line of the manual and of the top README has words that PROGRAM knows.
+"""manual.py words PROGRAM: every `./verp` line of the manual and of the top README has words that PROGRAM knows, and every
+file that they name is there.
 manual.py run PROGRAM PAGE FOLDER [--full]: runs the fenced blocks of a page that stand behind `<!-- run -->`, one after
 the other in FOLDER, where `./verp` is PROGRAM. With --full also those behind `<!-- run full -->`.
 """
@@ -88,9 +89,20 @@ def unknown_word(program, words):
     return None
 
 
+def missing_files(text):
+    """(line, path) of each file or folder of the repository that a code span names and that is not there."""
+    for at, line in enumerate(text.splitlines(), 1):
+        for path in re.findall(r"`((?:common|hal|firmware|boards|host|tests|toolchains)/[a-z0-9_/.]+)`", line):
+            if not list(ROOT.glob(path.rstrip("/") + "*")):
+                yield at, path
+
+
 def check_words(program):
     bad = 0
     for page in [ROOT / "README.md", *sorted(GUIDE.glob("*.md"))]:
+        for line, path in missing_files(page.read_text()):
+            print(f"{page.relative_to(ROOT)}:{line}: there is no {path}")
+            bad = 1
         for line, words in commands_in(page.read_text()):
             word = unknown_word(program, words)
             if word:
