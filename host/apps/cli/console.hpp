@@ -1,8 +1,8 @@
 #pragma once
 #include <string>
 
-/// Standard output and error. A closed terminal, a gone reader or a full disk must not lose a run:
-/// nothing here throws, and main() checks once, at the end, whether the answer was written.
+/// Standard output and error. A closed terminal, a gone reader or a full disk must not lose a run,
+/// so nothing here throws; main() checks at the end whether the answer was written.
 namespace verp::cli {
 
 /// Opens the streams that the caller closed (`>&-`), so that no file of ours becomes standard

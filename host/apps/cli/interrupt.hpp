@@ -6,8 +6,8 @@ namespace verp::cli {
 /// ending the program.
 void keep_failing_writes();
 
-/// Makes SIGINT, SIGTERM and SIGHUP (a closed terminal, unless `nohup` ignores it) request the
-/// run's end. A second signal ends the program at once. For subcommands that poll interrupted().
+/// Makes SIGINT, SIGTERM and SIGHUP (a closed terminal, unless under `nohup`) request the run's
+/// end; a second one ends the program. For subcommands that poll interrupted().
 void catch_interrupts();
 
 /// The same, but no signal ends the program, because it must first release a robot's torque.

@@ -14,10 +14,9 @@ namespace verp::abi {
 /// Number of forks between the process that loaded the library and this one.
 unsigned forks();
 
-/// The objects behind one kind of handle. A handle is a number that is never reused, so a closed
-/// one is recognised. One call at a time uses an object. A forked process has copies of its
-/// parent's objects, whose files and programs belong to the parent: it must not use or destroy
-/// them.
+/// The objects behind one kind of handle. Handles are never reused, so a closed one is recognised.
+/// One call at a time uses an object. A forked process must not use or destroy its copies of the
+/// parent's objects, whose files and programs belong to the parent.
 template <class Object>
 class Handles {
  public:

@@ -39,7 +39,7 @@ const char* name_of(Alignment alignment);
 
 struct Comparison {
   Alignment alignment = Alignment::kClocks;
-  double shift_s = 0;             ///< B's clock minus A's           ///< B's clock minus A's
+  double shift_s = 0;             ///< B's clock minus A's
   double from_s = 0, to_s = 0;    ///< compared interval, s from A's first tick
   std::optional<double> delay_s;  ///< common to all moving joints
   double error_rms_rad = 0;

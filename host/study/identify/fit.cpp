@@ -258,8 +258,8 @@ Estimate Fit::moved(const Estimate& from, const Eigen::VectorXd& by) const {
   return to;
 }
 
-/// Slopes between two twins contain chance, which looks like information and makes each step too
-/// short, most of all along a valley. Doubles the step for as long as that lowers the cost.
+/// Doubles the step while that lowers the cost: chance in the slopes looks like information and
+/// makes steps too short, above all along a valley.
 Estimate Fit::go_on(const Estimate& from, const Eigen::VectorXd& by, Estimate best,
                     double cost_best, std::size_t ticks) {
   for (double times = 2; times <= kFurthest && !stopped_; times *= 2) {

@@ -134,8 +134,8 @@ class Drawing {
   std::vector<double> inertia_;
 };
 
-/// Joints that pass through the end of a frame leave the straight path, on which no links meet.
-/// Where that makes links meet, the joints stop at the frame's end instead.
+/// Joints that do not stop at a frame's end leave the straight path, on which no links meet. Where
+/// links then meet, makes them stop.
 void straighten(const model::Entity& entity, action::Document& document) {
   constexpr double kStop_s = 0.02;
   const Params params = model::make_params(entity);

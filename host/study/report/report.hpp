@@ -26,14 +26,13 @@ struct Written {
 /// Whether write_report() or a map's page (host/study/survey) writes a file of that name.
 bool is_of_the_report(std::string_view name);
 
-/// Removes report files of an earlier run that this run did not write, because they would appear to
-/// be its own. `files`: what it wrote, and the contents.
+/// Removes an earlier run's report files that this run did not write and that would appear to be
+/// its own. `files`: the written names and their contents.
 void remove_what_is_older(const std::filesystem::path& folder,
                           const std::vector<std::pair<std::string, std::string>>& files);
 
-/// Writes index.html (self-contained, with plots) and the numbers as CSV into `folder`, which is
-/// created if missing. Each file appears complete or not at all; other files stay. Throws
-/// ReportError.
+/// Writes index.html (self-contained, with plots) and the numbers as CSV into `folder`, created if
+/// missing. Each file appears complete or not at all; other files stay. Throws ReportError.
 Written write_report(const std::filesystem::path& folder, const Run& run);
 
 }  // namespace verp::report

@@ -24,9 +24,8 @@ struct Line {
 Line thinned(const std::vector<double>& time_s, const std::vector<double>& numbers,
              std::size_t most_points);
 
-/// Indices of columns that share an axis. They have one unit; measured and goal of a joint stay
-/// together; no axis has more lines than can be distinguished. A number without a unit has its own
-/// axis.
+/// Indices of columns per axis. An axis has one unit and no more lines than can be distinguished;
+/// measured and goal of a joint share one. A number without a unit has its own.
 std::vector<std::vector<std::size_t>> panels_of(const std::vector<Column>& columns);
 
 }  // namespace verp::signals

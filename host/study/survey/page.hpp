@@ -23,8 +23,8 @@ struct WrittenPage {
   std::string note;  ///< why pictures are missing; empty: all are there
 };
 
-/// Writes index.html, map.png and map.csv into `folder`, which is created if missing, and removes
-/// the files of an earlier walk report there. Throws report::ReportError.
+/// Writes index.html, map.png and map.csv into `folder`, created if missing, and removes the files
+/// of an earlier walk report there. Throws report::ReportError.
 WrittenPage write_page(const std::filesystem::path& folder, const Page& page);
 
 }  // namespace verp::survey

@@ -10,9 +10,8 @@
 
 namespace verp::live {
 
-/// The server's end of a WebSocket over one socket, which it owns. It never blocks: the owner polls
-/// socket() for events() and then calls ready(). wslay does the framing; this class does the
-/// handshake and the I/O.
+/// The server's end of a WebSocket; owns the socket. Never blocks: the owner polls socket() for
+/// events(), then calls ready(). wslay does the framing, this class the handshake and the I/O.
 class Connection {
  public:
   using Clock = std::chrono::steady_clock;

@@ -231,8 +231,7 @@ void Server::hear(Viewer& viewer, bool is_text, std::string_view message) {
   subscribed_.notify_all();
 }
 
-/// Gives the connection as much as it may have now. True: there is more, and the socket would
-/// accept it.
+/// Fills the connection's queue. True: more waits, and the socket would accept it.
 bool Server::pump(Viewer& viewer) {
   Connection& connection = viewer.connection;
   if (connection.stage() != Connection::Stage::kOpen) return false;

@@ -50,13 +50,13 @@ class Server {
   std::optional<std::uint32_t> find_channel(std::string_view topic) const;
   void send(std::uint32_t channel, std::uint64_t time_ns, std::string_view data);
 
-  /// Gives the server's thread real-time priority (SCHED_FIFO), `priority`, which must be below the
-  /// sender's. The thread holds a lock that senders need for some microseconds; without this, other
-  /// programs could preempt it meanwhile. False: the system denies it.
+  /// Gives the server's thread the real-time `priority` (SCHED_FIFO), which must be below the
+  /// sender's. Otherwise programs could preempt it while it holds, for microseconds, a lock that
+  /// senders need. False: the system denies it.
   bool run_before_others(int priority);
-  /// Waits until a viewer has subscribed and made no further subscription for 0.3 s, or `given_up`
-  /// returns true. Many viewers subscribe channel by channel and would miss what is sent meanwhile.
-  /// `given_up` must not call the server.
+  /// Waits until a viewer has subscribed and then paused for 0.3 s, or `given_up` returns true.
+  /// Viewers that subscribe channel by channel would miss messages otherwise. `given_up` must not
+  /// call the server.
   void wait_for_viewer(const std::function<bool()>& given_up);
   /// Sends the queued messages while viewers read them, then closes. Later messages are not sent.
   void finish();

@@ -19,8 +19,8 @@ struct Frame {
   std::string bytes;
 };
 
-/// One viewer: its subscriptions and its queue. The queue is bounded: a viewer that is too slow
-/// loses the oldest messages, so that it sees the present, and gets their number.
+/// One viewer's subscriptions and bounded queue. A slow viewer loses the oldest messages, so that
+/// it sees the present, and gets their number.
 class Subscriber {
  public:
   explicit Subscriber(std::size_t most_bytes) : most_bytes_(most_bytes) {}

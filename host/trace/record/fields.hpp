@@ -158,8 +158,8 @@ void describe(const T& value, std::size_t& offset, std::string& path, std::strin
 }  // namespace detail
 
 /// The byte layout as text, one line per scalar or array of scalars: "byte-offset type path". It is
-/// the schema of a trace's channels: two builds can exchange images of T only if their descriptions
-/// are equal.
+/// the schema of a trace's channels: two builds can exchange images of T if and only if their
+/// descriptions are equal.
 template <class T>
 std::string describe_layout(const char* name) {
   const T value{};

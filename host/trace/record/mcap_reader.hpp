@@ -50,10 +50,10 @@ struct File {
   const Channel* find_channel(std::string_view topic, std::uint16_t& id) const;
 };
 
-/// Total: any bytes give a File; it has a flaw unless the bytes are an intact file of our Writer.
-/// Every byte is covered. CRCs of chunks and attachments locate damage; those of the data section
-/// and summary only detect it. Compression other than zstd and missing CRCs are flaws, because our
-/// writer makes no such files.
+/// Total: any bytes give a File, with a flaw unless they are an intact file of our Writer. Covers
+/// every byte: CRCs of chunks and attachments locate damage, those of data section and summary
+/// detect it. Our writer always writes CRCs and compresses only by zstd, so anything else is a
+/// flaw.
 File parse(std::string_view bytes);
 
 }  // namespace verp::record::mcap

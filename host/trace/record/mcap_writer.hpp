@@ -26,10 +26,10 @@ class Listener {
 /// The process that is writing a file of that name, or 0.
 int writer_of(const std::filesystem::path& path);
 
-/// Writes one MCAP file, append-only: chunks with CRC and message indexes, summary and footer.
-/// Flushed chunks stay readable; a crash loses only the open chunk. The file grows under its own
-/// name (`part_path()`) and gets its final name in close(). Two writers of one path therefore never
-/// mix, and a reader never finds a partial file. Every member throws TraceError on a disk error.
+/// Writes one MCAP file, append-only: chunks with CRC and message indexes, summary and footer. A
+/// crash loses only the open chunk. The file grows as `part_path()` and gets its name in close(),
+/// so writers of one path never mix and readers never find a partial file. Every member throws
+/// TraceError on a disk error.
 class Writer {
  public:
   /// kZstd compresses each chunk that becomes shorter. With an empty path there is no file, and all

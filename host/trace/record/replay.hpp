@@ -38,8 +38,8 @@ struct ReplayResult {
 };
 
 /// Runs the controller over the recorded inputs and compares every stage of every tick. `other`
-/// replaces the trace's robot; `core` replaces this program's step(). With either, the trace's own
-/// robot runs along, so that the field is named at the divergent tick.
+/// replaces the trace's robot, `core` this program's step(). The trace's own robot then runs along,
+/// to name the field at the divergent tick.
 ReplayResult replay(const Trace& trace, const Params* other = nullptr,
                     const StepFunction& core = nullptr);
 

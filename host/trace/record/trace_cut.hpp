@@ -14,9 +14,9 @@ struct Cut {
   bool from_state = false;  ///< true: the part starts from a State; false: at the trace's start
 };
 
-/// Writes a part of a trace as its own trace, with all messages of that time. Replay needs the
-/// State before its first tick, so the part starts after the last State kept before `from_s`, at
-/// most kKeyframeTicks earlier. nullopt: from the start, or to the end. Throws TraceError.
+/// Writes a part of a trace as a trace, with all messages of that time. Replay needs the State
+/// before its first tick, so the part starts after the last State kept before `from_s`, at most
+/// kKeyframeTicks earlier. nullopt: from the start, or to the end. Throws TraceError.
 Cut cut_trace(const std::filesystem::path& file, std::optional<double> from_s,
               std::optional<double> to_s, const std::filesystem::path& output,
               mcap::Compression compression = mcap::Compression::kNone);

@@ -18,8 +18,8 @@ struct TraceOptions {
       false;        ///< keeps every State, so that a divergence names its field at its own tick
   bool ros = true;  ///< adds channels for viewers (host/guide/traces.md)
   std::uint64_t chunk_ticks = 125;  ///< most ticks that a crash can lose
-  /// A chunk also ends at this size. In real time a chunk's end is part of a tick, and with
-  /// pictures the end of a one-second chunk took longer than a tick.
+  /// A chunk also ends at this size: a chunk's end is part of a tick, and that of a second with
+  /// pictures took longer than a tick.
   std::size_t chunk_bytes = 1u << 17;
   std::vector<std::uint32_t> actions{};  ///< image of the controller's action library
   bool compress = false;                 ///< by zstd, to about a fifth
@@ -43,16 +43,14 @@ class TraceWriter {
   TraceWriter(const TraceWriter&) = delete;
   TraceWriter& operator=(const TraceWriter&) = delete;
 
-  /// One tick: inputs with digests, State after it, and outputs. A twin adds the body's true pose
-  /// (null: no /tf for this tick) and each joint's effort. Servos are not asked for effort, so it
-  /// is empty without a twin.
+  /// One tick: inputs with digests, State after it, outputs. A twin adds the body's true pose
+  /// (null: no /tf) and each joint's effort, for which servos are not asked.
   void append(const TickRecord& record, const State& state, const Outputs& outputs,
               const ros::BodyPose* body = nullptr, std::span<const double> effort_n_m = {});
   /// One tick of a copied run. `kept`: the State that its trace kept, or null.
   void append(const TickRecord& record, const State* kept);
-  /// A scan of a sensor that the controller does not have, measured up to that tick, on /SENSOR.
-  /// The message has the tick's time; its header has the measurement's. Does nothing without
-  /// TraceOptions::ros.
+  /// A scan that the controller does not see, measured up to that tick, on /SENSOR. The message has
+  /// the tick's time, its header the measurement's. Does nothing without TraceOptions::ros.
   void append(const std::string& sensor, std::uint32_t tick, const ros::LaserScan& scan);
   /// A message for viewers on `topic`, which has one type. time_ns is on the ticks' clock and may
   /// be older than earlier messages. Does nothing without TraceOptions::ros.
