@@ -54,7 +54,7 @@ is_there() { # name; `*` is any part of it
     [[ $kind == '*' ]] || grep -qxF "$kind" <<<"$of_boards"
     return
   done
-  grep -qxF -e "$1" -e "$(awk -F. '{ print $(NF-1) "." $NF }' <<<"$1")" <<<"$tests"
+  grep -qxF -e "$1" -e "$(sed -E 's,/[^/.]*$,,' <<<"$1" | awk -F'[./]' '{ print $(NF-1) "." $NF }')" <<<"$tests"
 }
 while IFS='|' read -r _ left kept _; do
   for each in $(tr -d '\140' <<<"$left $kept"); do
