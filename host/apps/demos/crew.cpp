@@ -6,7 +6,7 @@
 
 #include "host/robot/model/find.hpp"
 #include "host/robot/model/load.hpp"
-#include "host/robot/model/params.hpp"
+#include "host/run/scenario/expand.hpp"
 #include "host/trace/record/ros_radio.hpp"
 #include "host/trace/record/trace_error.hpp"
 
@@ -20,21 +20,22 @@ constexpr double kPictures_hz = 5;       // what is drawn costs time; the file h
 constexpr double kPictureLate_s = 0.06;  // a sensor's readout and USB; the file has none
 
 session::WalkPlan plan_of(const Demo& demo, const Options& options, int number, int robots) {
-  session::WalkPlan plan;
-  plan.entity = model::load_robot(model::find_model(options.model));
-  for (model::LaserSensor& laser : plan.entity.lasers) laser.noise_stddev_m = kLaserNoise_m;
-  for (model::CameraSensor& camera : plan.entity.cameras) {
+  const brain::Pose place = demo.places(robots)[static_cast<std::size_t>(number)];
+  scenario::Robot robot;
+  robot.name = fmt::format("r{}", number + 1);
+  robot.model = options.model;
+  robot.orders = scenario::Velocity{};  // its brain gives others
+  robot.seed = options.seed + static_cast<std::uint64_t>(number);
+  robot.at = {place.at_m.x, place.at_m.y, place.yaw_rad};
+  model::Entity entity = model::load_robot(model::find_model(options.model));
+  for (model::LaserSensor& laser : entity.lasers) laser.noise_stddev_m = kLaserNoise_m;
+  for (model::CameraSensor& camera : entity.cameras) {
     camera.rate_hz = kPictures_hz;
     camera.latency_s = kPictureLate_s;
   }
-  plan.params = model::make_params(plan.entity);
-  plan.name = fmt::format("r{}", number + 1);
-  plan.walk_s = options.for_s > 0 ? options.for_s : demo.length_s;
-  plan.twin.seed = options.seed + static_cast<std::uint64_t>(number);
+  session::WalkPlan plan = scenario::plan_of(
+      robot, options.for_s > 0 ? options.for_s : demo.length_s, std::move(entity));
   plan.twin.cameras = demo.cameras;
-  const brain::Pose place = demo.places(robots)[static_cast<std::size_t>(number)];
-  plan.twin.start_m = {place.at_m.x, place.at_m.y, 0};
-  plan.twin.start_yaw_rad = place.yaw_rad;
   return plan;
 }
 
@@ -65,10 +66,8 @@ void Member::open_trace(const Options& options) {
   if (options.record.empty()) return;
   track_.trace = options.record.parent_path() / (options.record.stem().string() + "." + plan_.name +
                                                  options.record.extension().string());
-  record::mcap::StringMap run = {{"robot", plan_.params.name},
-                                 {"model_file", plan_.entity.file},
-                                 {"seed", std::to_string(plan_.twin.seed)},
-                                 {"number", std::to_string(number_)}};
+  record::mcap::StringMap run = scenario::metadata_of(plan_);
+  run["number"] = std::to_string(number_);
   for (const auto& [key, value] : options.metadata) run[key] = value;
   trace_ = std::make_unique<record::TraceWriter>(track_.trace, plan_.params, run);
 }

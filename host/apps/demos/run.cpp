@@ -10,7 +10,7 @@
 #include "host/apps/demos/crew.hpp"
 #include "host/apps/demos/eyes.hpp"
 #include "host/apps/demos/outlines.hpp"
-#include "host/robot/model/load_world.hpp"
+#include "host/run/scenario/expand.hpp"
 #include "host/twin/sim/scenery.hpp"
 
 namespace verp::demos {
@@ -57,7 +57,7 @@ class Stage {
     while (!over()) {
       const session::Robot* robot = session_.tick();
       if (robot == nullptr) break;
-      ticked(number_of(*robot));
+      ticked(static_cast<int>(session_.index_of(*robot)));
     }
     run_.wall_s = std::chrono::duration<double>(Clock::now() - begun).count();
     return result();
@@ -65,11 +65,8 @@ class Stage {
 
  private:
   static sim::WorldOptions world_of(const Demo& demo, const Options& options) {
-    sim::WorldOptions world;
-    world.step_us = options.physics_step_us;
-    const std::string& name = options.world.empty() ? demo.world : options.world;
-    if (name.empty()) return world;
-    return sim::furnished(world, model::load_world(model::find_world(name)));
+    return scenario::world_of({.file = options.world.empty() ? demo.world : options.world,
+                               .physics_step_ms = 1e-3 * options.physics_step_us});
   }
 
   void open_eyes(const sim::WorldOptions& world) {
@@ -80,13 +77,6 @@ class Stage {
 
   double now_s() const { return 1e-6 * static_cast<double>(session_.now_us()); }
   double for_s() const { return options_.for_s > 0 ? options_.for_s : demo_.length_s; }
-
-  int number_of(const session::Robot& robot) {
-    for (std::size_t i = 0; i < session_.size(); ++i) {
-      if (&session_.robot(i) == &robot) return static_cast<int>(i);
-    }
-    throw std::logic_error("a robot that is not of this session");
-  }
 
   bool over() {
     if (options_.interrupted && options_.interrupted()) return run_.interrupted = true;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <mutex>
 #include <sstream>
 
@@ -11,12 +12,14 @@
 #include "host/robot/model/load.hpp"
 #include "host/robot/model/number.hpp"
 #include "host/robot/model/params.hpp"
+#include "host/run/scenario/expand.hpp"
 
 namespace verp::abi {
 namespace {
 
 /// Parses "gait.lift_m=0.012 balance.zeros_enable=0".
-void tune(const std::string& text, Tuning& tuning) {
+std::map<std::string, double> tuning_of(const std::string& text) {
+  std::map<std::string, double> tuning;
   std::istringstream words(text);
   for (std::string word; words >> word;) {
     const std::size_t equals = word.find('=');
@@ -28,8 +31,9 @@ void tune(const std::string& text, Tuning& tuning) {
       throw Failure(VERP_BAD_ARGUMENT,
                     fmt::format("tuning '{}' is not NAME=VALUE, such as gait.lift_m=0.012", word));
     }
-    set_tuning_value(tuning, id, tuning_value_for(id, name, *value));
+    tuning[name] = static_cast<double>(tuning_value_for(id, name, *value));
   }
+  return tuning;
 }
 
 }  // namespace
@@ -50,14 +54,27 @@ float tuning_value_for(int id, const std::string& name, double value) {
                             kTuningRanges[id].high, value));
 }
 
-Loaded load(const char* model, const char* bus, const char* tuning) {
-  static std::mutex one_at_a_time;  // libsdformat has global settings
-  const std::lock_guard lock(one_at_a_time);
+scenario::Robot robot_of(const char* model, const char* bus, const char* tuning) {
   need_text(model, "model");
   need_text_or_null(bus, "bus");
-  Loaded loaded{model::load_robot(model::find_model(model), bus == nullptr ? "" : bus), {}};
+  scenario::Robot robot;
+  robot.model = model;
+  if (bus != nullptr) robot.bus = bus;
+  if (tuning != nullptr) robot.tuning = tuning_of(tuning);
+  return robot;
+}
+
+model::Entity load(const scenario::Robot& robot) {
+  static std::mutex one_at_a_time;  // libsdformat has global settings
+  const std::lock_guard lock(one_at_a_time);
+  return model::load_robot(model::find_model(robot.model), robot.bus);
+}
+
+Loaded load(const char* model, const char* bus, const char* tuning) {
+  const scenario::Robot robot = robot_of(model, bus, tuning);
+  Loaded loaded{load(robot), {}};
   loaded.params = model::make_params(loaded.entity);
-  if (tuning != nullptr) tune(tuning, loaded.params.tuning);
+  scenario::tune(robot.tuning, loaded.params.tuning);
   return loaded;
 }
 

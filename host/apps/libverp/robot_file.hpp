@@ -3,6 +3,7 @@
 
 #include "common/model/params.hpp"
 #include "host/robot/model/entity.hpp"
+#include "host/run/scenario/scenario.hpp"
 
 namespace verp::abi {
 
@@ -13,6 +14,10 @@ struct Loaded {
 };
 /// `bus` and `tuning` may be null. Throws LoadError, and Failure for invalid tuning.
 Loaded load(const char* model, const char* bus, const char* tuning);
+
+/// The same in two steps.
+scenario::Robot robot_of(const char* model, const char* bus, const char* tuning);
+model::Entity load(const scenario::Robot& robot);
 
 /// Throw Failure for an unknown tuning name and for a value out of range.
 int tuning_id_of(const std::string& name);

@@ -13,7 +13,7 @@
 #include "host/apps/libverp/moment.hpp"
 #include "host/apps/libverp/robot_file.hpp"
 #include "host/apps/libverp/velocity.hpp"
-#include "host/run/session/stride.hpp"
+#include "host/run/scenario/expand.hpp"
 #include "host/trace/record/trace_error.hpp"
 
 namespace verp::abi {
@@ -51,20 +51,18 @@ Command velocity_of(double vx_m_s, double vy_m_s, double wz_rad_s) {
 Seat::Seat(const verp_robot& what, std::uint32_t index) : index_(index) {
   need_text_or_null(what.name, "name");
   need_text_or_null(what.record, "record");
-  Loaded loaded = load(what.model, what.bus, what.tuning);
-  plan_.entity = std::move(loaded.entity);
-  plan_.params = loaded.params;
-  plan_.asked = velocity_of(what.vx_m_s, what.vy_m_s, what.wz_rad_s);
-  const session::Followed followed = session::within_servo_speed(plan_.params, *plan_.asked);
-  plan_.velocity = followed.velocity;
-  plan_.remark = followed.remark;
-  plan_.name = text_or_empty(what.name);
-  plan_.twin.seed = what.seed;
-  plan_.twin.cameras = true;  // records poses; pictures are drawn on request
-  plan_.twin.start_m = {within(what.x_m, kFar_m, "x_m"), within(what.y_m, kFar_m, "y_m"), 0};
-  plan_.twin.start_yaw_rad = within(what.yaw_rad, kFar_m, "yaw_rad");
+  scenario::Robot robot = robot_of(what.model, what.bus, what.tuning);
+  robot.name = text_or_empty(what.name);
+  robot.seed = what.seed;
+  robot.at = {within(what.x_m, kFar_m, "x_m"), within(what.y_m, kFar_m, "y_m"),
+              within(what.yaw_rad, kFar_m, "yaw_rad")};
+  robot.orders = scenario::Velocity{within(what.vx_m_s, kMostSpeed_m_s, "vx_m_s"),
+                                    within(what.vy_m_s, kMostSpeed_m_s, "vy_m_s"),
+                                    within(what.wz_rad_s, kMostTurn_rad_s, "wz_rad_s")};
   if (what.walk_s < 0) throw Failure(VERP_BAD_ARGUMENT, "walk_s is negative");
-  plan_.walk_s = within(what.walk_s, kMostWalk_s, "walk_s");
+  plan_ = scenario::plan_of(robot, within(what.walk_s, kMostWalk_s, "walk_s"), load(robot));
+  plan_.number = static_cast<int>(index);
+  plan_.twin.cameras = true;  // some poses at each look; what is seen is drawn when it is asked for
   if ((what.flags & ~std::uint32_t{VERP_OPEN_END}) != 0)
     throw Failure(VERP_BAD_ARGUMENT, "what->flags has more than VERP_OPEN_END");
   own_orders_ = what.walk_s == 0;
@@ -75,15 +73,12 @@ Seat::Seat(const verp_robot& what, std::uint32_t index) : index_(index) {
 
 void Seat::open_trace(const char* file) {
   const Command& v = plan_.velocity;
-  trace_ = std::make_unique<record::TraceWriter>(
-      file, plan_.params,
-      record::mcap::StringMap{{"robot", plan_.params.name},
-                              {"model_file", plan_.entity.file},
-                              {"seed", std::to_string(plan_.twin.seed)},
-                              {"velocity", fmt::format("{:g},{:g},{:g}", 1e-4 * v.vx_tenth_mm_s,
-                                                       1e-4 * v.vy_tenth_mm_s, 1e-3 * v.wz_mrad_s)},
-                              {"walk_s", fmt::format("{}", plan_.walk_s)},
-                              {"controller", "libverp"}});
+  record::mcap::StringMap metadata = scenario::metadata_of(plan_);
+  metadata["velocity"] = fmt::format("{:g},{:g},{:g}", 1e-4 * v.vx_tenth_mm_s,
+                                     1e-4 * v.vy_tenth_mm_s, 1e-3 * v.wz_mrad_s);
+  metadata["walk_s"] = fmt::format("{}", plan_.walk_s);
+  metadata["controller"] = "libverp";
+  trace_ = std::make_unique<record::TraceWriter>(file, plan_.params, metadata);
 }
 
 session::Hooks Seat::hooks() {
@@ -173,10 +168,9 @@ void Seat::write_view(const session::Tick& tick) {
   truth.joints = plan_.params.joint_count;
 }
 
-const session::WalkResult& Seat::finish(session::Session& session, const std::string& diverged) {
+const session::WalkResult& Seat::finish(session::Session& session) {
   if (result_) return *result_;
   result_ = session.result(index_);
-  if (result_->failure.empty()) result_->failure = diverged;
   // Reports a controller failure that the caller has not read yet.
   if (deciding_)
     result_->failure =
@@ -193,7 +187,7 @@ const session::WalkResult& Seat::finish(session::Session& session, const std::st
 
 void Run::finish() {
   ended = true;
-  for (const auto& seat : seats) seat->finish(session, diverged);
+  for (const auto& seat : seats) seat->finish(session);
 }
 
 Seat& Run::seat(std::uint32_t index) {

@@ -41,7 +41,7 @@ class Seat {
   void note_radio(record::ros::Radio radio);
 
   /// Ends the run: computes its result and closes its trace. Later calls return the same result.
-  const session::WalkResult& finish(session::Session& session, const std::string& diverged);
+  const session::WalkResult& finish(session::Session& session);
 
  private:
   void open_trace(const char* file);
@@ -73,7 +73,6 @@ struct Run {
   Sight sight;
   std::optional<Air> air;  ///< nullopt: no robot has a radio
   bool begun = false, ended = false;
-  std::string diverged;  ///< why the physics diverged; empty: it did not
 
   /// Finishes the runs of all robots.
   void finish();

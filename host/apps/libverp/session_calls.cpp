@@ -5,9 +5,7 @@
 #include "host/apps/libverp/run.hpp"
 #include "host/apps/libverp/sessions.hpp"
 #include "host/apps/libverp/text.hpp"
-#include "host/robot/model/find.hpp"
-#include "host/robot/model/load_world.hpp"
-#include "host/twin/sim/scenery.hpp"
+#include "host/run/scenario/expand.hpp"
 
 namespace verp::abi {
 namespace {
@@ -17,28 +15,22 @@ sim::WorldOptions world_of(const verp_world* what) {
   if (what == nullptr) return options;
   need_struct(what, "world");
   constexpr std::uint32_t kLeast_us = 100, kMost_us = 4000;
-  if (what->physics_step_us != 0) options.step_us = what->physics_step_us;
-  if (options.step_us < kLeast_us || options.step_us > kMost_us)
+  scenario::World world;
+  if (what->physics_step_us != 0) world.physics_step_ms = 1e-3 * what->physics_step_us;
+  if (what->physics_step_us != 0 &&
+      (what->physics_step_us < kLeast_us || what->physics_step_us > kMost_us))
     throw Failure(VERP_BAD_ARGUMENT, "world->physics_step_us may be 100 to 4000, or 0");
-  if (what->file == nullptr) return options;
-  need_text(what->file, "world->file");
-  return sim::furnished(options, model::load_world(model::find_world(what->file)));
-}
-
-std::uint32_t number_of(Run& run, const session::Robot& ticked) {
-  std::uint32_t index = 0;
-  while (&run.session.robot(index) != &ticked) ++index;
-  return index;
+  need_text_or_null(what->file, "world->file");
+  if (what->file != nullptr) world.file = what->file;
+  return scenario::world_of(world);
 }
 
 /// If the physics diverges, the runs of all robots end, and their results say so.
 const session::Robot* tick_of(Run& run) {
-  try {
-    return run.session.tick();
-  } catch (const sim::Diverged& error) {
-    run.diverged = error.what();
-    throw;
-  }
+  const session::Robot* ticked = run.session.tick();
+  if (ticked == nullptr && !run.session.diverged().empty())
+    throw Failure(VERP_FAILED, run.session.diverged());
+  return ticked;
 }
 
 verp_result told(const session::WalkResult& from) {
@@ -144,7 +136,7 @@ int verp_session_tick(verp_session session, uint32_t count, uint32_t* robot, uin
       const verp::session::Robot* ticked = tick_of(*run);
       if (ticked == nullptr) return VERP_OVER;
       if (done != nullptr) *done = n + 1;
-      const std::uint32_t number = number_of(*run, *ticked);
+      const auto number = static_cast<std::uint32_t>(run->session.index_of(*ticked));
       run->sight.looked(run->session, number);
       if (run->air) run->air->ticked(*run, number);
       if (robot != nullptr) *robot = number;
@@ -181,7 +173,7 @@ int verp_session_result(verp_session session, uint32_t robot, verp_result* resul
     const auto run = sessions().use(session);
     run->seat(robot);
     run->finish();
-    *result = told(run->seat(robot).finish(run->session, run->diverged));
+    *result = told(run->seat(robot).finish(run->session));
   });
 }
 

@@ -6,7 +6,7 @@
 #include "host/apps/cli/command.hpp"
 #include "host/apps/cli/exit_status.hpp"
 #include "host/apps/cli/interrupt.hpp"
-#include "host/apps/tool/walk_plan.hpp"
+#include "host/apps/tool/walk_scenario.hpp"
 #include "host/run/session/session.hpp"
 #include "host/show/scene/build.hpp"
 #include "host/show/scene/from_trace.hpp"
@@ -34,23 +34,23 @@ class Shutter {
 
 class WalkFilm final : public Film {
  public:
-  explicit WalkFilm(const tool::WalkOptions& options)
-      : world_(tool::world_of(options)), plans_(tool::make_plans(options, world_)) {
-    tool::draw(options, plans_.front(), world_);
-    scene_ = scene::surroundings(world_.scenery.get());
-    for (const session::WalkPlan& plan : plans_) scene::add_robot(scene_, plan.entity);
+  explicit WalkFilm(const tool::WalkOptions& options) : run_(tool::walk_of(options).run) {
+    scene_ = scene::surroundings(run_.world.scenery.get());
+    for (const session::WalkPlan& plan : run_.plans) scene::add_robot(scene_, plan.entity);
   }
 
-  double end_s() const override { return plans_.front().walk_s + 3; }  // the robot stands up first
+  double end_s() const override {
+    return run_.plans.front().walk_s + 3;
+  }  // the robot stands up first
 
   void play(double from_s, double every_s, const Show& show) override {
     Shutter shutter(from_s, every_s);
     bool enough = false;
     session::Session session(
-        {.world = world_, .interrupted = [&] { return enough || cli::interrupted(); }});
+        {.world = run_.world, .interrupted = [&] { return enough || cli::interrupted(); }});
     std::vector<scene::RobotView> seen;
-    for (std::size_t i = 0; i < plans_.size(); ++i) {
-      const session::WalkPlan& plan = plans_[i];
+    for (std::size_t i = 0; i < run_.plans.size(); ++i) {
+      const session::WalkPlan& plan = run_.plans[i];
       seen.push_back(scene::standing(plan.entity, plan.twin.start_m, plan.twin.start_yaw_rad));
       session::Hooks hooks;
       hooks.ticked = [&, i](const session::Tick& tick) {
@@ -69,9 +69,9 @@ class WalkFilm final : public Film {
 
   /// The stance in which the twin starts.
   scene::Snapshot start() const override {
-    const sim::World world(world_);
+    const sim::World world(run_.world);
     scene::Snapshot now;
-    for (const session::WalkPlan& plan : plans_) {
+    for (const session::WalkPlan& plan : run_.plans) {
       sim::Vec3 at_m = plan.twin.start_m;
       at_m.z() = session::ground_m(world, at_m);
       now.robots.push_back(scene::standing(plan.entity, at_m, plan.twin.start_yaw_rad));
@@ -81,8 +81,7 @@ class WalkFilm final : public Film {
   }
 
  private:
-  sim::WorldOptions world_;
-  std::vector<session::WalkPlan> plans_;
+  const scenario::Expanded run_;
 };
 
 class TraceFilm final : public Film {

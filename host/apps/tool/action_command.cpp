@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/exit_status.hpp"
 #include "host/apps/cli/interrupt.hpp"
@@ -16,7 +17,7 @@
 #include "host/apps/tool/action_send.hpp"
 #include "host/apps/tool/commands.hpp"
 #include "host/apps/tool/walk_files.hpp"
-#include "host/apps/tool/walk_plan.hpp"
+#include "host/apps/tool/walk_scenario.hpp"
 #include "host/author/action/check.hpp"
 #include "host/author/action/folder.hpp"
 #include "host/author/action/play.hpp"
@@ -155,10 +156,10 @@ int play(const ActionWords& words) {
   WalkOptions options = words.walk;
   options.model = words.model;
   options.json = words.json;
-  WalkPlan plan = make_plan(options);
+  const Walk walk = walk_of(options);
+  WalkPlan plan = walk.run.plans.front();
   plan.actions = robot.made.words;
-  sim::WorldOptions world = world_of(options);
-  const Drawn drawn = draw(options, plan, world);
+  const Drawn drawn = drawn_of(walk);
   if (words.gains_percent < 100) {
     soften(plan.entity, words.gains_percent);
     plan.params = model::make_params(plan.entity);
@@ -167,7 +168,9 @@ int play(const ActionWords& words) {
     plan.twin.cradle = sim::Cradle::kAlways;
     plan.twin.start_m.z() += kStand_m;
   }
-  WalkFiles files(options, plan, nullptr, {{"action", words.action}});
+  record::mcap::StringMap metadata = metadata_of(options, plan, walk.scenario);
+  metadata["action"] = words.action;
+  WalkFiles files(options, plan, metadata);
   cli::Progress progress(!words.json);
   session::Hooks hooks;
   hooks.trace = files.trace();
@@ -175,7 +178,7 @@ int play(const ActionWords& words) {
     progress.show(0, fmt::format("{}  {:.1f} s", words.action, tick.seen.truth.t_s));
   };
   action::Played played = action::play(plan, number, std::move(hooks),
-                                       {.world = world, .interrupted = cli::interrupted});
+                                       {.world = walk.run.world, .interrupted = cli::interrupted});
   progress.clear();
   const session::WalkResult& run = played.run;
   files.finish(run, {});

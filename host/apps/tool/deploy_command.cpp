@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/failure.hpp"
 #include "host/apps/cli/interrupt.hpp"
@@ -14,7 +15,6 @@
 #include "host/apps/tool/commands.hpp"
 #include "host/apps/tool/firmware_build.hpp"
 #include "host/apps/tool/flash_run.hpp"
-#include "host/apps/tool/walk_options.hpp"
 #include "host/apps/tool/walk_run.hpp"
 #include "host/boards/board/board_error.hpp"
 #include "host/boards/board/replay_on_target.hpp"
@@ -22,9 +22,7 @@
 #include "host/boards/flash/flasher.hpp"
 #include "host/boards/flash/images.hpp"
 #include "host/boards/flash/recipe.hpp"
-#include "host/robot/model/find.hpp"
-#include "host/robot/model/load.hpp"
-#include "host/robot/model/params.hpp"
+#include "host/run/scenario/expand.hpp"
 #include "host/trace/record/trace_writer.hpp"
 
 namespace verp::tool {
@@ -53,12 +51,11 @@ class Deployment {
         recipe_(flash::find_recipe(options.flash.board)),
         folder_(flash::work_root() / "deploy" / options.flash.board),
         progress_(!options.json) {
-    plan_.entity = model::load_robot(model::find_model(options.model), options.flash.bus);
-    plan_.params = model::make_params(plan_.entity);
+    scenario::Robot robot;
+    robot.model = options.model;
+    robot.bus = options.flash.bus;
+    plan_ = scenario::plan_of(robot, options.walk_s);
     image_ = flash::loop_image(recipe_, plan_.entity.protocol);
-    const WalkOptions usual;  // two 4 cm steps a cycle of the robot, straight ahead
-    plan_.velocity = velocity_of(usual, plan_.params.tuning.gait, usual.step_m);
-    plan_.walk_s = options.walk_s;
   }
 
   StepAnswer build() {
@@ -80,7 +77,7 @@ class Deployment {
     const fs::path file = folder() / "walk.mcap";
     record::TraceWriter writer(file, plan_.params, {{"robot", plan_.params.name}});
     const WalkResult result =
-        tool::walk(plan_, &writer, progress_, "walk of " + std::string(plan_.params.name), false);
+        tool::walk(plan_, &writer, progress_, "walk of " + std::string(plan_.params.name));
     progress_.clear();
     if (!result.trace_failure.empty()) throw cli::ToolError(cli::kRunFailed, result.trace_failure);
     writer.close();

@@ -3,20 +3,19 @@
 
 #include <memory>
 
+#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/interrupt.hpp"
 #include "host/apps/cli/json.hpp"
 #include "host/apps/tool/commands.hpp"
 #include "host/apps/tool/hil_run.hpp"
 #include "host/apps/tool/walk_ending.hpp"
-#include "host/apps/tool/walk_plan.hpp"
 #include "host/apps/tool/walk_report.hpp"
+#include "host/apps/tool/walk_scenario.hpp"
 #include "host/apps/tool/walk_touch.hpp"
+#include "host/author/action/get_up.hpp"
 #include "host/os/link/endpoint.hpp"
 #include "host/os/link/latency.hpp"
-#include "host/robot/model/find.hpp"
-#include "host/robot/model/load.hpp"
-#include "host/robot/model/params.hpp"
 #include "host/twin/bus/link_fit.hpp"
 
 namespace verp::tool {
@@ -28,22 +27,13 @@ struct HilWords {
   bool lockstep = false, real_time = false;
 };
 
-WalkPlan plan_of(const WalkOptions& options, bool tells) {
-  WalkPlan plan;
-  plan.entity = model::load_robot(model::find_model(options.model), options.bus);
-  plan.params = model::make_params(plan.entity);
-  ask_for_walk(options, plan);
-  plan.twin.seed = options.seed;
-  plan.board = options.board;
-  if (tells) {
-    prepare_falls(options, plan);
-  } else {  // the controller's actions are its own business
-    plan.twin.lies = lies_of(options);
-    const bool may = options.get_up || plan.twin.lies != sim::Lies::kNo;
-    plan.get_ups = may ? session::kGetUpTries : 0;
-  }
-  read_touch(options.touch, plan, {}, {});
-  return plan;
+/// `tells`: an operator speaks to the controller. Without one its actions are its own business.
+Walk walk_of(const WalkOptions& options, bool tells) {
+  Walk walk{.scenario = scenario_of(options, {}), .run = {}};
+  walk.run = expand(options, walk.scenario, {});
+  session::WalkPlan& plan = walk.run.plans.front();
+  if (tells && plan.get_ups > 0) action::take_get_up_actions(plan);
+  return walk;
 }
 
 void check(HilWords& words, const Params& params) {
@@ -181,25 +171,24 @@ void refuse_without_operator(const CLI::App& app) {
 
 int run_hil(const CLI::App& app, HilWords words) {
   WalkOptions& options = words.walk;
-  options.board = words.hil.link;
   const bool tells = !words.hil.operator_link.empty();
-  const WalkPlan plan = plan_of(options, tells);
+  Walk walk = walk_of(options, tells);
+  WalkPlan& plan = walk.run.plans.front();
+  plan.board = words.hil.link;
   check(words, plan.params);
   if (!tells) refuse_without_operator(app);
   if (tells && options.report_folder.empty() && !options.json) options.report_folder = "report";
   LiveStream live("verp hil", options.live);
-  WalkFiles files(options, plan, live.robot());
-  live.wait_for_viewer();
+  WalkFiles files(options, plan, metadata_of(options, plan, walk.scenario), live.robot());
   cli::Progress progress(!options.json);
-  const HilResult result =
-      serve_controller(plan, words.hil, files.trace(), progress, files.wants_report());
+  KeptTrace kept(files.trace(), files.wants_report());
+  const HilResult result = serve_controller(plan, words.hil, progress, {&kept, &live});
   if (!tells) return answer_served(plan, options, result);
-  live.finish();
   cli::Json more = to_json(result);
   live.add_to(more);
   more["changes"] = touch_json(result.walk);
-  const int status = finish_walk(plan, options, files, result.walk, {}, more,
-                                 touch_text(result.walk) + to_text(result) + live.text());
+  const int status = finish_walk(plan, options, walk.scenario.robots[0].orders, files, result.walk,
+                                 {}, more, touch_text(result.walk) + to_text(result) + live.text());
   // Who ends it while a link is silent has still ended it.
   const bool device = result.device_trouble && !result.walk.interrupted;
   return status != cli::kGood && device ? cli::kNoDevice : status;

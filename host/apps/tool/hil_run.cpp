@@ -2,17 +2,35 @@
 
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "host/apps/cli/console.hpp"
+#include "host/apps/cli/exit_status.hpp"
 #include "host/apps/cli/interrupt.hpp"
 #include "host/apps/cli/real_time.hpp"
 #include "host/apps/cli/typed_lines.hpp"
 #include "host/apps/tool/bit_rate.hpp"
 
 namespace verp::tool {
+namespace {
+
+/// "u" and Enter sets the robot on its feet.
+class Keyboard final : public session::Observer {
+ public:
+  explicit Keyboard(session::Served*& served) : served_(served) {}
+  void tick(std::size_t, session::Robot&) override {
+    if (lines_.next() == "u") served_->set_upright();
+  }
+
+ private:
+  session::Served*& served_;
+  cli::TypedLines lines_;
+};
+
+}  // namespace
 
 HilResult serve_controller(const WalkPlan& plan, session::ServeOptions options,
-                           record::TraceWriter* trace, cli::Progress& progress, bool keep_series) {
+                           cli::Progress& progress, std::vector<session::Observer*> observers) {
   const auto say = [&progress](const std::string& line) {
     progress.clear();
     cli::complain("verp hil: " + line);
@@ -28,21 +46,18 @@ HilResult serve_controller(const WalkPlan& plan, session::ServeOptions options,
   options.cannot_keep_up = cli::leave_real_time;
   session::Session session({.interrupted = cli::interrupted});
   session::Served* served = nullptr;
-  session::Hooks hooks = shown(plan, trace, progress, plan.params.name, keep_series);
-  tell_falls(plan, progress, "verp hil", hooks);
-  session.add(plan, std::move(hooks), [&](session::Robot& robot) {
-    auto made = session::make_served(robot, options);
-    served = made.get();
-    return made;
-  });
-  cli::TypedLines typed;
-  while (session.tick() != nullptr) {
-    if (typed.next() == "u") served->set_upright();
-  }
+  RunOnScreen screen(progress, "verp hil");
+  Keyboard keyboard(served);
+  observers.insert(observers.end(), {&screen, &keyboard});
+  std::vector<WalkResult> results =
+      session::run(session, {plan}, observers, [&](session::Robot& robot) {
+        auto made = session::make_served(robot, options);
+        served = made.get();
+        return made;
+      });
   progress.clear();
-  HilResult result{served->result(), {}};
-  result.walk = session.result(0);
-  return result;
+  if (!session.diverged().empty()) throw cli::ToolError(cli::kRunFailed, session.diverged());
+  return {served->result(), std::move(results.front())};
 }
 
 }  // namespace verp::tool

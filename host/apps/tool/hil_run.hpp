@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include "host/apps/tool/walk_run.hpp"
 #include "host/run/session/served.hpp"
 
@@ -15,6 +17,6 @@ struct HilResult : session::ServedResult {
 /// The twin of plan.entity answers a controller at the other end of a link (session::Served), until
 /// it or the walk is over; tells on stderr what happens. Throws what opening a link throws.
 HilResult serve_controller(const WalkPlan& plan, session::ServeOptions options,
-                           record::TraceWriter* trace, cli::Progress& progress, bool keep_series);
+                           cli::Progress& progress, std::vector<session::Observer*> observers);
 
 }  // namespace verp::tool

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/apps/cli/json.hpp"
+#include "host/run/session/session.hpp"
 
 namespace CLI {
 class App;
@@ -33,11 +34,14 @@ void declare_live(CLI::App& app, LiveOptions& options);
 
 /// What happens, to viewers on this PC while it happens (host/trace/live). Does nothing if nobody
 /// asked for it.
-class LiveStream {
+class LiveStream final : public session::Observer {
  public:
   /// Tells on stderr where it is. Throws ToolError: the port is not to be had.
   LiveStream(const std::string& command, const LiveOptions& options);
-  ~LiveStream();
+  ~LiveStream() override;
+
+  void begin(session::Session&) override { wait_for_viewer(); }
+  void end(session::Session&) override { finish(); }
 
   /// Who hears what a robot's trace is given; null: nobody. `name`: among several, empty if it is
   /// alone.

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <map>
 #include <memory>
 
 #include "host/apps/cli/console.hpp"
@@ -86,13 +87,17 @@ std::string build_firmware_of(const std::string& words, const std::string& board
   return (tree / "images").string();
 }
 
-void take_controller(const std::string& folder, std::vector<session::WalkPlan>& plans, bool show) {
-  if (folder.empty()) return;
-  const std::function<session::Decide()> own = own_controller(folder, show);
-  cli::Progress progress(show);
+void take_controllers(const scenario::Scenario& scenario, std::vector<session::WalkPlan>& plans,
+                      bool show) {
+  std::map<std::string, std::function<session::Decide()>> built;
   for (session::WalkPlan& plan : plans) {
-    if (!plan.link.empty()) continue;
+    const auto number = static_cast<std::size_t>(plan.number);
+    const std::string& folder = scenario.robots[number].controller.folder;
+    if (folder.empty() || !plan.link.empty()) continue;
+    auto& own = built[folder];
+    if (!own) own = own_controller(folder, show);
     plan.own = own;
+    cli::Progress progress(show);
     if (!plan.board.empty())
       plan.firmware_folder = build_firmware_of(folder, plan.board, "loop_" + plan.board, progress);
   }

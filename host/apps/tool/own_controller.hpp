@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host/apps/cli/progress.hpp"
+#include "host/run/scenario/scenario.hpp"
 #include "host/run/session/plan.hpp"
 
 namespace CLI {
@@ -23,8 +24,8 @@ std::function<session::Decide()> own_controller(const std::string& folder, bool 
 std::string build_firmware_of(const std::string& folder, const std::string& board,
                               const std::string& target, cli::Progress& progress);
 
-/// Has it decide for every robot that is driven from here, or by an emulated board. An empty
-/// `folder` changes nothing.
-void take_controller(const std::string& folder, std::vector<session::WalkPlan>& plans, bool show);
+/// Has each robot's own controller decide, for this PC or for its emulated board.
+void take_controllers(const scenario::Scenario& scenario, std::vector<session::WalkPlan>& plans,
+                      bool show);
 
 }  // namespace verp::tool

@@ -6,6 +6,7 @@
 #include <memory>
 #include <thread>
 
+#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/interrupt.hpp"
 #include "host/apps/cli/json.hpp"
@@ -18,8 +19,9 @@
 #include "host/apps/tool/run_params.hpp"
 #include "host/apps/tool/run_robot.hpp"
 #include "host/apps/tool/walk_files.hpp"
-#include "host/apps/tool/walk_plan.hpp"
 #include "host/apps/tool/walk_report.hpp"
+#include "host/apps/tool/walk_scenario.hpp"
+#include "host/author/action/get_up.hpp"
 #include "host/os/link/can_claim.hpp"
 #include "host/os/link/link.hpp"
 #include "host/os/link/link_error.hpp"
@@ -28,6 +30,7 @@
 #include "host/robot/model/load.hpp"
 #include "host/robot/model/params.hpp"
 #include "host/run/session/fault_names.hpp"
+#include "host/run/session/get_up.hpp"
 #include "host/run/session/stride.hpp"
 
 namespace verp::tool {
@@ -71,7 +74,8 @@ void let_robot_get_up(const RunWords& words, WalkPlan& walk) {
         "verp run: --get-up needs the IMU, which tells on which side the robot lies; "
         "leave out --get-up or --imu none");
   }
-  take_get_up_actions(walk);
+  walk.get_ups = session::kGetUpTries;
+  action::take_get_up_actions(walk);
 }
 
 RunPlan make_plan(const RunWords& words) {
@@ -98,10 +102,13 @@ RunPlan make_plan(const RunWords& words) {
   soften(walk.entity, words.gains_percent);
   walk.params = model::make_params(walk.entity);
   require_fit("verp run", words.link, walk.params);
-  apply_tuning(words.walk, walk.params.tuning);
+  scenario::tune(tuning_of(words.walk), walk.params.tuning);
   apply_run_params(words.params, walk.params);
   model::require_bus(walk.entity, walk.params);
-  if (words.action.empty()) ask_for_walk(words.walk, walk);
+  if (words.action.empty()) {
+    scenario::give_orders(orders_of(words.walk), walk);
+    walk.walk_s = words.walk.walk_s;
+  }
   if (words.take_orders) require_followed_orders(walk.params);
   if (words.get_up) let_robot_get_up(words, walk);
   if (!words.action.empty()) {
@@ -269,11 +276,12 @@ int run_robot(const RunWords& words) {
   const RunPlan plan = make_plan(words);
   if (!plan.walk.remark.empty()) cli::complain("verp run: " + plan.walk.remark);
   LiveStream live("verp run", words.walk.live);
-  record::mcap::StringMap facts = {{"link", words.link},
-                                   {"imu", plan.has_imu ? "bus" : "none: assumed upright"}};
+  record::mcap::StringMap facts = metadata_of(words.walk, plan.walk, scenario_of(words.walk, {}));
+  facts["link"] = words.link;
+  facts["imu"] = plan.has_imu ? "bus" : "none: assumed upright";
   if (plan.action != 0) facts["action"] = words.action;
   if (words.gains_percent < 100) facts["gains_percent"] = std::to_string(words.gains_percent);
-  WalkFiles files(words.walk, plan.walk, live.robot(), facts);
+  WalkFiles files(words.walk, plan.walk, facts, live.robot());
   live.wait_for_viewer();
   if (plan.link.kind == link::Endpoint::Kind::kCan) {
     link::CanPort port(plan.link);

@@ -23,6 +23,7 @@
 #include "host/robot/model/find.hpp"
 #include "host/robot/model/load.hpp"
 #include "host/robot/model/params.hpp"
+#include "host/run/scenario/expand.hpp"
 #include "host/run/shadow/live_check.hpp"
 #include "host/run/shadow/polled_check.hpp"
 
@@ -227,7 +228,7 @@ class ShadowRun {
 /// Params of the model, with the changes given to `verp run`.
 Params params_of(const ShadowWords& words, const model::Entity& entity) {
   Params params = model::make_params(entity);
-  apply_tuning(words.tuning, params.tuning);
+  scenario::tune(tuning_of(words.tuning), params.tuning);
   apply_run_params(words.params, params);
   return params;
 }

@@ -4,17 +4,17 @@
 #include <filesystem>
 #include <memory>
 
+#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/exit_status.hpp"
 #include "host/apps/cli/interrupt.hpp"
 #include "host/apps/cli/json.hpp"
 #include "host/apps/cli/progress.hpp"
-#include "host/apps/tool/commands.hpp"
 #include "host/os/files/whole.hpp"
 #include "host/robot/model/find.hpp"
 #include "host/robot/model/load.hpp"
 #include "host/robot/model/load_error.hpp"
-#include "host/robot/model/params.hpp"
+#include "host/run/scenario/expand.hpp"
 #include "host/study/survey/interval.hpp"
 #include "host/study/tune/tune.hpp"
 #include "host/study/tune/write.hpp"
@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kQuickGenerations = 8, kGenerations = 40;
 constexpr int kQuickChecks = 10, kChecks = 30;
-constexpr std::uint32_t kStep_us = 2000;  // of physics; the walks of `verp walk` are of 1 ms
+constexpr double kPhysicsStep_ms = 2;  // the walks of `verp walk` are of 1 ms
 
 struct TuneWords {
   std::string model, file;
@@ -102,11 +102,12 @@ void require_place(const std::string& file, const std::filesystem::path& robot_f
 int run_tune(const TuneWords& words) {
   const std::filesystem::path robot_file = model::find_model(words.model);
   if (!words.file.empty()) require_place(words.file, robot_file);
-  session::WalkPlan plan;
-  plan.entity = model::load_robot_on_any_bus(robot_file, "");
-  plan.params = model::make_params(plan.entity);
-  sim::WorldOptions world;
-  world.step_us = kStep_us;
+  scenario::Robot robot;
+  robot.orders = scenario::Velocity{.vx_m_s = words.speed_m_s, .vy_m_s = 0, .wz_rad_s = 0};
+  const session::WalkPlan plan =
+      scenario::plan_of(robot, 0, model::load_robot_on_any_bus(robot_file, ""));
+  const sim::WorldOptions world =
+      scenario::world_of({.file = {}, .physics_step_ms = kPhysicsStep_ms});
   cli::catch_interrupts();
   cli::Progress progress(!words.json);
   survey::Watch watch;

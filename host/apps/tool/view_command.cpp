@@ -56,9 +56,9 @@ CLI::App* declare_view(CLI::App& root, ViewOptions& words) {
   options.walk_s = 20;
   declare(*app, options);
   // Removes the options of unattended runs.
-  for (const char* name :
-       {"--report", "--record-state", "--compress", "--json", "--sweep-step", "--seeds", "--on",
-        "--list-quantities", "--cameras", "--real-time", "--patience", "--if-lost-go-on"}) {
+  for (const char* name : {"--report", "--record-state", "--compress", "--json", "--sweep-step",
+                           "--seeds", "--on", "--list-quantities", "--cameras", "--real-time",
+                           "--patience", "--if-lost-go-on", "--print-scenario"}) {
     app->remove_option(app->get_option(name));
   }
   app->get_option("MODEL")->description(

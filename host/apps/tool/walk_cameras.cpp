@@ -32,16 +32,16 @@ struct WalkCameras::Seen {
   std::unique_ptr<camera::Recorder> recorder = {};
 };
 
-WalkCameras::WalkCameras(const WalkOptions& options, WalkPlan& plan,
-                         const std::vector<WalkPlan>& others, const sim::WorldOptions& world,
-                         record::TraceWriter* trace)
-    : seen_(new Seen{need_trace(plan, trace)}) {
-  plan.twin.cameras = true;
-  camera::Stage stage{.robots = {{plan.entity.file, plan.twin.seed}},
+WalkCameras::WalkCameras(Walk& walk, record::TraceWriter* trace)
+    : seen_(new Seen{need_trace(walk.run.plans.front(), trace)}) {
+  walk.run.plans.front().twin.cameras = true;
+  const sim::WorldOptions& world = walk.run.world;
+  camera::Stage stage{.robots = {},
                       .world_file = world.scenery == nullptr ? "" : world.scenery->file};
-  for (const WalkPlan& other : others) stage.robots.push_back({other.entity.file, other.twin.seed});
+  for (const WalkPlan& plan : walk.run.plans)
+    stage.robots.push_back({plan.entity.file, plan.twin.seed});
   const auto pace =
-      options.real_time ? camera::Rig::Pace::kNeverWaits : camera::Rig::Pace::kEveryPicture;
+      walk.scenario.real_time ? camera::Rig::Pace::kNeverWaits : camera::Rig::Pace::kEveryPicture;
   try {
     seen_->rig = std::make_unique<camera::Rig>(camera::find_program(), stage, pace);
   } catch (const camera::CameraError& error) {
@@ -51,7 +51,8 @@ WalkCameras::WalkCameras(const WalkOptions& options, WalkPlan& plan,
 
 WalkCameras::~WalkCameras() = default;
 
-void WalkCameras::watch(const WalkPlan& plan, session::Hooks& hooks) {
+void WalkCameras::join(std::size_t index, const WalkPlan& plan, session::Hooks& hooks) {
+  if (index != 0) return;
   seen_->recorder =
       std::make_unique<camera::Recorder>(*seen_->rig, plan.entity, plan.params, seen_->trace);
   hooks.exposed = [this](const sim::Exposure& exposure, std::uint64_t stamp_ns) {
@@ -59,7 +60,7 @@ void WalkCameras::watch(const WalkPlan& plan, session::Hooks& hooks) {
   };
 }
 
-void WalkCameras::finish() {
+void WalkCameras::end(session::Session&) {
   seen_->recorder->finish();
 }
 

@@ -3,26 +3,24 @@
 #include <string>
 
 #include "host/apps/cli/json.hpp"
-#include "host/apps/tool/walk_options.hpp"
-#include "host/apps/tool/walk_plan.hpp"
+#include "host/apps/tool/walk_run.hpp"
+#include "host/apps/tool/walk_scenario.hpp"
 #include "host/run/session/session.hpp"
 
 namespace verp::tool {
 
 /// What the cameras of the robot that walks see, into its trace: --cameras. A program beside this
 /// one draws it (host/show/camera).
-class WalkCameras {
+class WalkCameras final : public session::Observer {
  public:
-  /// Has the plan's twin say when its cameras look. Throws ToolError: there is no camera, no trace,
-  /// or nothing that draws.
-  WalkCameras(const WalkOptions& options, WalkPlan& plan, const std::vector<WalkPlan>& others,
-              const sim::WorldOptions& world, record::TraceWriter* trace);
-  ~WalkCameras();
+  /// Has the first robot's twin say when its cameras look. Throws ToolError: there is no camera, no
+  /// trace, or nothing that draws.
+  WalkCameras(Walk& walk, record::TraceWriter* trace);
+  ~WalkCameras() override;
 
-  /// The hooks of the robot that walks, before it is added to the session.
-  void watch(const WalkPlan& plan, session::Hooks& hooks);
+  void join(std::size_t index, const WalkPlan& plan, session::Hooks& hooks) override;
   /// Waits for the last pictures.
-  void finish();
+  void end(session::Session& session) override;
 
   std::string text(double run_s) const;
   cli::Json json() const;

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/interrupt.hpp"
 #include "host/apps/tool/commands.hpp"
@@ -13,28 +15,13 @@
 #include "host/apps/tool/walk_cameras.hpp"
 #include "host/apps/tool/walk_ending.hpp"
 #include "host/apps/tool/walk_map.hpp"
-#include "host/apps/tool/walk_plan.hpp"
 #include "host/apps/tool/walk_radio.hpp"
 #include "host/apps/tool/walk_seeds.hpp"
 #include "host/apps/tool/walk_team.hpp"
+#include "host/run/scenario/text.hpp"
 
 namespace verp::tool {
 namespace {
-
-void add_cameras(const WalkCameras& cameras, const Walks& walks, Drawn& drawn, WalkFiles& files) {
-  drawn.text += cameras.text(walks.took_s);
-  drawn.json["cameras"] = cameras.json();
-  if (!cameras.failure().empty()) files.lose(cameras.failure());
-}
-
-void add_deadlines(const app::Deadlines& deadlines, Drawn& drawn) {
-  drawn.text += fmt::format("  {:<18}{} ticks, {} late, the worst began {:.1f} ms after its time\n",
-                            "real time", deadlines.ticks, deadlines.missed,
-                            1e-3 * static_cast<double>(deadlines.worst_late_us));
-  drawn.json["deadlines"] = {{"ticks", deadlines.ticks},
-                             {"missed", deadlines.missed},
-                             {"worst_late_us", deadlines.worst_late_us}};
-}
 
 /// Said of controllers outside, where there is none: something is not as its user thinks.
 void require_outside(const WalkOptions& options, const std::vector<WalkPlan>& plans) {
@@ -59,79 +46,116 @@ void refuse_of_outside(const WalkOptions& options, const WalkPlan& first) {
       "one, or have the controller outside record its own");
 }
 
-std::string first_name(const WalkPlan& plan) {
-  return plan.name.empty() ? plan.params.name : plan.name;
-}
-
 /// Robots of one world have seeds in a row: those of two walks would be the same ones in part, and
 /// no share could be told of them.
-void require_one_robot(const WalkOptions& options, const std::vector<WalkPlan>& others) {
+void require_one_robot(const WalkOptions& options, const std::vector<WalkPlan>& plans) {
   const char* option = !options.seeds_text.empty() ? "--seeds"
                        : !options.map.kind.empty() ? "--map"
                                                    : nullptr;
-  if (option == nullptr || others.empty()) return;
+  if (option == nullptr || plans.size() == 1) return;
   throw cli::ToolError(cli::kBadInput,
                        fmt::format("verp walk: {} is of walks of one robot; leave the others "
                                    "out",
                                    option));
 }
 
-int run_walk(WalkOptions options) {
-  read_robot_words(options);
-  sim::WorldOptions world = world_of(options);
-  std::vector<WalkPlan> others = make_plans(options, world);
-  require_outside(options, others);
-  if (!options.touch.list) take_controller(options.controller, others, !options.json);
-  WalkPlan plan = others.front();
-  others.erase(others.begin());
-  if (options.touch.list) return list_quantities(plan, others, world, options.json);
-  read_touch(options.touch, plan, others, world);
-  require_one_robot(options, others);
-  if (!options.seeds_text.empty()) {
-    if (!options.model_given) options.model = plan.params.name;
-    return walk_seeds(options);
+/// What observes a walk, besides the trace.
+struct Observers {
+  Observers(const WalkOptions& options, Walk& walk, RunFiles& files, LiveStream& live,
+            cli::Progress& progress)
+      : screen(progress, options.command) {
+    all = {&files, &screen, &live};
+    if (walk.scenario.radio) radio.emplace(walk.scenario);
+    if (options.cameras) cameras.emplace(walk, files.first().trace());
+    if (walk.scenario.real_time) pace.emplace(walk);
+    if (radio) all.push_back(&*radio);
+    if (cameras) all.push_back(&*cameras);
+    if (pace) all.push_back(&*pace);
   }
-  if (!options.map.kind.empty()) return walk_map(options, plan, world);
-  Drawn drawn = draw(options, plan, world);
-  for (WalkPlan& other : others) {
-    sim::WorldOptions same = world;  // of the floor, the first one's draw holds
-    draw(options, other, same);
+
+  /// What they have to say in the end.
+  void add_to(Drawn& more, double took_s) const {
+    if (radio) {
+      more.json["radio"] = radio->json();
+      more.text += radio->text();
+    }
+    if (cameras) {
+      more.text += cameras->text(took_s);
+      more.json["cameras"] = cameras->json();
+    }
+    if (!pace) return;
+    const app::Deadlines& deadlines = pace->deadlines();
+    more.text += fmt::format(
+        "  {:<18}{} ticks, {} late, the worst began {:.1f} ms after its time\n", "real time",
+        deadlines.ticks, deadlines.missed, 1e-3 * static_cast<double>(deadlines.worst_late_us));
+    more.json["deadlines"] = {{"ticks", deadlines.ticks},
+                              {"missed", deadlines.missed},
+                              {"worst_late_us", deadlines.worst_late_us}};
   }
+
+  RunOnScreen screen;
+  std::optional<WalkRadio> radio;
+  std::optional<WalkCameras> cameras;
+  std::optional<RealTimePace> pace;
+  std::vector<session::Observer*> all;
+};
+
+/// Runs it, tells of it, and returns the exit status.
+int walk_once(WalkOptions options, Walk& walk) {
+  const WalkPlan& first = walk.run.plans.front();
   sweep_of(options);  // before the long run: a mistake in it is found now
-  refuse_of_outside(options, plan);
-  check_radio(options, plan, others);
-  if (options.report_folder.empty() && !options.json && plan.link.empty())
+  refuse_of_outside(options, first);
+  check_radio(walk);
+  if (options.report_folder.empty() && !options.json && first.link.empty())
     options.report_folder = "report";
-  options.board = plan.board;
   LiveStream live("verp walk", options.live);
-  WalkFiles files(options, plan, live.robot(others.empty() ? "" : first_name(plan)));
-  OtherFiles other_files(options, files, others, live);
-  std::unique_ptr<WalkCameras> cameras;
-  if (options.cameras)
-    cameras = std::make_unique<WalkCameras>(options, plan, others, world, files.trace());
-  live.wait_for_viewer();
+  RunFiles files(options, walk, live);
   cli::Progress progress(!options.json);
-  const Walks walks =
-      walk_together(plan, others, options, world, files, other_files, progress, cameras.get());
-  live.finish();
-  const WalkResult& result = walks.result;
-  const Sweep swept = sweep(plan, options, progress);
+  Observers observers(options, walk, files, live, progress);
+  const Walks walks = walk_together(walk, observers.all, progress);
+  const WalkResult& result = walks.results.front();
+  const Sweep swept = sweep(first, options, progress);
   progress.clear();
-  other_files.finish(walks);
-  drawn.json["changes"] = touch_json(result);
-  drawn.json.update(team_json(walks, others, other_files, world));
-  drawn.text += touch_text(result) + team_text(walks, others, other_files, world);
-  if (cameras) add_cameras(*cameras, walks, drawn, files);
-  if (options.real_time) add_deadlines(walks.deadlines, drawn);
-  live.add_to(drawn.json);
-  drawn.text += live.text();
+  files.finish_others(walks.results);
+  Drawn more = drawn_of(walk);
+  more.json["changes"] = touch_json(result);
+  more.json.update(team_json(walk, walks, files));
+  more.text += touch_text(result) + team_text(walk, walks, files);
+  observers.add_to(more, walks.took_s);
+  if (observers.cameras && !observers.cameras->failure().empty())
+    files.first().lose(observers.cameras->failure());
+  live.add_to(more.json);
+  more.text += live.text();
   if (result.good()) {
-    for (const std::string& line : never_done(plan, result)) cli::complain(line);
+    for (const std::string& line : never_done(first, result)) cli::complain(line);
   }
-  const int status = finish_walk(plan, options, files, result, swept, drawn.json, drawn.text);
-  const std::vector<std::string> failures = failures_of(walks, other_files);
+  const scenario::Robot& robot = walk.scenario.robots[static_cast<std::size_t>(first.number)];
+  const int status =
+      finish_walk(first, options, robot.orders, files.first(), result, swept, more.json, more.text);
+  const std::vector<std::string> failures = failures_of(walk, walks, files);
   for (const std::string& line : failures) cli::complain(line);
   return failures.empty() ? status : std::max(status, int{cli::kRunFailed});
+}
+
+int run_walk(WalkOptions options) {
+  read_robot_words(options);
+  if (options.touch.list) {  // of the robot as it is
+    options.vary = false;
+    options.touch.pushes.clear();
+    options.touch.settings.clear();
+  }
+  Walk walk = walk_of(options);
+  require_outside(options, walk.run.plans);
+  if (options.print_scenario) return cli::answer(scenario::print(walk.scenario)), cli::kGood;
+  if (options.touch.list) return list_quantities(walk.run, options.json);
+  take_controllers(walk.scenario, walk.run.plans, !options.json);
+  require_one_robot(options, walk.run.plans);
+  if (!options.seeds_text.empty()) {
+    if (!options.model_given) options.model = walk.run.plans.front().params.name;
+    return walk_seeds(options);
+  }
+  if (!options.map.kind.empty()) return walk_map(options, walk);
+  return walk_once(std::move(options), walk);
 }
 
 }  // namespace

@@ -26,25 +26,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kTraceName = "run.mcap";
 
-record::mcap::StringMap metadata(const WalkPlan& plan, const WalkOptions& options) {
-  std::string changed;
-  for (const auto& [name, value] : options.changed) {
-    changed += (changed.empty() ? "" : " ") + name + (value.empty() ? "" : " " + value);
-  }
-  return {{"robot", plan.params.name},
-          {"model_file", plan.entity.file},
-          {"world_file", world_file(options)},
-          {"seed", std::to_string(plan.twin.seed)},
-          {"step_m", fmt::format("{}", options.step_m)},
-          {"cycle_s", fmt::format("{}", plan.params.tuning.gait.cycle_s)},
-          {"velocity", options.velocity_text},
-          {"walk_s", fmt::format("{}", options.walk_s)},
-          {"changed", changed},
-          {"own_controller",
-           options.controller.empty() ? "" : fs::weakly_canonical(options.controller).string()},
-          {"controller", options.board.empty() ? "this PC" : options.board}};
-}
-
 /// The words that a process was started with, its program's without the folder.
 std::string words_of(int process) {
   std::string words = files::read(fmt::format("/proc/{}/cmdline", process)).value_or("");
@@ -81,13 +62,8 @@ void make_folder(const fs::path& folder) {
   ::unlink(probe.c_str());
 }
 
-std::string world_file(const WalkOptions& options) {
-  const std::string& world = options.place.world;
-  return fs::is_regular_file(world) ? fs::absolute(world).string() : world;
-}
-
 WalkFiles::WalkFiles(const WalkOptions& options, const WalkPlan& plan,
-                     record::mcap::Listener* listener, const record::mcap::StringMap& more)
+                     const record::mcap::StringMap& metadata, record::mcap::Listener* listener)
     : folder_(options.report_folder) {
   if (wants_report()) make_folder(folder_);
   if (!options.record_file.empty()) {
@@ -95,11 +71,12 @@ WalkFiles::WalkFiles(const WalkOptions& options, const WalkPlan& plan,
   } else if (wants_report()) {
     trace_path_ = folder_ / kTraceName;
   }
-  if (!trace_path_.empty() || listener != nullptr) open_trace(options, plan, listener, more);
+  if (!trace_path_.empty() || listener != nullptr) open_trace(options, plan, metadata, listener);
 }
 
 void WalkFiles::open_trace(const WalkOptions& options, const WalkPlan& plan,
-                           record::mcap::Listener* listener, const record::mcap::StringMap& more) {
+                           const record::mcap::StringMap& metadata,
+                           record::mcap::Listener* listener) {
   if (trace_is_in_folder() && report::is_of_the_report(trace_path_.filename().string())) {
     throw cli::ToolError(cli::kBadInput,
                          fmt::format("{}: the report has a file of that name; choose another "
@@ -111,10 +88,8 @@ void WalkFiles::open_trace(const WalkOptions& options, const WalkPlan& plan,
     lock.emplace(trace_path_.has_parent_path() ? trace_path_.parent_path() : ".");
     refuse_second_recorder(options.command, trace_path_);
   }
-  record::mcap::StringMap run = metadata(plan, options);
-  for (const auto& [key, value] : more) run[key] = value;
   trace_ = std::make_unique<record::TraceWriter>(
-      trace_path_, plan.params, run,
+      trace_path_, plan.params, metadata,
       record::TraceOptions{.every_state = options.record_state,
                            .actions = plan.actions,
                            .compress = options.compress,

@@ -15,18 +15,14 @@ namespace verp::tool {
 /// A folder into which a file can be put: known now, not after a long walk. Throws ToolError.
 void make_folder(const std::filesystem::path& folder);
 
-/// Of --world, as find_world() finds it again wherever that is asked; empty: none.
-std::string world_file(const WalkOptions& options);
-
 /// What a walk leaves on the disk: a trace and a report. What the disk refuses before the walk ends
 /// the program; what it refuses later costs that file, is told, and never costs the walk's result.
 class WalkFiles {
  public:
-  /// Makes the folder, opens the trace; `more` joins its metadata. Throws ToolError or TraceError
-  /// when there is no place.
+  /// Makes the folder, opens the trace. Throws ToolError or TraceError when there is no place.
   /// `listener` hears what the trace is given, be there a file or none.
   WalkFiles(const WalkOptions& options, const WalkPlan& plan,
-            record::mcap::Listener* listener = nullptr, const record::mcap::StringMap& more = {});
+            const record::mcap::StringMap& metadata, record::mcap::Listener* listener = nullptr);
 
   /// Null when none is wanted, and nobody listens.
   record::TraceWriter* trace() { return trace_.get(); }
@@ -49,7 +45,7 @@ class WalkFiles {
 
  private:
   void open_trace(const WalkOptions& options, const WalkPlan& plan,
-                  record::mcap::Listener* listener, const record::mcap::StringMap& more);
+                  const record::mcap::StringMap& metadata, record::mcap::Listener* listener);
   void close_trace(const WalkResult& result);
   void lose_trace(const std::string& why);
   void add_replay(report::Run& run);

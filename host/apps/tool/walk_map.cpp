@@ -10,7 +10,7 @@
 #include "host/apps/cli/interrupt.hpp"
 #include "host/apps/tool/walk_files.hpp"
 #include "host/apps/tool/walk_map_report.hpp"
-#include "host/apps/tool/walk_plan.hpp"
+#include "host/apps/tool/walk_scenario.hpp"
 #include "host/os/files/folder_lock.hpp"
 #include "host/study/report/report.hpp"
 #include "host/study/survey/words.hpp"
@@ -123,14 +123,16 @@ int leave(const WalkOptions& options, const std::filesystem::path& folder, MapTo
 
 }  // namespace
 
-int walk_map(const WalkOptions& options, WalkPlan plan, sim::WorldOptions world) {
+int walk_map(const WalkOptions& options, const Walk& walk) {
+  WalkPlan plan = walk.run.plans.front();
+  const sim::WorldOptions& world = walk.run.world;
   const bool push = options.map.kind != "stability";
   if (!options.map.length_given) plan.walk_s = push ? usual_push_s(plan) : kLength_s;
   std::optional<survey::PushOptions> pushes;
   std::optional<survey::StabilityOptions> velocities;
   push ? void(pushes = push_options(options, plan))
        : void(velocities = stability_options(options, plan));
-  const Drawn drawn = draw(options, plan, world);
+  const Drawn drawn = drawn_of(walk);
   const std::filesystem::path folder =
       options.report_folder.empty() && !options.json ? "report" : options.report_folder;
   if (!folder.empty()) make_folder(folder);

@@ -11,6 +11,7 @@ class App;
 namespace verp::tool {
 
 struct WalkOptions;
+struct Walk;
 
 /// Options for many walks that make one map (host/study/survey): --map, --map-grid.
 struct MapOptions {
@@ -26,6 +27,6 @@ void declare(CLI::App& app, MapOptions& options);
 
 /// Surveys, answers in text or JSON, writes the page. What is done when somebody interrupts is told
 /// all the same, with exit status 1. Throws ToolError.
-int walk_map(const WalkOptions& options, WalkPlan plan, sim::WorldOptions world);
+int walk_map(const WalkOptions& options, const Walk& walk);
 
 }  // namespace verp::tool

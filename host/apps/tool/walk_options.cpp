@@ -50,7 +50,8 @@ double decimal(float value) {
   return std::stod(fmt::format("{:g}", value));
 }
 
-void set_by_name(Tuning& tuning, const std::string& setting, const std::string& command) {
+void set_by_name(std::map<std::string, double>& tuning, const std::string& setting,
+                 const std::string& command) {
   const std::size_t equals = setting.find('=');
   const std::string name = setting.substr(0, equals);
   const auto id = model::tuning_id(name);
@@ -71,9 +72,8 @@ void set_by_name(Tuning& tuning, const std::string& setting, const std::string& 
   }
   // Ranges are float32: 0.03 is inside one that ends at 0.03F, whatever its double is.
   const Range& range = kTuningRanges[*id];
-  const double value = number(command, "--set " + name, setting.substr(equals + 1),
-                              decimal(range.low), decimal(range.high), "");
-  set_tuning_value(tuning, *id, std::clamp(static_cast<float>(value), range.low, range.high));
+  tuning[name] = number(command, "--set " + name, setting.substr(equals + 1), decimal(range.low),
+                        decimal(range.high), "");
 }
 
 }  // namespace
@@ -130,10 +130,20 @@ void declare_falls(CLI::App& app, WalkOptions& options) {
       ->capture_default_str();
 }
 
+namespace {
+
+/// Options that change no bit of a run.
+const std::set<std::string> kOfNoEffect = {
+    "--json",    "--report",    "--record", "--record-state", "--compress",
+    "--cameras", "--real-time", "--live",   "--live-wait",    "--live-origin"};
+
+/// Options that say nothing of the run beside its file.
+const std::set<std::string> kBesideScenario = {"--scenario", "--print-scenario",
+                                               "--list-quantities", "--link", "--gamepad"};
+
+}  // namespace
+
 std::vector<std::pair<std::string, std::string>> changed_options(const CLI::App& app) {
-  const std::set<std::string> kOfNoEffect = {
-      "--json",    "--report",    "--record", "--record-state", "--compress",
-      "--cameras", "--real-time", "--live",   "--live-wait",    "--live-origin"};
   std::vector<std::pair<std::string, std::string>> changed;
   for (const CLI::Option* option : app.get_options()) {
     if (option->count() == 0 || option->get_positional() ||
@@ -207,6 +217,26 @@ void declare(CLI::App& app, WalkOptions& options) {
   declare(app, options.map);
   declare_live(app, options.live);
   for (const char* many : {"--seeds", "--map"}) app.get_option("--live")->excludes(many);
+  app.add_flag("--print-scenario", options.print_scenario,
+               "print the run as a scenario file, and do not run it");
+  app.add_option(
+      "--scenario", options.scenario_file,
+      "the run that this file describes (JSON; --print-scenario prints one), in place of "
+      "the options that do");
+}
+
+void refuse_beside_scenario(const WalkOptions& options) {
+  const auto refuse = [&](const std::string& name) {
+    throw cli::ToolError(
+        cli::kBadInput,
+        fmt::format("{}: {} says how the run is, and so does --scenario {}; leave one out",
+                    options.command, name, options.scenario_file));
+  };
+  if (options.scenario_file.empty()) return;
+  if (options.model_given) refuse(options.model);
+  for (const auto& [name, value] : options.changed) {
+    if (!kBesideScenario.contains(name)) refuse(name);
+  }
 }
 
 void require_serial(const std::string& command, const model::Entity& entity) {
@@ -228,35 +258,21 @@ void require_fit(const std::string& command, const std::string& link, const Para
                                   model::protocol_name(params.bus_protocol)));
 }
 
-Command velocity_of(const WalkOptions& options, const GaitTuning& gait, double step_m) {
-  if (options.stand) return {};
-  double vx_m_s = 2 * step_m / decimal(gait.cycle_s), vy_m_s = 0, wz_rad_s = 0;
-  if (!options.velocity_text.empty()) {
-    const std::vector<std::string> parts = split(options.velocity_text, ',');
-    if (parts.size() != 3) {
-      throw cli::ToolError(cli::kBadInput,
-                           fmt::format("{}: --velocity '{}' is not VX,VY,WZ; example: 0.1,0,0.2",
-                                       options.command, options.velocity_text));
-    }
-    vx_m_s =
-        number(options.command, "--velocity VX", parts[0], -kMaxSpeed_m_s, kMaxSpeed_m_s, "m/s");
-    vy_m_s =
-        number(options.command, "--velocity VY", parts[1], -kMaxSpeed_m_s, kMaxSpeed_m_s, "m/s");
-    wz_rad_s = number(options.command, "--velocity WZ", parts[2], -kMaxTurn_rad_s, kMaxTurn_rad_s,
-                      "rad/s");
+scenario::Orders orders_of(const WalkOptions& options) {
+  if (options.stand) return scenario::Stand{};
+  if (options.velocity_text.empty()) return scenario::Ahead{options.step_m};
+  const std::vector<std::string> parts = split(options.velocity_text, ',');
+  if (parts.size() != 3) {
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("{}: --velocity '{}' is not VX,VY,WZ; example: 0.1,0,0.2",
+                                     options.command, options.velocity_text));
   }
-  Command command;
-  command.vx_tenth_mm_s = static_cast<std::int16_t>(std::lround(1e4 * vx_m_s));
-  command.vy_tenth_mm_s = static_cast<std::int16_t>(std::lround(1e4 * vy_m_s));
-  command.wz_mrad_s = static_cast<std::int16_t>(std::lround(1e3 * wz_rad_s));
-  return command;
-}
-
-sim::WorldOptions world_of(const WalkOptions& options) {
-  sim::WorldOptions world;
-  world.step_us = static_cast<std::uint32_t>(std::lround(1e3 * options.physics_step_ms));
-  read_place(options.place, world);
-  return world;
+  const auto part = [&](std::size_t i, const char* name, double most, const char* unit) {
+    return number(options.command, name, parts[i], -most, most, unit);
+  };
+  return scenario::Velocity{part(0, "--velocity VX", kMaxSpeed_m_s, "m/s"),
+                            part(1, "--velocity VY", kMaxSpeed_m_s, "m/s"),
+                            part(2, "--velocity WZ", kMaxTurn_rad_s, "rad/s")};
 }
 
 void read_robot_words(WalkOptions& options) {
@@ -309,13 +325,15 @@ std::vector<double> sweep_of(const WalkOptions& options) {
                                    options.sweep_text, kMaxSweep));
 }
 
-void apply_tuning(const WalkOptions& options, Tuning& tuning) {
-  if (options.cycle_s > 0) tuning.gait.cycle_s = static_cast<float>(options.cycle_s);
+std::map<std::string, double> tuning_of(const WalkOptions& options) {
+  std::map<std::string, double> tuning;
+  if (options.cycle_s > 0) tuning["gait.cycle_s"] = options.cycle_s;
   for (const std::string& setting : options.settings) set_by_name(tuning, setting, options.command);
-  if (options.no_multibody) tuning.balance.multibody_enable = 0;
-  if (options.no_feedback) tuning.balance.feedback_enable = 0;
-  if (options.no_gravity) tuning.balance.gravity_enable = 0;
-  if (options.no_zeros) tuning.balance.zeros_enable = 0;
+  if (options.no_multibody) tuning["balance.multibody_enable"] = 0;
+  if (options.no_feedback) tuning["balance.feedback_enable"] = 0;
+  if (options.no_gravity) tuning["balance.gravity_enable"] = 0;
+  if (options.no_zeros) tuning["balance.zeros_enable"] = 0;
+  return tuning;
 }
 
 }  // namespace verp::tool

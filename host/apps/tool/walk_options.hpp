@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,7 +13,7 @@
 #include "host/apps/tool/walk_place.hpp"
 #include "host/apps/tool/walk_touch.hpp"
 #include "host/robot/model/entity.hpp"
-#include "host/twin/sim/world.hpp"
+#include "host/run/scenario/scenario.hpp"
 
 namespace CLI {
 class App;
@@ -50,6 +51,8 @@ struct WalkOptions {
   PlaceOptions place;
   MapOptions map;
   TeamOptions team;
+  std::string scenario_file;  ///< in place of all options that describe a run
+  bool print_scenario = false;
   std::optional<std::string> radio;      ///< its numbers in words; none: nobody has one
   std::vector<std::string> robot_words;  ///< of `verp walk`: MODEL, --robot
   bool model_given = false;
@@ -83,18 +86,11 @@ void require_serial(const std::string& command, const model::Entity& entity);
 /// Throws ToolError unless the robot's bus is CAN where `link` is a CAN interface, and only there.
 void require_fit(const std::string& command, const std::string& link, const Params& params);
 
-/// Velocity asked for: --velocity, or two steps a cycle of that gait straight ahead. Throws
-/// ToolError.
-Command velocity_of(const WalkOptions& options, const GaitTuning& gait, double step_m);
-
-/// Throws ToolError, with the boards there are, when --on names none of them.
-void check_board(const WalkOptions& options);
-
-/// --physics-step.
-sim::WorldOptions world_of(const WalkOptions& options);
-
 /// Takes MODEL and the robots with names of their own out of `robot_words`. Throws ToolError.
 void read_robot_words(WalkOptions& options);
+
+/// A file describes a whole run. Throws ToolError for an option that says something else of it.
+void refuse_beside_scenario(const WalkOptions& options);
 
 /// First and last of --seeds. Throws ToolError.
 std::pair<std::uint64_t, std::uint64_t> seeds_of(const WalkOptions& options);
@@ -102,8 +98,10 @@ std::pair<std::uint64_t, std::uint64_t> seeds_of(const WalkOptions& options);
 /// Step lengths of --sweep-step; empty when it was not given. Throws ToolError.
 std::vector<double> sweep_of(const WalkOptions& options);
 
-/// Applies --cycle, --set and --no-... to the robot's tuning. Throws ToolError for unknown names
-/// and values out of range.
-void apply_tuning(const WalkOptions& options, Tuning& tuning);
+/// What --cycle, --set and --no-... change of the robot's tuning. Throws ToolError for unknown
+/// names and values out of range.
+std::map<std::string, double> tuning_of(const WalkOptions& options);
+/// --stand, --velocity or --step. Throws ToolError.
+scenario::Orders orders_of(const WalkOptions& options);
 
 }  // namespace verp::tool

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "host/apps/cli/command.hpp"
-#include "host/robot/model/load_world.hpp"
 #include "host/robot/model/number.hpp"
 
 namespace verp::tool {
@@ -20,15 +19,10 @@ void declare(CLI::App& app, PlaceOptions& options) {
                  "NAME=X,Y,YAW");
 }
 
-void read_place(const PlaceOptions& options, sim::WorldOptions& world) {
-  if (options.world.empty()) return;
-  world = sim::furnished(world, model::load_world(model::find_world(options.world)));
-}
-
 namespace {
 
 /// Throws ToolError unless `text` is X,Y,YAW.
-void place_robot(const std::string& text, WalkPlan& plan) {
+void place_robot(const std::string& text, scenario::Robot& robot) {
   constexpr double kFar_m = 1000;
   std::string spaced = text;
   for (char& c : spaced) c = c == ',' ? ' ' : c;
@@ -41,26 +35,24 @@ void place_robot(const std::string& text, WalkPlan& plan) {
         cli::kBadInput,
         fmt::format("verp walk: --at-pose '{}' is not X,Y,YAW; example: 1,0.5,1.57", text));
   }
-  plan.twin.start_m.x() = (*value)[0];
-  plan.twin.start_m.y() = (*value)[1];
-  plan.twin.start_yaw_rad = (*value)[2];
+  robot.at = {(*value)[0], (*value)[1], (*value)[2]};
 }
 
 }  // namespace
 
-void place_robots(const PlaceOptions& options, std::vector<WalkPlan>& plans) {
+void place_robots(const PlaceOptions& options, std::vector<scenario::Robot>& robots) {
   for (const std::string& text : options.poses) {
     const std::size_t equals = text.find('=');
-    if (equals == std::string::npos && plans.size() == 1) {
-      place_robot(text, plans.front());
+    if (equals == std::string::npos && robots.size() == 1) {
+      place_robot(text, robots.front());
       continue;
     }
     const std::string name = equals == std::string::npos ? "" : text.substr(0, equals);
-    const auto robot = std::find_if(plans.begin(), plans.end(),
-                                    [&](const WalkPlan& plan) { return plan.name == name; });
-    if (robot == plans.end() || name.empty()) {
+    const auto robot = std::find_if(robots.begin(), robots.end(),
+                                    [&](const auto& each) { return each.name == name; });
+    if (robot == robots.end() || name.empty()) {
       std::string names;
-      for (const WalkPlan& plan : plans) names += (names.empty() ? "" : ", ") + plan.name;
+      for (const auto& each : robots) names += (names.empty() ? "" : ", ") + each.name;
       throw cli::ToolError(cli::kBadInput,
                            fmt::format("verp walk: --at-pose {}: say whose it is: "
                                        "NAME=X,Y,YAW, with a name out of: {}",

@@ -3,9 +3,8 @@
 #include <vector>
 
 #include "host/apps/cli/json.hpp"
-#include "host/apps/tool/walk_run.hpp"
+#include "host/run/scenario/scenario.hpp"
 #include "host/twin/sim/scenery.hpp"
-#include "host/twin/sim/world.hpp"
 
 namespace CLI {
 class App;
@@ -21,10 +20,8 @@ struct PlaceOptions {
 
 void declare(CLI::App& app, PlaceOptions& options);
 
-/// Reads the world's file into what the twin's world is made of. Throws LoadError.
-void read_place(const PlaceOptions& options, sim::WorldOptions& world);
 /// Puts robots to their --at-pose; one that stands alone needs no name there. Throws ToolError.
-void place_robots(const PlaceOptions& options, std::vector<WalkPlan>& plans);
+void place_robots(const PlaceOptions& options, std::vector<scenario::Robot>& robots);
 
 /// Of the world that can be pushed or move, and where it ended.
 cli::Json objects_of(const sim::Scenery& scenery);

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "host/apps/cli/exit_status.hpp"
-#include "host/apps/tool/radio_words.hpp"
 #include "host/trace/record/ros_radio.hpp"
 #include "host/trace/record/trace_error.hpp"
 #include "host/twin/bus/modem_device.hpp"
@@ -44,20 +43,18 @@ void check_modem(const session::WalkPlan& plan) {
 
 }  // namespace
 
-void check_radio(const WalkOptions& options, const session::WalkPlan& first,
-                 const std::vector<session::WalkPlan>& others) {
-  if (!options.radio) return;
-  radio_of("verp walk", *options.radio);
-  if (others.empty()) {
+void check_radio(const Walk& walk) {
+  if (!walk.scenario.radio) return;
+  const std::vector<session::WalkPlan>& plans = walk.run.plans;
+  if (plans.size() == 1) {
     throw cli::ToolError(
         cli::kBadInput,
         "verp walk --radio: one robot has nobody to talk to; add another one: --robot "
         "NAME=MODEL for each");
   }
-  check_modem(first);
-  for (const session::WalkPlan& each : others) check_modem(each);
+  for (const session::WalkPlan& each : plans) check_modem(each);
   // Those driven from outside stand last.
-  if (!others.back().link.empty()) return;
+  if (!plans.back().link.empty()) return;
   throw cli::ToolError(
       cli::kBadInput,
       "verp walk --radio: no robot here has a program that could talk; drive one from "
@@ -88,22 +85,20 @@ struct WalkRadio::Air {
     std::uint32_t tick = 0;
   };
 
-  Air(const WalkOptions& options, session::Session& in, std::size_t robots)
-      : session(in),
-        first_seed(options.seed),
-        radio(radio_of("verp walk", *options.radio), options.seed) {
-    for (std::size_t i = 0; i < robots; ++i) stations.emplace_back(*this, radio.add());
+  explicit Air(const scenario::Scenario& scenario)
+      : radio(scenario.radio->conditions, scenario.radio->seed) {
+    for (const scenario::Robot& robot : scenario.robots)
+      stations.emplace_back(*this, radio.add()).name = robot.name;
   }
 
-  /// Robots have seeds in a row, in the order in which they were named.
   Station& station(const session::WalkPlan& plan) {
-    return stations.at(static_cast<std::size_t>(plan.twin.seed - first_seed));
+    return stations.at(static_cast<std::size_t>(plan.number));
   }
 
   dxl::Error say(Station& from, int to, const std::string& data) {
     advance();
     const auto number = static_cast<std::int32_t>(radio.sent());
-    const radio::Sent sent = radio.send(from.index, to, data, session.now_us());
+    const radio::Sent sent = radio.send(from.index, to, data, session->now_us());
     constexpr const char* kEvents[] = {"said", "too long", "too many", "nobody"};
     const bool went = sent == radio::Sent::kOnItsWay;
     note(from, {.event = kEvents[static_cast<int>(sent)],
@@ -134,7 +129,7 @@ struct WalkRadio::Air {
       const sim::Vec3 at = each.robot->twin().body().link_pose(0).translation();
       places.push_back({at.x(), at.y(), at.z()});
     }
-    radio.advance(session.now_us(), places);
+    radio.advance(session->now_us(), places);
     for (const radio::Outcome& each : radio.take_outcomes())
       ++fates[static_cast<std::size_t>(each.fate)];
   }
@@ -153,8 +148,7 @@ struct WalkRadio::Air {
     }
   }
 
-  session::Session& session;
-  const std::uint64_t first_seed;
+  session::Session* session = nullptr;
   radio::Radio radio;
   std::deque<Station> stations;
   std::vector<radio::Place> places;
@@ -163,32 +157,35 @@ struct WalkRadio::Air {
   bool broken = false;
 };
 
-WalkRadio::WalkRadio(const WalkOptions& options, session::Session& session, std::size_t robots)
-    : air_(std::make_unique<Air>(options, session, robots)) {}
+WalkRadio::WalkRadio(const scenario::Scenario& scenario) : air_(std::make_unique<Air>(scenario)) {}
 
 WalkRadio::~WalkRadio() = default;
 
-void WalkRadio::watch(const session::WalkPlan& plan, session::Hooks& hooks) {
+void WalkRadio::join(std::size_t, const session::WalkPlan& plan, session::Hooks& hooks) {
   Air::Station& station = air_->station(plan);
   if (air_->first == nullptr) air_->first = &station;
-  station.name = plan.name;
   station.period_us = plan.params.period_us;
-  if (!plan.link.empty()) return;
-  station.trace = hooks.trace;
-  hooks.ticked = [&station, next = std::move(hooks.ticked)](const session::Tick& tick) {
-    station.tick = tick.record->inputs.tick;
-    station.listen();
-    if (next) next(tick);
-  };
+  if (plan.link.empty()) station.trace = hooks.trace;
 }
 
-void WalkRadio::join(const session::WalkPlan& plan, session::Robot& robot) {
-  Air::Station& station = air_->station(plan);
-  station.robot = &robot;
-  if (plan.link.empty()) return;
-  auto modem = std::make_unique<bus::ModemDevice>(plan.params.baud, station);
-  station.modem = modem.get();
-  robot.bus().add(std::move(modem));
+void WalkRadio::begin(session::Session& session) {
+  air_->session = &session;
+  for (std::size_t i = 0; i < session.size(); ++i) {
+    session::Robot& robot = session.robot(i);
+    Air::Station& station = air_->station(robot.plan());
+    station.robot = &robot;
+    if (robot.plan().link.empty()) continue;
+    auto modem = std::make_unique<bus::ModemDevice>(robot.plan().params.baud, station);
+    station.modem = modem.get();
+    robot.bus().add(std::move(modem));
+  }
+}
+
+void WalkRadio::tick(std::size_t, session::Robot& robot) {
+  Air::Station& station = air_->station(robot.plan());
+  if (station.modem != nullptr) return;
+  station.tick = robot.tick();
+  station.listen();
 }
 
 std::string WalkRadio::text() const {

@@ -1,33 +1,29 @@
 #pragma once
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "host/apps/cli/json.hpp"
-#include "host/apps/tool/walk_options.hpp"
+#include "host/apps/tool/walk_run.hpp"
+#include "host/apps/tool/walk_scenario.hpp"
 #include "host/run/session/session.hpp"
 
 namespace verp::tool {
 
-/// Throws ToolError unless --radio has a use for these robots, or was not given.
-void check_radio(const WalkOptions& options, const session::WalkPlan& first,
-                 const std::vector<session::WalkPlan>& others);
+/// Throws ToolError unless the robots have a use for radios, or have none.
+void check_radio(const Walk& walk);
 
 /// `verp walk --radio`: the air between the robots of a walk (host/twin/radio), and a modem on the
-/// bus of each one whose controller is outside. Robots have numbers in the order in which they were
-/// named, from 0 on.
-class WalkRadio {
+/// bus of each robot whose controller is outside. Robots have numbers in the order of the scenario.
+/// A robot's trace has what it said and heard, and the first one's also what robots without a trace
+/// did.
+class WalkRadio final : public session::Observer {
  public:
-  WalkRadio(const WalkOptions& options, session::Session& session, std::size_t robots);
-  ~WalkRadio();
-  WalkRadio(const WalkRadio&) = delete;
-  WalkRadio& operator=(const WalkRadio&) = delete;
+  explicit WalkRadio(const scenario::Scenario& scenario);
+  ~WalkRadio() override;
 
-  /// Before that robot joins the session: its trace will have what it said and heard; the first's
-  /// also what those did that have none.
-  void watch(const session::WalkPlan& plan, session::Hooks& hooks);
-  /// It has joined.
-  void join(const session::WalkPlan& plan, session::Robot& robot);
+  void join(std::size_t index, const WalkPlan& plan, session::Hooks& hooks) override;
+  void begin(session::Session& session) override;
+  void tick(std::size_t index, session::Robot& robot) override;
 
   std::string text() const;
   cli::Json json() const;

@@ -12,6 +12,7 @@
 #include "host/apps/tool/walk_load.hpp"
 #include "host/apps/tool/walk_outside.hpp"
 #include "host/apps/tool/walk_samples.hpp"
+#include "host/run/scenario/expand.hpp"
 #include "host/run/session/asked.hpp"
 #include "host/run/session/fault_names.hpp"
 #include "host/study/report/maybe.hpp"
@@ -150,6 +151,16 @@ cli::Json changed_json(const WalkOptions& options) {
   return out;
 }
 
+std::string title(const WalkPlan& plan, const scenario::Orders& orders) {
+  const std::string model = name_of(plan.params);
+  const float cycle_s = plan.params.tuning.gait.cycle_s;
+  if (plan.stands) return model + " stands";
+  if (const auto* ahead = std::get_if<scenario::Ahead>(&orders))
+    return fmt::format("{}: {:g} cm steps, {:g} s cycle", model, 100 * ahead->step_m, cycle_s);
+  return fmt::format("{}: velocity {}, {:g} s cycle", model, scenario::velocity_text(orders),
+                     cycle_s);
+}
+
 /// The way that was asked, from where the body was and looked when the gait began.
 std::vector<report::Point2> asked_points(const WalkPlan& plan, const report::Sample& start,
                                          double walk_s) {
@@ -200,16 +211,12 @@ cli::Json sweep_json(const std::vector<report::SweepRow>& rows) {
 
 }  // namespace
 
-report::Run to_report(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
+report::Run to_report(const WalkPlan& plan, const WalkOptions& options,
+                      const scenario::Orders& orders, const WalkResult& result,
                       const Sweep& sweep) {
   report::Run run;
   run.model = name_of(plan.params);
-  run.title = options.stand ? run.model + " stands"
-              : options.velocity_text.empty()
-                  ? fmt::format("{}: {:g} cm steps, {:g} s cycle", run.model, 100 * options.step_m,
-                                plan.params.tuning.gait.cycle_s)
-                  : fmt::format("{}: velocity {}, {:g} s cycle", run.model, options.velocity_text,
-                                plan.params.tuning.gait.cycle_s);
+  run.title = title(plan, orders);
   run.verdict = verdict(plan, result, sweep);
   run.good = result.good() && sweep.good();
   run.cycle_s = static_cast<double>(plan.params.tuning.gait.cycle_s);

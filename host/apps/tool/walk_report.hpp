@@ -10,8 +10,8 @@
 /// One walk, told three ways: as a page's data, as text for a terminal, as JSON.
 namespace verp::tool {
 
-report::Run to_report(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
-                      const Sweep& sweep);
+report::Run to_report(const WalkPlan& plan, const WalkOptions& options,
+                      const scenario::Orders& orders, const WalkResult& result, const Sweep& sweep);
 
 std::string to_text(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
                     const Sweep& sweep);

@@ -7,32 +7,31 @@
 
 namespace verp::tool {
 
-void tell_falls(const WalkPlan& plan, cli::Progress& progress, const std::string& command,
-                session::Hooks& hooks) {
-  if (plan.get_ups == 0) return;
-  const std::string who = command + ": " + (plan.name.empty() ? "" : plan.name + ": ");
-  hooks.told = [&progress, who](const session::Happened& news) {
-    progress.clear();
+void RunOnScreen::join(std::size_t index, const WalkPlan& plan, session::Hooks& hooks) {
+  if (index == 0) {
+    walk_s_ = plan.walk_s;
+    if (label_.empty()) label_ = plan.params.name;
+  }
+  if (plan.get_ups == 0 || command_.empty()) return;
+  const std::string who = command_ + ": " + (plan.name.empty() ? "" : plan.name + ": ");
+  hooks.told = [this, who](const session::Happened& news) {
+    progress_.clear();
     cli::complain(fmt::format("{}{:.2f} s: {}", who, news.at_s, news.what));
   };
 }
 
-session::Hooks shown(const WalkPlan& plan, record::TraceWriter* trace, cli::Progress& progress,
-                     const std::string& label, bool keep_series) {
-  session::Hooks hooks;
-  hooks.trace = trace;
-  hooks.keep_series = keep_series;
-  hooks.ticked = [&progress, label, walk_s = plan.walk_s](const session::Tick& tick) {
-    progress.show(tick.gone_s / walk_s,
-                  fmt::format("{}  {:.1f} of {:g} s", label, tick.gone_s, walk_s));
-  };
-  return hooks;
+void RunOnScreen::tick(std::size_t index, session::Robot& robot) {
+  if (index != 0) return;
+  const double gone_s = robot.gone_s();
+  progress_.show(gone_s / walk_s_, fmt::format("{}  {:.1f} of {:g} s", label_, gone_s, walk_s_));
 }
 
 WalkResult walk(const WalkPlan& plan, record::TraceWriter* trace, cli::Progress& progress,
-                const std::string& label, bool keep_series, const sim::WorldOptions& world) {
-  return session::walk(plan, shown(plan, trace, progress, label, keep_series),
-                       {.world = world, .interrupted = cli::interrupted});
+                const std::string& label, const sim::WorldOptions& world) {
+  session::Session session({.world = world, .interrupted = cli::interrupted});
+  RunOnScreen screen(progress, "", label);
+  KeptTrace kept(trace);
+  return std::move(session::run(session, {plan}, {&screen, &kept}).front());
 }
 
 }  // namespace verp::tool

@@ -11,16 +11,43 @@ namespace verp::tool {
 using session::WalkPlan;
 using session::WalkResult;
 
-/// Of a robot that may get up, has it said on stderr what becomes of it when it falls.
-void tell_falls(const WalkPlan& plan, cli::Progress& progress, const std::string& command,
-                session::Hooks& hooks);
+/// Shows how far the first robot is, and says on stderr what becomes of robots that fall and may
+/// get up.
+class RunOnScreen final : public session::Observer {
+ public:
+  /// `command` is who says so; empty: nobody says anything. `label` stands beside the bar; empty:
+  /// the robot's name.
+  RunOnScreen(cli::Progress& progress, std::string command, std::string label = {})
+      : progress_(progress), command_(std::move(command)), label_(std::move(label)) {}
 
-/// The program's hooks for one robot. `trace` may be null; what is given must outlive the run.
-session::Hooks shown(const WalkPlan& plan, record::TraceWriter* trace, cli::Progress& progress,
-                     const std::string& label, bool keep_series);
+  void join(std::size_t index, const WalkPlan& plan, session::Hooks& hooks) override;
+  void tick(std::size_t index, session::Robot& robot) override;
 
-/// session::walk() with these, in such a world.
+ private:
+  cli::Progress& progress_;
+  const std::string command_;
+  std::string label_;
+  double walk_s_ = 0;
+};
+
+/// Has the first robot's ticks written into a trace; null: none.
+class KeptTrace final : public session::Observer {
+ public:
+  explicit KeptTrace(record::TraceWriter* trace, bool keep_series = false)
+      : trace_(trace), keep_series_(keep_series) {}
+  void join(std::size_t index, const WalkPlan&, session::Hooks& hooks) override {
+    if (index != 0) return;
+    hooks.trace = trace_;
+    hooks.keep_series = keep_series_;
+  }
+
+ private:
+  record::TraceWriter* const trace_;
+  const bool keep_series_;
+};
+
+/// One walk of one robot. `trace` may be null.
 WalkResult walk(const WalkPlan& plan, record::TraceWriter* trace, cli::Progress& progress,
-                const std::string& label, bool keep_series, const sim::WorldOptions& world = {});
+                const std::string& label, const sim::WorldOptions& world = {});
 
 }  // namespace verp::tool

@@ -4,37 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <deque>
 #include <set>
 #include <stdexcept>
 
 #include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
-#include "host/apps/cli/suggest.hpp"
+#include "host/run/scenario/probe.hpp"
 #include "host/run/session/intervention.hpp"
-#include "host/twin/sim/quantities.hpp"
 
 namespace verp::tool {
 namespace {
 
 using session::Intervention;
-
-/// What a run will have, without running it.
-struct Probe {
-  Probe(const WalkPlan& plan, const std::vector<WalkPlan>& others, const sim::WorldOptions& options)
-      : world(options), quantities(world) {
-    if (world.scenery() != nullptr) quantities.add(*world.scenery());
-    add(plan, others.empty());
-    for (const WalkPlan& other : others) add(other, false);
-  }
-  void add(const WalkPlan& plan, bool alone) {
-    robots.emplace_back(world, plan.entity, plan.twin);
-    quantities.add(robots.back(), alone ? "" : plan.name + ".");
-  }
-  sim::World world;
-  std::deque<sim::TwinRobot> robots;
-  sim::Quantities quantities;
-};
 
 Intervention read(const std::string& option, const std::string& text,
                   Intervention (*reader)(const std::string&), const std::string& command) {
@@ -43,32 +24,6 @@ Intervention read(const std::string& option, const std::string& text,
   } catch (const std::invalid_argument& error) {
     throw cli::ToolError(cli::kBadInput,
                          fmt::format("{}: {} '{}': {}", command, option, text, error.what()));
-  }
-}
-
-std::string hint(const Intervention& each, const sim::Quantities& quantities) {
-  const bool push = each.kind == Intervention::Kind::kPush;
-  const std::vector<std::string> names = push ? quantities.things() : quantities.names();
-  if (std::find(names.begin(), names.end(), each.name) != names.end()) return "";
-  const std::string meant = cli::did_you_mean(each.name, names);
-  return meant.empty() ? "; `verp walk --list-quantities` lists them" : meant;
-}
-
-void check_all(const std::vector<std::pair<std::string, Intervention>>& read, const WalkPlan& plan,
-               const std::vector<WalkPlan>& others, const sim::WorldOptions& world,
-               const std::string& command) {
-  Probe probe(plan, others, world);
-  for (const auto& [option, each] : read) {
-    try {
-      session::check(each, probe.quantities);
-    } catch (const std::invalid_argument& error) {
-      throw cli::ToolError(cli::kBadInput, fmt::format("{}: {}: {}{}", command, option,
-                                                       error.what(), hint(each, probe.quantities)));
-    }
-    if (each.at_s <= plan.walk_s) continue;
-    throw cli::ToolError(
-        cli::kBadInput, fmt::format("{}: {}: {:g} s is after the end, {:g} s; raise --for", command,
-                                    option, each.at_s, plan.walk_s));
   }
 }
 
@@ -91,23 +46,24 @@ void declare(CLI::App& app, TouchOptions& options) {
                "the names that --at may set, with unit and range, and those that can be read");
 }
 
-void read_touch(const TouchOptions& options, WalkPlan& plan, const std::vector<WalkPlan>& others,
-                const sim::WorldOptions& world) {
-  std::vector<std::pair<std::string, Intervention>> all;
+std::vector<Intervention> disturbances_of(const TouchOptions& options) {
+  std::vector<Intervention> all;
   for (const std::string& text : options.pushes)
-    all.emplace_back("--push '" + text + "'",
-                     read("--push", text, session::read_push, options.command));
+    all.push_back(read("--push", text, session::read_push, options.command));
   for (const std::string& text : options.settings)
-    all.emplace_back("--at '" + text + "'",
-                     read("--at", text, session::read_setting, options.command));
-  if (all.empty()) return;
-  check_all(all, plan, others, world, options.command);
-  for (const auto& [option, each] : all) plan.interventions.push_back(each);
+    all.push_back(read("--at", text, session::read_setting, options.command));
+  return all;
 }
 
-int list_quantities(const WalkPlan& plan, const std::vector<WalkPlan>& others,
-                    const sim::WorldOptions& world, bool json) {
-  Probe probe(plan, others, world);
+std::string option_of(const TouchOptions& options, std::size_t index) {
+  const std::size_t pushes = options.pushes.size();
+  return index < pushes ? "--push '" + options.pushes[index] + "'"
+                        : "--at '" + options.settings.at(index - pushes) + "'";
+}
+
+int list_quantities(const scenario::Expanded& run, bool json) {
+  scenario::Probe probe(run);
+  const WalkPlan& plan = run.plans.front();
   cli::Json all = cli::Json::array();
   std::string text;
   std::set<std::string> kinds;

@@ -4,7 +4,7 @@
 
 #include "host/apps/cli/json.hpp"
 #include "host/apps/tool/walk_run.hpp"
-#include "host/twin/sim/world.hpp"
+#include "host/run/scenario/expand.hpp"
 
 namespace CLI {
 class App;
@@ -23,14 +23,13 @@ void declare(CLI::App& app, TouchOptions& options);
 /// Of these, --push alone.
 void declare_push(CLI::App& app, TouchOptions& options);
 
-/// Reads them into the plan, and checks them against the robots and the world that the run will
-/// have. Throws ToolError.
-void read_touch(const TouchOptions& options, WalkPlan& plan, const std::vector<WalkPlan>& others,
-                const sim::WorldOptions& world);
+/// What they ask for: pushes first. Throws ToolError.
+std::vector<session::Intervention> disturbances_of(const TouchOptions& options);
+/// The words that gave the one of that index: "--push '1: body 0,30,0 N for 0.1'".
+std::string option_of(const TouchOptions& options, std::size_t index);
 
-/// All quantities of that robot in that world: for people one line for each kind.
-int list_quantities(const WalkPlan& plan, const std::vector<WalkPlan>& others,
-                    const sim::WorldOptions& world, bool json);
+/// All quantities of a run: for people one line for each kind.
+int list_quantities(const scenario::Expanded& run, bool json);
 
 /// What was done when; empty if nothing was.
 cli::Json touch_json(const WalkResult& result);

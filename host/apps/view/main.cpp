@@ -104,7 +104,11 @@ int run_view_and_leave(const tool::ViewOptions& asked) {
 
 std::vector<cli::Subcommand> commands(CLI::App& root) {
   auto options = std::make_shared<tool::ViewOptions>();
-  return {{tool::declare_view(root, *options), [options] { return run_view_and_leave(*options); }}};
+  CLI::App* app = tool::declare_view(root, *options);
+  return {{app, [app, options] {
+             options->walk.changed = tool::changed_options(*app);
+             return run_view_and_leave(*options);
+           }}};
 }
 
 }  // namespace

@@ -141,9 +141,9 @@ void MainWindow::make_status() {
 }
 
 void MainWindow::watch(RunSetup setup) {
-  entity_ = std::make_shared<const scene::Entity>(setup.plan.entity);
-  const QString file = QString::fromStdString(setup.plan.entity.file);
-  const Params params = setup.plan.params;
+  entity_ = std::make_shared<const scene::Entity>(setup.plan().entity);
+  const QString file = QString::fromStdString(setup.plan().entity.file);
+  const Params params = setup.plan().params;
   trace_.reset();
   linked_.reset();
   if (!link_.empty()) {
@@ -207,13 +207,14 @@ void MainWindow::show_film(const QString& name) {
 /// In the order of the snapshots' robots.
 scene::Scene MainWindow::scene_of_all() {
   const LiveRun* run = live();
-  scene::Scene scene = scene::surroundings(run != nullptr ? run->setup().world.scenery.get()
+  scene::Scene scene = scene::surroundings(run != nullptr ? run->setup().run.world.scenery.get()
                                                           : player_->film()->world());
   scene::add_robot(scene, *entity_);
   if (run == nullptr) return scene;
   const RunSetup& setup = run->setup();
   if (setup.beside) scene::tint(scene, scene::add_robot(scene, *entity_), kLinked);
-  for (const session::WalkPlan& plan : setup.others) scene::add_robot(scene, plan.entity);
+  for (std::size_t i = 1; i < setup.run.plans.size(); ++i)
+    scene::add_robot(scene, setup.run.plans[i].entity);
   return scene;
 }
 

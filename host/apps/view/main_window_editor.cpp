@@ -80,7 +80,7 @@ void MainWindow::walk_edited(const std::string& file, const std::string& text) {
   try {
     const Beside beside(file, text);
     RunSetup setup = make_run_(beside.path());
-    setup.plan.entity.file = file;
+    setup.run.plans.front().entity.file = file;
     watch(std::move(setup));
   } catch (const std::exception& error) {
     say(QString::fromUtf8(error.what()));

@@ -50,7 +50,7 @@ void MainWindow::get_up() {
 
 /// Enabled for a fallen robot without torque that has actions.
 void MainWindow::show_get_up(const scene::RobotView& robot) {
-  const bool can = live() != nullptr && !live()->setup().plan.actions.empty();
+  const bool can = live() != nullptr && !live()->setup().plan().actions.empty();
   const bool limp = !safety::has_torque(static_cast<safety::Mode>(robot.mode));
   const bool offered = can && limp && robot.fallen;
   get_up_->setEnabled(offered);

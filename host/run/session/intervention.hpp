@@ -16,6 +16,8 @@ struct Intervention {
   sim::Vec3 force_world_n = sim::Vec3::Zero();
   double for_s = 0;
   double value = 0;
+
+  bool operator==(const Intervention&) const = default;
 };
 
 /// Read "T: LINK fx,fy,fz N for S" and "T: NAME=VALUE". Throw std::invalid_argument that says what

@@ -46,6 +46,7 @@ struct WalkPlan {
   std::string firmware_folder;
   std::string link;  ///< at whose other end its controller is (served.hpp); empty: it is not
   std::string name;  ///< among other robots of the world; empty: as params have it
+  int number = 0;    ///< among the robots of its scenario, from 0 on
   std::vector<Intervention> interventions;  ///< of what is done to the twin, in any order
 };
 

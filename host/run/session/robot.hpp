@@ -79,6 +79,8 @@ class Robot {
   /// now, a servo has torque.
   bool set_upright();
 
+  /// Number of the last tick of its controller.
+  std::uint32_t tick() const { return tick_.inputs.tick; }
   double simulated_s() const;
   /// Any servo of it.
   bool has_torque();

@@ -109,6 +109,12 @@ Robot& Session::robot(std::size_t index) {
   return seats_.at(index)->robot;
 }
 
+std::size_t Session::index_of(const Robot& robot) const {
+  std::size_t index = 0;
+  while (&seats_.at(index)->robot != &robot) ++index;
+  return index;
+}
+
 bool Session::over() const {
   for (const auto& seat : seats_) {
     if (!seat->finished) return false;
@@ -150,13 +156,23 @@ Robot* Session::tick() {
     }
   }
   Robot* ticked = nullptr;
-  while (Seat* seat = ticked == nullptr ? next() : nullptr) {
-    if (!go_on(*seat) || !std::exchange(seat->ticked, false)) continue;
-    seat->robot.see();
-    ticked = &seat->robot;
+  try {
+    ticked = diverged_.empty() ? next_tick() : nullptr;
+  } catch (const sim::Diverged& error) {
+    diverged_ = error.what();
+    for (const auto& seat : seats_) seat->robot.fail(diverged_);
   }
   wall_s_ += std::chrono::duration<double>(Clock::now() - start).count();
   return ticked;
+}
+
+Robot* Session::next_tick() {
+  while (Seat* seat = next()) {
+    if (!go_on(*seat) || !std::exchange(seat->ticked, false)) continue;
+    seat->robot.see();
+    return &seat->robot;
+  }
+  return nullptr;
 }
 
 WalkResult Session::result(std::size_t index) {
@@ -164,16 +180,27 @@ WalkResult Session::result(std::size_t index) {
   return seat.robot.result(seat.controller->wall_s(wall_s_));
 }
 
+std::vector<WalkResult> run(Session& session, const std::vector<WalkPlan>& plans,
+                            const std::vector<Observer*>& observers, const MakeController& make) {
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    Hooks hooks;
+    for (Observer* each : observers) each->join(i, plans[i], hooks);
+    session.add(plans[i], std::move(hooks), make);
+  }
+  for (Observer* each : observers) each->begin(session);
+  while (Robot* robot = session.tick()) {
+    for (Observer* each : observers) each->tick(session.index_of(*robot), *robot);
+  }
+  for (Observer* each : observers) each->end(session);
+  std::vector<WalkResult> results;
+  for (std::size_t i = 0; i < plans.size(); ++i) results.push_back(session.result(i));
+  return results;
+}
+
 WalkResult walk(const WalkPlan& plan, Hooks hooks, Options options) {
   Session session(std::move(options));
   session.add(plan, std::move(hooks));
-  try {
-    while (session.tick() != nullptr) {
-    }
-  } catch (const sim::Diverged& error) {
-    WalkResult result = session.result(0);
-    result.failure = error.what();
-    return result;
+  while (session.tick() != nullptr) {
   }
   return session.result(0);
 }

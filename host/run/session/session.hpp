@@ -50,6 +50,8 @@ class Session {
   /// Goes on until one robot has done one more control tick, or its controller has kept us waiting
   /// for some ms, and returns it. Null: the run is over.
   Robot* tick();
+  /// Why the physics gave up, which ends the run of every robot; empty: they did not.
+  const std::string& diverged() const { return diverged_; }
   /// All robots are over, or somebody interrupts.
   bool over() const;
 
@@ -62,6 +64,7 @@ class Session {
   const sim::Scenery* scenery() { return world_.scenery(); }
   std::size_t size() const { return seats_.size(); }
   Robot& robot(std::size_t index);
+  std::size_t index_of(const Robot& robot) const;
   /// Of that robot, once, at the end.
   WalkResult result(std::size_t index);
 
@@ -70,6 +73,7 @@ class Session {
 
   Seat* next();
   bool go_on(Seat& seat);
+  Robot* next_tick();
   void need_room(const sim::Vec3& start_m) const;
 
   const Options options_;
@@ -77,11 +81,32 @@ class Session {
   std::deque<std::unique_ptr<Seat>> seats_;
   std::unique_ptr<sim::Quantities> quantities_;  ///< goes before what it is of
   double wall_s_ = 0;                            ///< in tick()
+  std::string diverged_;
   bool begun_ = false;
 };
 
 /// At which height a robot is put down there.
 double ground_m(const sim::World& world, const sim::Vec3& start_m);
+
+/// Looks at a run from its beginning to its end. Nothing that it does changes a bit of the run.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  /// A robot is about to join: what the observer wants to hear of it goes into the hooks.
+  virtual void join(std::size_t, const WalkPlan&, Hooks&) {}
+  /// All robots have joined, and none has done a tick.
+  virtual void begin(Session&) {}
+  /// The robot of that index has done a tick, or its controller keeps the world waiting.
+  virtual void tick(std::size_t, Robot&) {}
+  /// The run is over.
+  virtual void end(Session&) {}
+};
+
+/// A run from its first tick to its last, with robot i of the session by plan i. The results are in
+/// the same order. One whose physics diverge has failed, and its results say so.
+std::vector<WalkResult> run(Session& session, const std::vector<WalkPlan>& plans,
+                            const std::vector<Observer*>& observers,
+                            const MakeController& make = make_controller);
 
 /// One walk of one robot, from its beginning to its end.
 WalkResult walk(const WalkPlan& plan, Hooks hooks = {}, Options options = {});

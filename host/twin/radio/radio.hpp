@@ -25,6 +25,8 @@ struct Conditions {
   std::size_t overhead = 31;      ///< bytes added to every message
   std::size_t most_bytes = 96;    ///< of a message; longer ones are refused
   std::size_t most_waiting = 16;  ///< per station; further messages are refused
+
+  bool operator==(const Conditions&) const = default;
 };
 
 /// Throws std::invalid_argument with the name of the first invalid number.

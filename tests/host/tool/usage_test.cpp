@@ -29,35 +29,6 @@ TEST_F(Usage, TheLaunchersHelpIsThePrograms) {
       << "mend it: build/host-release/host/apps/tool/verp --help > host/apps/tool/help.txt";
 }
 
-// A newcomer's first walk builds this smaller program. It says which options it lacks.
-TEST_F(Usage, TheFirstWalksProgramHasTheSameHelpAndSaysWhatItLeavesOut) {
-  const std::string first = VERP_FIRST_PROGRAM " ";
-  for (const char* word : {"walk", "replay", "diff", "check", "export", "parameters"}) {
-    const Outcome of_all = verp(std::string(word) + " --help"),
-                  of_first = shell(first + word + " --help");
-    EXPECT_EQ(of_all.status, 0) << word;
-    EXPECT_EQ(of_first.status, 0) << word;
-    EXPECT_EQ(of_all.out, of_first.out) << word;
-  }
-  for (const char* left_out :
-       {"--seeds 1-2 --json", "--map push", "--live", "--cameras --record a.mcap",
-        "--controller folder", "--on mps2_an386", "--get-up", "--start lying:any",
-        "--robot a=generic21 --robot b=generic21,on:mps2_an386"}) {
-    const Outcome outcome = shell(first + "walk --for 3 " + left_out);
-    EXPECT_EQ(outcome.status, 3) << left_out << '\n' << outcome.out;
-    EXPECT_NE(outcome.err.find("is not in this program"), std::string::npos) << outcome.err;
-  }
-}
-
-TEST_F(Usage, TheFirstWalksProgramWalksTheSame) {
-  const auto digest = [](const Outcome& outcome) {
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
-    return nlohmann::json::parse(outcome.out).at("digest").get<std::string>();
-  };
-  const std::string words = " walk generic21 --for 3 --json";
-  EXPECT_EQ(digest(shell(VERP_FIRST_PROGRAM + words)), digest(shell(VERP_PROGRAM + words)));
-}
-
 // The check comes before the trace is read, and no file is written.
 TEST_F(Usage, APageIsNamedAsBrowsersWantIt) {
   expect_refused("replay none.mcap --page p.txt", "--page p.txt: a browser");

@@ -88,7 +88,7 @@ TEST_F(Link, DifferencesOfEachJointAreSignals) {
   auto controller = start();
   auto linked = std::make_shared<Linked>("unix:" + path_, entity_, plan_.params);
   ASSERT_TRUE(wait_for([&] { return linked->told().looks > 0; })) << linked->told().trouble;
-  RunSetup setup{.plan = plan_};
+  RunSetup setup{.run = {.plans = {plan_}}};
   setup.beside = [linked](const scene::RobotView& own) { return linked->beside(own); };
   LiveRun run(std::move(setup));
   run.set_speed(0);

@@ -135,7 +135,7 @@ TEST(LiveRun, APushThatIsNoneIsToldAndTheRunGoesOn) {
 }
 
 TEST(Player, WindsARunBackTickByTick) {
-  Player player(RunSetup{.plan = plan_of("dxl")});
+  Player player(RunSetup{.run = {.plans = {plan_of("dxl")}}});
   player.set_speed(0);
   player.play();
   until(*player.live(), 150);

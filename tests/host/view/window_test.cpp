@@ -237,7 +237,7 @@ TEST_F(Window, AJointAndAFootMoveInTheHand) {
   EXPECT_NE(knee->value(), before);
   EXPECT_TRUE(window_.pose().posing());
   EXPECT_FALSE(window_.player()->playing());
-  const auto& joints = live().setup().plan.entity.joints;
+  const auto& joints = live().setup().plan().entity.joints;
   const auto moved = std::find_if(joints.begin(), joints.end(),
                                   [](const model::Joint& j) { return j.name == "l_knee"; });
   EXPECT_NEAR(window_.pose().hand()->joint_rad()[std::size_t(moved - joints.begin())],

@@ -24,7 +24,8 @@ struct LiveRun::Going {
 };
 
 LiveRun::LiveRun(RunSetup setup)
-    : setup_(std::move(setup)), entity_(std::make_shared<const model::Entity>(setup_.plan.entity)) {
+    : setup_(std::move(setup)),
+      entity_(std::make_shared<const model::Entity>(setup_.plan().entity)) {
   begin();
   thread_ = std::thread([this] { loop(); });
 }
@@ -100,7 +101,7 @@ std::string LiveRun::save(const std::filesystem::path& file) {
   std::promise<std::string> answer;
   touch([&](Hands&) {
     try {
-      going_->record.save(file, setup_.plan.params, setup_.metadata, setup_.plan.actions);
+      going_->record.save(file, setup_.plan().params, setup_.metadata, setup_.plan().actions);
       answer.set_value("");
     } catch (const std::exception& error) {
       answer.set_value(error.what());
@@ -141,11 +142,11 @@ std::shared_ptr<const LiveFilm> LiveRun::film() const {
 void LiveRun::begin() {
   if (going_ && going_->writer) going_->writer->discard();
   going_.reset();
-  auto going = std::make_unique<Going>(setup_.world);
+  auto going = std::make_unique<Going>(setup_.run.world);
   if (!setup_.record_file.empty()) {
     going->writer = std::make_unique<record::TraceWriter>(
-        setup_.record_file, setup_.plan.params, setup_.metadata,
-        record::TraceOptions{.actions = setup_.plan.actions});
+        setup_.record_file, setup_.plan().params, setup_.metadata,
+        record::TraceOptions{.actions = setup_.plan().actions});
   }
   session::Hooks hooks;
   hooks.trace = going->writer.get();
@@ -158,16 +159,15 @@ void LiveRun::begin() {
     const std::lock_guard lock(mutex_);
     status_.happened = fmt::format("{:.2f} s: {}", news.at_s, news.what);
   };
-  going->session.add(setup_.plan, std::move(hooks));
-  going->others.resize(setup_.others.size());
-  for (std::size_t i = 0; i < setup_.others.size(); ++i) {
-    going->session.add(setup_.others[i], hooks_of_other(i));
-  }
+  going->session.add(setup_.plan(), std::move(hooks));
+  const std::vector<session::WalkPlan>& plans = setup_.run.plans;
+  going->others.resize(plans.size() - 1);
+  for (std::size_t i = 1; i < plans.size(); ++i) going->session.add(plans[i], hooks_of_other(i));
   going_ = std::move(going);
   const std::lock_guard lock(mutex_);
-  const bool by_itself = status_.runs == 0 ? setup_.plan.get_ups > 0 : status_.gets_up_by_itself;
+  const bool by_itself = status_.runs == 0 ? setup_.plan().get_ups > 0 : status_.gets_up_by_itself;
   going_->orders.let_get_up(by_itself);
-  film_ = std::make_shared<LiveFilm>(entity_, setup_.plan.params.period_us * 1e-6,
+  film_ = std::make_shared<LiveFilm>(entity_, setup_.plan().params.period_us * 1e-6,
                                      setup_.beside != nullptr);
   status_ = {.playing = status_.playing,
              .gets_up_by_itself = by_itself,
@@ -179,8 +179,8 @@ session::Hooks LiveRun::hooks_of_other(std::size_t index) {
   session::Hooks hooks;
   hooks.open_end = true;
   hooks.ticked = [this, index](const session::Tick& tick) {
-    const session::WalkPlan& plan = setup_.others[index];
-    going_->others[index] = scene::look(tick, plan.entity, plan.params);
+    const session::WalkPlan& plan = setup_.run.plans[index];
+    going_->others[index - 1] = scene::look(tick, plan.entity, plan.params);
   };
   return hooks;
 }
@@ -235,6 +235,7 @@ void LiveRun::tick(std::unique_lock<std::mutex>& lock) {
   bool over = false;
   try {
     over = going_->session.tick() == nullptr;
+    failure = going_->session.diverged();
   } catch (const std::exception& error) {
     failure = error.what();
   }
@@ -254,8 +255,8 @@ void LiveRun::ticked(const session::Tick& tick) {
   if (tick.record == nullptr) return;
   going_->record.add(tick);
   going_->orders.observe(static_cast<safety::Mode>(tick.outputs->mode),
-                         1e-6 * setup_.plan.params.period_us);
-  scene::Snapshot now = scene::snapshot(tick, *entity_, setup_.plan.params);
+                         1e-6 * setup_.plan().params.period_us);
+  scene::Snapshot now = scene::snapshot(tick, *entity_, setup_.plan().params);
   if (setup_.beside) now.robots.push_back(setup_.beside(now.robots.front()));
   now.robots.insert(now.robots.end(), going_->others.begin(), going_->others.end());
   film_->add(std::move(now));

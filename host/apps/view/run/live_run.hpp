@@ -12,6 +12,7 @@
 #include "host/apps/view/run/film.hpp"
 #include "host/apps/view/run/pace.hpp"
 #include "host/apps/view/run/run_record.hpp"
+#include "host/run/scenario/expand.hpp"
 #include "host/run/session/live_orders.hpp"
 #include "host/run/session/session.hpp"
 #include "host/trace/record/mcap_format.hpp"
@@ -19,14 +20,14 @@
 namespace verp::view {
 
 struct RunSetup {
-  session::WalkPlan plan;
-  std::vector<session::WalkPlan> others = {};  ///< of the same world, only watched
+  scenario::Expanded run = {};  ///< its first robot is steered, the others are only watched
   /// A robot drawn beside ours that is not in the world. Called in the run's thread after each tick
   /// with our robot's view.
   std::function<scene::RobotView(const scene::RobotView&)> beside = {};
-  sim::WorldOptions world = {};
   std::string record_file = {};  ///< records the run; may be empty
   record::mcap::StringMap metadata = {};
+
+  const session::WalkPlan& plan() const { return run.plans.front(); }
 };
 
 /// A session in its own thread for a window. User actions reach it only between two ticks, so the

@@ -1,0 +1,34 @@
+#include "host/author/action/get_up.hpp"
+
+#include <utility>
+
+#include "host/author/action/compile.hpp"
+#include "host/author/action/folder.hpp"
+#include "host/robot/model/load_error.hpp"
+
+namespace verp::action {
+
+void take_get_up_actions(session::WalkPlan& plan) {
+  const auto folder = folder_of(plan.entity.file);
+  const Made made = make_library(plan.params, read_folder(folder));
+  // A robot that is put down on one side needs no way up from the other.
+  const sim::Lies lies = plan.twin.lies;
+  if (lies != sim::Lies::kBack) made.require(kGetUpFront, folder.string());
+  if (lies != sim::Lies::kFront) made.require(kGetUpBack, folder.string());
+  plan.actions = made.words;
+}
+
+std::string offer_get_up_actions(session::WalkPlan& plan) {
+  if (!plan.actions.empty()) return "";
+  try {
+    const auto folder = folder_of(plan.entity.file);
+    Made made = make_library(plan.params, read_folder(folder));
+    const bool both = made.number(kGetUpFront) != 0 && made.number(kGetUpBack) != 0;
+    if (both) plan.actions = std::move(made.words);
+  } catch (const model::LoadError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace verp::action

@@ -1,0 +1,362 @@
+#include "host/run/scenario/text.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+#include "common/model/tuning_ranges.hpp"
+#include "host/os/files/whole.hpp"
+#include "host/robot/model/load_error.hpp"
+#include "host/robot/model/params.hpp"
+
+namespace verp::scenario {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::pair<const char*, sim::Lies> kStarts[] = {
+    {"standing", sim::Lies::kNo},       {"lying:front", sim::Lies::kFront},
+    {"lying:back", sim::Lies::kBack},   {"lying:left", sim::Lies::kLeft},
+    {"lying:right", sim::Lies::kRight}, {"lying:any", sim::Lies::kAny}};
+
+struct Limits {
+  double low, high;
+};
+constexpr Limits kAny{-1e12, 1e12}, kPlace{-1000, 1000}, kSpeed{-2, 2}, kTurn{-6.3, 6.3};
+
+/// Prints fields into an object.
+class Writer {
+ public:
+  static constexpr bool kReads = false;
+  explicit Writer(Json& to) : to_(to) {}
+
+  template <class T>
+  void value(const char* key, const T& value) {
+    to_[key] = value;
+  }
+  void number(const char* key, double value, Limits) { to_[key] = value; }
+
+  template <class T, class Fields>
+  void object(const char* key, T& value, Fields&& fields) {
+    Json& inner = to_[key] = Json::object();
+    Writer writer(inner);
+    fields(writer, value);
+  }
+  template <class T, class Fields>
+  void list(const char* key, std::vector<T>& all, Fields&& fields) {
+    Json& inner = to_[key] = Json::array();
+    for (T& each : all) {
+      Writer writer(inner.emplace_back(Json::object()));
+      fields(writer, each);
+    }
+  }
+
+ private:
+  Json& to_;
+};
+
+/// Takes fields out of an object; what nobody took in the end is unknown.
+class Reader {
+ public:
+  static constexpr bool kReads = true;
+  Reader(const Json& from, std::string file, std::string path)
+      : from_(from), file_(std::move(file)), path_(std::move(path)) {
+    if (!from_.is_object()) fail("", "is no object {...}");
+  }
+
+  bool has(const char* key) const { return from_.contains(key); }
+
+  void value(const char* key, std::string& value) { take(key, value, &Json::is_string, "a text"); }
+  void value(const char* key, bool& value) { take(key, value, &Json::is_boolean, "true or false"); }
+  void value(const char* key, std::uint64_t& value) {
+    take(key, value, &Json::is_number_unsigned, "a whole number, 0 or more");
+  }
+  void number(const char* key, double& value, Limits limits) {
+    take(key, value, &Json::is_number, "a number");
+    if (!has(key) || (value >= limits.low && value <= limits.high)) return;
+    fail(key, fmt::format("{} is out of range; give {:g} to {:g}", value, limits.low, limits.high));
+  }
+
+  template <class T, class Fields>
+  void object(const char* key, T& value, Fields&& fields) {
+    if (const Json* inner = find(key)) {
+      Reader reader(*inner, file_, join(key));
+      fields(reader, value);
+      reader.end();
+    }
+  }
+  template <class T, class Fields>
+  void list(const char* key, std::vector<T>& all, Fields&& fields) {
+    const Json* inner = find(key);
+    if (inner == nullptr) return;
+    if (!inner->is_array()) fail(key, "is no list [...]");
+    all.clear();
+    for (const Json& each : *inner) {
+      Reader reader(each, file_, fmt::format("{}[{}]", join(key), all.size()));
+      fields(reader, all.emplace_back());
+      reader.end();
+    }
+  }
+
+  const Json* find(const char* key) {
+    known_.insert(key);
+    const auto at = from_.find(key);
+    return at == from_.end() ? nullptr : &*at;
+  }
+
+  void end() const {
+    for (const auto& [key, value] : from_.items()) {
+      if (known_.contains(key)) continue;
+      std::string names;
+      for (const std::string& name : known_) names += (names.empty() ? "" : ", ") + name;
+      fail(key, "there is no such key; give one of: " + names);
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& key, const std::string& what) const {
+    throw model::LoadError(file_, 0, join(key) + ": " + what,
+                           "`verp walk --print-scenario` prints one with all keys");
+  }
+
+ private:
+  template <class T>
+  void take(const char* key, T& value, bool (Json::*is)() const noexcept, const char* type) {
+    const Json* at = find(key);
+    if (at == nullptr) return;
+    if (!(at->*is)()) fail(key, fmt::format("{} is not {}", at->dump(), type));
+    value = at->get<T>();
+  }
+  std::string join(const std::string& key) const {
+    if (key.empty()) return path_.empty() ? "the scenario" : path_;
+    return path_.empty() ? key : path_ + "." + key;
+  }
+
+  const Json& from_;
+  const std::string file_, path_;
+  std::set<std::string> known_;
+};
+
+// One list of fields for both ways. What differs is in an `if constexpr`.
+
+template <class Io>
+void fields(Io& io, World& world) {
+  io.value("file", world.file);
+  io.number("physics_step_ms", world.physics_step_ms, {0.25, 2});
+}
+
+template <class Io>
+void fields(Io& io, Place& at) {
+  io.number("x_m", at.x_m, kPlace);
+  io.number("y_m", at.y_m, kPlace);
+  io.number("yaw_rad", at.yaw_rad, kPlace);
+}
+
+template <class Io>
+void fields(Io& io, Velocity& velocity) {
+  io.number("vx_m_s", velocity.vx_m_s, kSpeed);
+  io.number("vy_m_s", velocity.vy_m_s, kSpeed);
+  io.number("wz_rad_s", velocity.wz_rad_s, kTurn);
+}
+
+template <class Io>
+void fields(Io& io, Controller& controller) {
+  io.value("folder", controller.folder);
+  io.value("board", controller.board);
+  io.value("link", controller.link);
+}
+
+/// One of step_m, velocity, stand.
+template <class Io>
+void fields(Io& io, Orders& orders) {
+  if constexpr (Io::kReads) {
+    const int given = io.has("step_m") + io.has("velocity") + io.has("stand");
+    if (given > 1) io.fail("", "give one of step_m, velocity, stand");
+  }
+  const auto choice = [&]<class T>(const char* key, T fresh, auto&& each) {
+    if constexpr (Io::kReads) {
+      if (io.find(key) == nullptr) return;
+      orders = fresh;
+    }
+    if (T* chosen = std::get_if<T>(&orders)) each(*chosen);
+  };
+  choice("step_m", Ahead{}, [&](Ahead& a) { io.number("step_m", a.step_m, {0, 0.15}); });
+  choice("velocity", Velocity{}, [&](Velocity& v) {
+    io.object("velocity", v, [](auto& inner, Velocity& velocity) { fields(inner, velocity); });
+  });
+  choice("stand", Stand{}, [&](Stand&) {
+    bool stand = true;
+    io.value("stand", stand);
+    if constexpr (Io::kReads) {
+      if (!stand) io.fail("stand", "is false; leave it out, or give step_m or velocity");
+    }
+  });
+}
+
+template <class Io>
+void fields(Io& io, session::Intervention& what) {
+  using Kind = session::Intervention::Kind;
+  io.number("at_s", what.at_s, {0, 86400});
+  if constexpr (Io::kReads) {
+    if (io.has("push") == io.has("set")) io.fail("", "give one of push, set");
+    what.kind = io.has("push") ? Kind::kPush : Kind::kSet;
+  }
+  if (what.kind == Kind::kSet) {
+    io.value("set", what.name);
+    io.number("value", what.value, kAny);
+    return;
+  }
+  io.value("push", what.name);
+  io.number("x_n", what.force_world_n.x(), {-1e5, 1e5});
+  io.number("y_n", what.force_world_n.y(), {-1e5, 1e5});
+  io.number("z_n", what.force_world_n.z(), {-1e5, 1e5});
+  io.number("for_s", what.for_s, {0.001, 3600});
+}
+
+template <class Io>
+void start(Io& io, sim::Lies& lies) {
+  std::string name;
+  for (const auto& [text, value] : kStarts) {
+    if (lies == value) name = text;
+  }
+  io.value("start", name);
+  if constexpr (Io::kReads) {
+    std::string names;
+    for (const auto& [text, value] : kStarts)
+      names += (names.empty() ? "" : ", ") + std::string(text);
+    const auto found = start_of(name);
+    if (!found) io.fail("start", fmt::format("'{}' is none; give one of: {}", name, names));
+    lies = *found;
+  }
+}
+
+template <class Io>
+void fields(Io& io, std::map<std::string, double>& tuning) {
+  if constexpr (Io::kReads) {
+    for (const std::string& name : model::tuning_names()) {
+      if (!io.has(name.c_str())) continue;
+      const Range& range = kTuningRanges[*model::tuning_id(name)];
+      const auto decimal = [](float value) { return std::stod(fmt::format("{:g}", value)); };
+      io.number(name.c_str(), tuning[name], {decimal(range.low), decimal(range.high)});
+    }
+  } else {
+    for (const auto& [name, value] : tuning) io.number(name.c_str(), value, kAny);
+  }
+}
+
+template <class Io>
+void fields(Io& io, Robot& robot) {
+  const auto each = [](auto& inner, auto& value) { fields(inner, value); };
+  io.value("name", robot.name);
+  io.value("model", robot.model);
+  io.value("bus", robot.bus);
+  io.object("tuning", robot.tuning, each);
+  io.object("orders", robot.orders, each);
+  io.object("controller", robot.controller, each);
+  io.value("seed", robot.seed);
+  io.value("vary", robot.vary);
+  io.object("at", robot.at, each);
+  start(io, robot.lies);
+  io.value("get_up", robot.get_up);
+  io.list("disturbances", robot.disturbances, each);
+}
+
+template <class Io>
+void fields(Io& io, Radio& radio) {
+  constexpr Limits kPositive{0, 1e9};
+  radio::Conditions& air = radio.conditions;
+  io.number("range_m", air.range_m, kPositive);
+  io.number("loss", air.loss, kPositive);
+  io.number("fade", air.fade, kPositive);
+  io.number("fade_s", air.fade_s, kPositive);
+  io.number("delay_s", air.delay_s, kPositive);
+  io.number("jitter_s", air.jitter_s, kPositive);
+  io.number("bytes_s", air.bytes_s, kPositive);
+  io.value("overhead", air.overhead);
+  io.value("most_bytes", air.most_bytes);
+  io.value("most_waiting", air.most_waiting);
+  io.value("seed", radio.seed);
+  if constexpr (Io::kReads) {
+    try {
+      radio::check(air);
+    } catch (const std::invalid_argument& error) {
+      io.fail("", error.what());
+    }
+  }
+}
+
+template <class Io>
+void fields(Io& io, Scenario& scenario) {
+  const auto each = [](auto& inner, auto& value) { fields(inner, value); };
+  io.object("world", scenario.world, each);
+  io.number("length_s", scenario.length_s, {3, 86400});
+  io.value("real_time", scenario.real_time);
+  io.list("robots", scenario.robots, each);
+  if constexpr (Io::kReads) {
+    if (io.find("radio") != nullptr) scenario.radio.emplace();
+  }
+  if (scenario.radio) io.object("radio", *scenario.radio, each);
+  io.value("if_lost_go_on", scenario.if_lost_go_on);
+  io.number("patience_s", scenario.patience_s, {0.1, 3600});
+}
+
+/// nlohmann-json keeps the last of two equal keys.
+Json parsed(const std::string& text, const std::string& file) {
+  std::vector<std::set<std::string>> keys;
+  const auto watch = [&](int, Json::parse_event_t event, Json& value) {
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key && !keys.back().insert(value).second)
+      throw model::LoadError(file, 0, value.get<std::string>() + ": the key is there twice",
+                             "leave one out");
+    return true;
+  };
+  try {
+    return Json::parse(text, watch);
+  } catch (const Json::parse_error& error) {
+    const std::string what = error.what();
+    throw model::LoadError(file, 0, "no JSON: " + what.substr(what.find("] ") + 2),
+                           "`verp walk --print-scenario` prints what is");
+  }
+}
+
+}  // namespace
+
+std::optional<sim::Lies> start_of(const std::string& name) {
+  for (const auto& [text, value] : kStarts) {
+    if (name == text) return value;
+  }
+  return {};
+}
+
+std::string print(const Scenario& scenario) {
+  Json json = Json::object();
+  Writer writer(json);
+  Scenario copy = scenario;  // the list of fields is one for both ways
+  fields(writer, copy);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Scenario parse(const std::string& text, const std::string& file) {
+  const Json json = parsed(text, file);
+  Scenario scenario;
+  Reader reader(json, file, "");
+  fields(reader, scenario);
+  reader.end();
+  if (scenario.robots.empty()) reader.fail("robots", "there is none; give one at least");
+  std::set<std::string> names;
+  for (const Robot& robot : scenario.robots) {
+    if (!names.insert(robot.name).second || (robot.name.empty() && scenario.robots.size() > 1))
+      reader.fail("robots", "each of several robots needs a name of its own");
+  }
+  return scenario;
+}
+
+Scenario read(const std::string& file) {
+  const auto text = files::read(file);
+  if (!text) throw model::LoadError(file, 0, "cannot be read", "give a scenario's file");
+  return parse(*text, file);
+}
+
+}  // namespace verp::scenario

@@ -1,0 +1,56 @@
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/host/tool/program.hpp"
+
+// A file describes a run as well as a command line does.
+
+namespace verp::tool::test {
+namespace {
+
+using nlohmann::json;
+using Scenarios = Program;
+
+TEST_F(Scenarios, WalkAsTheCommandLinesThatPrintedThem) {
+  const char* const lines[] = {
+      "--for 3 --physics-step 2 --velocity 0.05,0,0.2 --seed 7 --set gait.lift_m=0.02 --cycle 0.5 "
+      "--push '1: trunk 3,0,0 N for 0.1' --at '2: trunk.mass_kg=2.2'",
+      "--for 3 --physics-step 2 --bus can --no-gravity",
+      "--for 3 --physics-step 2 --vary --seed 3 --stand",
+      "--for 3 --physics-step 2 --robots 2 --world pitch",
+  };
+  for (const std::string line : lines) {
+    const Outcome printed = verp("walk --print-scenario " + line + " >run.json");
+    ASSERT_EQ(printed.status, 0) << printed.err;
+    const Outcome typed = verp("walk --json " + line),
+                  read = verp("walk --json --scenario run.json");
+    json as_typed = json::parse(typed.out), as_read = json::parse(read.out);
+    EXPECT_EQ(as_read.at("changed"), json::parse(R"([["--scenario", "run.json"]])"));
+    for (json* each : {&as_typed, &as_read}) {
+      each->erase("changed");
+      each->erase("real_time_factor");
+    }
+    EXPECT_EQ(as_read, as_typed) << line;
+    EXPECT_EQ(read.status, typed.status);
+    EXPECT_EQ(verp("walk --print-scenario --scenario run.json").out, slurp(folder_ / "run.json"));
+  }
+}
+
+TEST_F(Scenarios, AreRefusedWhereTheyAreWrong) {
+  const auto write = [&](const std::string& text) {
+    std::ofstream(folder_ / "wrong.json") << text;
+  };
+  expect_refused("walk --scenario none.json", "none.json: cannot be read");
+  write(R"({"robots": [{"modle": "op3"}]})");
+  expect_refused("walk --scenario wrong.json", "wrong.json: robots[0].modle: there is no such key");
+  write(R"({"robots": [{"seed": "one"}]})");
+  expect_refused("walk --scenario wrong.json", "wrong.json: robots[0].seed: \"one\" is not");
+  write(R"({"robots": [{"disturbances": [{"at_s": 1, "push": "nobody", "for_s": 0.1}]}]})");
+  expect_refused("walk --scenario wrong.json", "wrong.json: robots[0].disturbances[0]: ");
+  expect_refused("walk --scenario wrong.json --seed 3",
+                 "--seed says how the run is, and so does --scenario");
+  expect_refused("walk generic21 --scenario wrong.json", "generic21 says how the run is");
+}
+
+}  // namespace
+}  // namespace verp::tool::test
