@@ -28,7 +28,7 @@ struct Lying {
   }
   model::Entity entity;
   Params params;
-  action::Made made;
+  action::CompiledActions made;
 };
 
 enum class Trouble {

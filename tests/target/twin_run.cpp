@@ -110,7 +110,8 @@ namespace {
 Script script_of(const Robot& robot, std::span<const Order> from, double end_s,
                  std::vector<Hand> hands) {
   const auto folder = action::folder_of(robot.entity.file);
-  const action::Made made = action::make_library(robot.params, action::read_folder(folder));
+  const action::CompiledActions made =
+      action::make_library(robot.params, action::read_folder(folder));
   std::vector<app::OperatorOrder> orders;
   std::vector<double> from_s;
   for (const Order& each : from) {

@@ -93,7 +93,7 @@ class Stage {
   void ticked(int number) {
     Member& member = crew_[static_cast<std::size_t>(number)];
     radio_.advance(session_.now_us(), antennas());
-    for (radio::Heard& heard : radio_.take(number)) {
+    for (radio::ReceivedMessage& heard : radio_.take(number)) {
       member.note_radio("heard", static_cast<std::int64_t>(heard.number), heard.from, number,
                         heard.data);
       member.computer().heard(heard.from, std::move(heard.data));

@@ -46,8 +46,8 @@ void Air::ticked(Run& run, std::uint32_t robot) {
   }
   radio_.advance(run.session.now_us(), places);
   radio_.take_outcomes();  // unused here, and they would accumulate
-  std::deque<radio::Heard>& heard = heard_[robot];
-  for (radio::Heard& each : radio_.take(static_cast<int>(robot))) {
+  std::deque<radio::ReceivedMessage>& heard = heard_[robot];
+  for (radio::ReceivedMessage& each : radio_.take(static_cast<int>(robot))) {
     run.seat(robot).note_radio({.event = "heard",
                                 .number = static_cast<std::int32_t>(each.number),
                                 .from = each.from,
@@ -82,10 +82,10 @@ int Air::send(Run& run, std::uint32_t robot, std::int32_t to, std::string data) 
 
 int Air::take(std::uint32_t robot, void* data, std::uint64_t room, std::uint64_t* size,
               std::uint32_t* from) {
-  std::deque<radio::Heard>& heard = heard_[robot];
+  std::deque<radio::ReceivedMessage>& heard = heard_[robot];
   *size = 0;
   if (heard.empty()) return VERP_NO_MESSAGE;
-  const radio::Heard& next = heard.front();
+  const radio::ReceivedMessage& next = heard.front();
   *size = next.data.size();
   if (room < next.data.size()) {
     throw Failure(VERP_BAD_ARGUMENT, "data has room for " + std::to_string(room) + " bytes, not " +

@@ -28,7 +28,7 @@ class Air {
  private:
   static constexpr std::size_t kMostHeard = 256;
   radio::Radio radio_;
-  std::vector<std::deque<radio::Heard>> heard_;
+  std::vector<std::deque<radio::ReceivedMessage>> heard_;
 };
 
 }  // namespace verp::abi

@@ -53,7 +53,7 @@ int verp_session_command(verp_session session, uint32_t robot, uint32_t request,
 int verp_session_give_back(verp_session session, uint32_t robot) {
   return call("verp_session_give_back", [&] {
     const auto run = sessions().use(session);
-    Seat& seat = run->seat(robot);
+    RobotInstance& seat = run->seat(robot);
     if (seat.own_orders())
       throw Failure(VERP_BAD_ARGUMENT, "nobody else gives this robot orders: its walk_s was 0");
     seat.orders().give_back();

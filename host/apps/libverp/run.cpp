@@ -48,7 +48,7 @@ Command velocity_of(double vx_m_s, double vy_m_s, double wz_rad_s) {
   return command;
 }
 
-Seat::Seat(const verp_robot& what, std::uint32_t index) : index_(index) {
+RobotInstance::RobotInstance(const verp_robot& what, std::uint32_t index) : index_(index) {
   need_text_or_null(what.name, "name");
   need_text_or_null(what.record, "record");
   scenario::Robot robot = robot_of(what.model, what.bus, what.tuning);
@@ -71,7 +71,7 @@ Seat::Seat(const verp_robot& what, std::uint32_t index) : index_(index) {
   if (what.record != nullptr) open_trace(what.record);
 }
 
-void Seat::open_trace(const char* file) {
+void RobotInstance::open_trace(const char* file) {
   const Command& v = plan_.velocity;
   record::mcap::StringMap metadata = scenario::metadata_of(plan_);
   metadata["velocity"] = fmt::format("{:g},{:g},{:g}", 1e-4 * v.vx_tenth_mm_s,
@@ -81,7 +81,7 @@ void Seat::open_trace(const char* file) {
   trace_ = std::make_unique<record::TraceWriter>(file, plan_.params, metadata);
 }
 
-session::Hooks Seat::hooks() {
+session::Hooks RobotInstance::hooks() {
   session::Hooks hooks;
   if (own_orders_) hooks.order = [](std::uint32_t) { return app::OperatorOrder{}; };
   hooks.amend = [this](std::uint32_t tick, app::OperatorOrder& order) {
@@ -95,7 +95,8 @@ session::Hooks Seat::hooks() {
   return hooks;
 }
 
-void Seat::decide(const Params& params, State& state, const Inputs& inputs, Outputs& outputs) {
+void RobotInstance::decide(const Params& params, State& state, const Inputs& inputs,
+                           Outputs& outputs) {
   if (controller_ == nullptr) return step(params, state, inputs, outputs);
   Moment moment(params, state, inputs, outputs);
   deciding_ = inputs.tick;
@@ -113,7 +114,7 @@ void Seat::decide(const Params& params, State& state, const Inputs& inputs, Outp
   state.digest.chain = record::chain(state.digest.chain, digest.value());
 }
 
-void Seat::note_radio(record::ros::Radio radio) {
+void RobotInstance::note_radio(record::ros::Radio radio) {
   if (!trace_ || !radio_failure_.empty()) return;
   radio.tick = tick_;
   try {
@@ -124,13 +125,13 @@ void Seat::note_radio(record::ros::Radio radio) {
   }
 }
 
-void Seat::ticked(const session::Tick& tick) {
+void RobotInstance::ticked(const session::Tick& tick) {
   state_ = *tick.state;
   tick_ = tick.record->inputs.tick;
   if (view_ != nullptr) write_view(tick);
 }
 
-void Seat::write_view(const session::Tick& tick) {
+void RobotInstance::write_view(const session::Tick& tick) {
   verp_tick& to = *view_;
   const sim::Truth& from = tick.seen.truth;
   to.size = sizeof to;
@@ -168,7 +169,7 @@ void Seat::write_view(const session::Tick& tick) {
   truth.joints = plan_.params.joint_count;
 }
 
-const session::WalkResult& Seat::finish(session::Session& session) {
+const session::WalkResult& RobotInstance::finish(session::Session& session) {
   if (result_) return *result_;
   result_ = session.result(index_);
   // Reports a controller failure that the caller has not read yet.
@@ -190,7 +191,7 @@ void Run::finish() {
   for (const auto& seat : seats) seat->finish(session);
 }
 
-Seat& Run::seat(std::uint32_t index) {
+RobotInstance& Run::seat(std::uint32_t index) {
   if (index < seats.size()) return *seats[index];
   throw Failure(VERP_BAD_ARGUMENT,
                 fmt::format("there is no robot {}: the session has {}", index, seats.size()));

@@ -17,9 +17,9 @@
 namespace verp::abi {
 
 /// One robot of the session and its user's settings. The session's hooks refer to it.
-class Seat {
+class RobotInstance {
  public:
-  Seat(const verp_robot& what, std::uint32_t index);
+  RobotInstance(const verp_robot& what, std::uint32_t index);
 
   const session::WalkPlan& plan() const { return plan_; }
   session::Hooks hooks();
@@ -66,9 +66,10 @@ class Seat {
 
 struct Run {
   explicit Run(const session::Options& options) : session(options), sight(options.world) {}
-  Seat& seat(std::uint32_t index);
+  RobotInstance& seat(std::uint32_t index);
 
-  std::deque<std::unique_ptr<Seat>> seats;  ///< outlive the session, whose hooks refer to them
+  std::deque<std::unique_ptr<RobotInstance>>
+      seats;  ///< outlive the session, whose hooks refer to them
   session::Session session;
   Sight sight;
   std::optional<Air> air;  ///< nullopt: no robot has a radio

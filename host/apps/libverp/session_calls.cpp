@@ -114,7 +114,7 @@ int verp_session_add(verp_session session, const verp_robot* what, uint32_t* rob
     if (run->begun || run->ended)
       throw Failure(VERP_BAD_ARGUMENT, "robots join before the first tick");
     const auto index = static_cast<std::uint32_t>(run->seats.size());
-    auto seat = std::make_unique<Seat>(*what, index);
+    auto seat = std::make_unique<RobotInstance>(*what, index);
     run->session.add(seat->plan(), seat->hooks());
     run->sight.add(seat->plan());
     run->seats.push_back(std::move(seat));

@@ -31,7 +31,7 @@ namespace {
 constexpr double kDegreesOfRad = 180 / std::numbers::pi;
 constexpr double kStand_m = 1;  ///< no leg of such a robot reaches the floor
 
-cli::Json facts(const action::Made& made, int number) {
+cli::Json facts(const action::CompiledActions& made, int number) {
   const action::Library library = made.library();
   const action::Action& own = library.action(number);
   const action::Document& document = made.documents[static_cast<std::size_t>(number - 1)];
@@ -104,7 +104,8 @@ int check(const ActionWords& words) {
   const int only = words.action.empty() ? 0 : require_action(robot, words);
   for (int number = 1; number <= robot.made.library().count(); ++number) {
     if (only != 0 && number != only) continue;
-    const action::Checked checked = action::check(robot.entity, robot.params, robot.made, number);
+    const action::ActionCheck checked =
+        action::check(robot.entity, robot.params, robot.made, number);
     const action::Document& document = robot.made.documents[static_cast<std::size_t>(number - 1)];
     cli::Json frames = cli::Json::array();
     text += fmt::format("{} on {}: {:.2f} s{}\n", document.name, robot.entity.name,
@@ -142,7 +143,7 @@ int check(const ActionWords& words) {
 }
 
 /// Empty if the robot stayed where it was.
-std::string way_in_words(const action::Played& played) {
+std::string way_in_words(const action::PlayedAction& played) {
   constexpr double kStayed_m = 0.05, kStayed_rad = 0.1;
   if (played.went_m.norm() < kStayed_m && std::abs(played.turned_rad) < kStayed_rad) return "";
   return fmt::format("  {:<18}{:.2f} m ahead, {:.2f} m to the left, turned by {:.0f} degrees\n",
@@ -177,8 +178,8 @@ int play(const ActionWords& words) {
   hooks.ticked = [&](const session::Tick& tick) {
     progress.show(0, fmt::format("{}  {:.1f} s", words.action, tick.seen.truth.t_s));
   };
-  action::Played played = action::play(plan, number, std::move(hooks),
-                                       {.world = walk.run.world, .interrupted = cli::interrupted});
+  action::PlayedAction played = action::play(
+      plan, number, std::move(hooks), {.world = walk.run.world, .interrupted = cli::interrupted});
   progress.clear();
   const session::WalkResult& run = played.run;
   files.finish(run, {});

@@ -14,8 +14,8 @@ bool is_file(const std::string& word) {
 
 }  // namespace
 
-action::Made make_actions(const model::Entity& entity, const Params& params,
-                          const std::string& named) {
+action::CompiledActions make_actions(const model::Entity& entity, const Params& params,
+                                     const std::string& named) {
   std::vector<action::Document> documents = action::read_folder(action::folder_of(entity.file));
   if (is_file(named)) {
     for (const action::Document& own : action::read_with_linked(named)) {
@@ -26,7 +26,7 @@ action::Made make_actions(const model::Entity& entity, const Params& params,
   return action::make_library(params, std::move(documents));
 }
 
-int require_action(const model::Entity& entity, const action::Made& made,
+int require_action(const model::Entity& entity, const action::CompiledActions& made,
                    const std::string& named) {
   const std::string name = is_file(named) ? action::read_document(named).name : named;
   if (made.number(name) == 0 && std::filesystem::exists(named)) {

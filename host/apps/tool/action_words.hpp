@@ -20,7 +20,7 @@ struct ActionWords {
 struct ActionRobot {
   model::Entity entity;
   Params params;
-  action::Made made;
+  action::CompiledActions made;
 };
 
 /// Loads the robot with the actions beside its file. A named action file joins them and replaces
@@ -31,9 +31,10 @@ ActionRobot load_action_robot(const ActionWords& words);
 int require_action(const ActionRobot& robot, const ActionWords& words);
 
 /// The same for a loaded robot. `named`: one of its actions, or a file.
-action::Made make_actions(const model::Entity& entity, const Params& params,
-                          const std::string& named);
-int require_action(const model::Entity& entity, const action::Made& made, const std::string& named);
+action::CompiledActions make_actions(const model::Entity& entity, const Params& params,
+                                     const std::string& named);
+int require_action(const model::Entity& entity, const action::CompiledActions& made,
+                   const std::string& named);
 
 /// Scales the position gains of all servos to `percent`.
 void soften(model::Entity& entity, int percent);

@@ -70,7 +70,7 @@ RobotFiles robot_files(const FlashOptions& options, const flash::MemoryMap& map,
   made.params = folder / "params.bin";
   write_piece(made.params, &image, sizeof image);
   if (!options.actions.empty() || map.actions.bytes == 0) return made;
-  const action::Made own = make_actions(entity, image.params, "");
+  const action::CompiledActions own = make_actions(entity, image.params, "");
   if (own.documents.empty()) return made;
   const std::vector<std::uint8_t> kept = action::kept_image(own, image.params);
   made.actions = folder / "actions.bin";

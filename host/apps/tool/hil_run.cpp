@@ -17,13 +17,13 @@ namespace {
 /// "u" and Enter sets the robot on its feet.
 class Keyboard final : public session::Observer {
  public:
-  explicit Keyboard(session::Served*& served) : served_(served) {}
+  explicit Keyboard(session::RemoteController*& served) : served_(served) {}
   void tick(std::size_t, session::Robot&) override {
     if (lines_.next() == "u") served_->set_upright();
   }
 
  private:
-  session::Served*& served_;
+  session::RemoteController*& served_;
   cli::TypedLines lines_;
 };
 
@@ -45,7 +45,7 @@ HilResult serve_controller(const WalkPlan& plan, session::ServeOptions options,
   };
   options.cannot_keep_up = cli::leave_real_time;
   session::Session session({.interrupted = cli::interrupted});
-  session::Served* served = nullptr;
+  session::RemoteController* served = nullptr;
   RunOnScreen screen(progress, "verp hil");
   Keyboard keyboard(served);
   observers.insert(observers.end(), {&screen, &keyboard});

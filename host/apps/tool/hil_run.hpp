@@ -2,11 +2,11 @@
 #include <vector>
 
 #include "host/apps/tool/walk_run.hpp"
-#include "host/run/session/served.hpp"
+#include "host/run/session/remote_controller.hpp"
 
 namespace verp::tool {
 
-struct HilResult : session::ServedResult {
+struct HilResult : session::RemoteControllerResult {
   WalkResult walk;
 
   double ticks_per_s() const {
@@ -14,8 +14,9 @@ struct HilResult : session::ServedResult {
   }
 };
 
-/// The twin of plan.entity answers a controller at the other end of a link (session::Served), until
-/// it or the walk is over; tells on stderr what happens. Throws what opening a link throws.
+/// The twin of plan.entity answers a controller at the other end of a link
+/// (session::RemoteController), until it or the walk is over; tells on stderr what happens. Throws
+/// what opening a link throws.
 HilResult serve_controller(const WalkPlan& plan, session::ServeOptions options,
                            cli::Progress& progress, std::vector<session::Observer*> observers);
 

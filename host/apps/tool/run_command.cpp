@@ -52,7 +52,7 @@ struct RunWords {
 /// Orders from another source are not planned beforehand; tuning limits them.
 void require_followed_orders(const Params& params) {
   const Command longest = session::longest_order(params);
-  const session::Followed followed = session::within_servo_speed(params, longest);
+  const session::FeasibleVelocity followed = session::within_servo_speed(params, longest);
   if (followed.remark.empty()) return;
   const double share = static_cast<double>(followed.velocity.vx_tenth_mm_s) / longest.vx_tenth_mm_s;
   throw cli::ToolError(
@@ -112,7 +112,7 @@ RunPlan make_plan(const RunWords& words) {
   if (words.take_orders) require_followed_orders(walk.params);
   if (words.get_up) let_robot_get_up(words, walk);
   if (!words.action.empty()) {
-    const action::Made made = make_actions(walk.entity, walk.params, words.action);
+    const action::CompiledActions made = make_actions(walk.entity, walk.params, words.action);
     plan.action = require_action(walk.entity, made, words.action);
     walk.actions = made.words;
   }

@@ -237,7 +237,7 @@ int run_shadow(const ShadowWords& words) {
   const bool can = link::parse_endpoint(words.link).kind == link::Endpoint::Kind::kCan;
   const model::Entity entity = robot_on(words, can);
   const Params params = params_of(words, entity);
-  const action::Made made = make_actions(entity, params, "");
+  const action::CompiledActions made = make_actions(entity, params, "");
   const action::Library own = made.library();
   return can ? ShadowRun<CanSide>(words, params, own).run()
              : ShadowRun<SerialSide>(words, params, own).run();

@@ -105,7 +105,7 @@ survey::Watch shown(cli::Progress& progress, const std::string& kind) {
 }
 
 /// The page, and what the disk refused of it.
-int leave(const WalkOptions& options, const std::filesystem::path& folder, MapTold& told) {
+int leave(const WalkOptions& options, const std::filesystem::path& folder, MapReport& told) {
   if (folder.empty()) return cli::kGood;
   try {
     const files::FolderLock lock(folder);
@@ -138,7 +138,7 @@ int walk_map(const WalkOptions& options, const Walk& walk) {
   if (!folder.empty()) make_folder(folder);
   cli::Progress progress(!options.json);
   const survey::Watch watch = shown(progress, options.map.kind);
-  MapTold told;
+  MapReport told;
   try {
     told = push ? tell(options, plan, survey::push_map(plan, world, *pushes, watch), *pushes)
                 : tell(options, plan, survey::stability_map(plan, world, *velocities, watch),

@@ -23,9 +23,9 @@ std::string robot_of(const Params& params) {
 }
 
 /// What both maps are told with.
-MapTold begun(const WalkOptions& options, const WalkPlan& plan, const std::string& title,
-              const std::string& verdict, bool interrupted) {
-  MapTold told;
+MapReport begun(const WalkOptions& options, const WalkPlan& plan, const std::string& title,
+                const std::string& verdict, bool interrupted) {
+  MapReport told;
   told.interrupted = interrupted;
   told.page.title = robot_of(plan.params) + ": " + title;
   told.page.verdict = verdict;
@@ -77,8 +77,8 @@ cli::Json sides_json(const std::vector<survey::Side>& sides) {
 
 }  // namespace
 
-MapTold tell(const WalkOptions& options, const WalkPlan& plan, const survey::PushMap& map,
-             const survey::PushOptions& asked) {
+MapReport tell(const WalkOptions& options, const WalkPlan& plan, const survey::PushMap& map,
+               const survey::PushOptions& asked) {
   const std::vector<survey::Side> sides = survey::sides_of(map);
   const auto weakest =
       std::min_element(sides.begin(), sides.end(),
@@ -93,10 +93,10 @@ MapTold tell(const WalkOptions& options, const WalkPlan& plan, const survey::Pus
     if (!asked.standing) verdict += fmt::format(", phase {}", weakest->least_phase);
   }
   if (map.interrupted) verdict += "; interrupted";
-  MapTold told = begun(options, plan,
-                       fmt::format("pushes of {:g} ms while it {}", 1e3 * asked.push_s,
-                                   asked.standing ? "stands" : "walks"),
-                       verdict, map.interrupted);
+  MapReport told = begun(options, plan,
+                         fmt::format("pushes of {:g} ms while it {}", 1e3 * asked.push_s,
+                                     asked.standing ? "stands" : "walks"),
+                         verdict, map.interrupted);
   if (!plan.remark.empty()) told.text += fmt::format("  {:<18}{}\n", "remark", plan.remark);
   told.text += survey::text_of(map, asked);
   const survey::Velocity velocity = survey::velocity_of(plan.velocity);
@@ -133,8 +133,8 @@ MapTold tell(const WalkOptions& options, const WalkPlan& plan, const survey::Pus
   return told;
 }
 
-MapTold tell(const WalkOptions& options, const WalkPlan& plan, const survey::StabilityMap& map,
-             const survey::StabilityOptions& asked) {
+MapReport tell(const WalkOptions& options, const WalkPlan& plan, const survey::StabilityMap& map,
+               const survey::StabilityOptions& asked) {
   const auto count = [&](CellEnd end) { return survey::count_of(map, end); };
   const std::size_t of = map.cells.size();
   const std::size_t done = of - static_cast<std::size_t>(count(CellEnd::kNone));
@@ -145,8 +145,8 @@ MapTold tell(const WalkOptions& options, const WalkPlan& plan, const survey::Sta
           count(CellEnd::kShort), count(CellEnd::kFell),
           count(CellEnd::kFailed) > 0 ? fmt::format(", {} failed", count(CellEnd::kFailed)) : "",
           map.interrupted ? "; interrupted" : "");
-  MapTold told = begun(options, plan, fmt::format("{:g} s at each velocity", plan.walk_s), verdict,
-                       map.interrupted);
+  MapReport told = begun(options, plan, fmt::format("{:g} s at each velocity", plan.walk_s),
+                         verdict, map.interrupted);
   told.text += survey::text_of(map, asked);
   for (const CellEnd end : {CellEnd::kWalked, CellEnd::kShort, CellEnd::kFell}) {
     told.page.facts.push_back({survey::name_of(end), std::to_string(count(end)),

@@ -11,16 +11,16 @@
 /// A map, told three ways: as a page, as text for a terminal, as JSON.
 namespace verp::tool {
 
-struct MapTold {
+struct MapReport {
   survey::Page page;
   cli::Json json;
   std::string text;
   bool interrupted = false;
 };
 
-MapTold tell(const WalkOptions& options, const WalkPlan& plan, const survey::PushMap& map,
-             const survey::PushOptions& asked);
-MapTold tell(const WalkOptions& options, const WalkPlan& plan, const survey::StabilityMap& map,
-             const survey::StabilityOptions& asked);
+MapReport tell(const WalkOptions& options, const WalkPlan& plan, const survey::PushMap& map,
+               const survey::PushOptions& asked);
+MapReport tell(const WalkOptions& options, const WalkPlan& plan, const survey::StabilityMap& map,
+               const survey::StabilityOptions& asked);
 
 }  // namespace verp::tool

@@ -112,7 +112,7 @@ struct WalkRadio::Air {
 
   void listen(Station& at) {
     advance();
-    for (radio::Heard& each : radio.take(at.index)) {
+    for (radio::ReceivedMessage& each : radio.take(at.index)) {
       note(at, {.event = "heard",
                 .number = static_cast<std::int32_t>(each.number),
                 .from = each.from,

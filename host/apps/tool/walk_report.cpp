@@ -290,7 +290,7 @@ std::string to_text(const WalkPlan& plan, const WalkOptions& options, const Walk
 
 cli::Json fall_story_json(const WalkResult& result) {
   cli::Json out = cli::Json::array();
-  for (const session::Happened& each : result.fall_story)
+  for (const session::RunEvent& each : result.fall_story)
     out.push_back({{"at_s", each.at_s}, {"what", each.what}});
   return out;
 }

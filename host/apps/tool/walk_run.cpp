@@ -14,7 +14,7 @@ void RunOnScreen::join(std::size_t index, const WalkPlan& plan, session::Hooks& 
   }
   if (plan.get_ups == 0 || command_.empty()) return;
   const std::string who = command_ + ": " + (plan.name.empty() ? "" : plan.name + ": ");
-  hooks.told = [this, who](const session::Happened& news) {
+  hooks.told = [this, who](const session::RunEvent& news) {
     progress_.clear();
     cli::complain(fmt::format("{}{:.2f} s: {}", who, news.at_s, news.what));
   };

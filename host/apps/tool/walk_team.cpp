@@ -13,7 +13,7 @@
 #include "host/apps/tool/walk_outside.hpp"
 #include "host/os/link/endpoint.hpp"
 #include "host/os/link/link_error.hpp"
-#include "host/run/session/served.hpp"
+#include "host/run/session/remote_controller.hpp"
 
 namespace verp::tool {
 namespace {

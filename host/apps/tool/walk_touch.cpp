@@ -94,7 +94,7 @@ int list_quantities(const scenario::Expanded& run, bool json) {
 
 cli::Json touch_json(const WalkResult& result) {
   cli::Json out = cli::Json::array();
-  for (const session::Done& each : result.interventions) {
+  for (const session::AppliedIntervention& each : result.interventions) {
     out.push_back({{"tick", each.tick}, {"time_s", each.time_s}, {"what", each.what}});
   }
   return out;
@@ -102,7 +102,7 @@ cli::Json touch_json(const WalkResult& result) {
 
 std::string touch_text(const WalkResult& result) {
   std::string out;
-  for (const session::Done& each : result.interventions) {
+  for (const session::AppliedIntervention& each : result.interventions) {
     out += fmt::format("  {:<18}after tick {}, at {:.3f} s simulated: {}\n", "done", each.tick,
                        each.time_s, each.what);
   }

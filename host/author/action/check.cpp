@@ -38,10 +38,10 @@ void fulfil(Condition condition, PlayerIn& in) {
 
 class Checker {
  public:
-  Checker(const model::Entity& entity, const Params& params, const Made& made)
+  Checker(const model::Entity& entity, const Params& params, const CompiledActions& made)
       : entity_(entity), params_(params), made_(made), support_(params), stand_(params) {}
 
-  Checked run(int number) {
+  ActionCheck run(int number) {
     const Library library = made_.library();
     PlayerState state;
     PlayerIn in;
@@ -169,10 +169,10 @@ class Checker {
 
   const model::Entity& entity_;
   const Params& params_;
-  const Made& made_;
+  const CompiledActions& made_;
   Support support_;
   Poser stand_;
-  Checked result_;
+  ActionCheck result_;
   int tick_ = 0, frame_ = -2, reference_ = -1;
   std::optional<PlayerOut> before_;
   std::vector<Vec3> com_m_;
@@ -180,13 +180,14 @@ class Checker {
 
 }  // namespace
 
-const FrameCheck* Checked::first_bad() const {
+const FrameCheck* ActionCheck::first_bad() const {
   const auto bad = std::find_if(frames.begin(), frames.end(),
                                 [](const FrameCheck& each) { return !each.problem.empty(); });
   return bad == frames.end() ? nullptr : &*bad;
 }
 
-Checked check(const model::Entity& entity, const Params& params, const Made& made, int number) {
+ActionCheck check(const model::Entity& entity, const Params& params, const CompiledActions& made,
+                  int number) {
   return Checker(entity, params, made).run(number);
 }
 

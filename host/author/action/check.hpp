@@ -22,13 +22,14 @@ struct FrameCheck {
   std::string problem;      ///< the first broken bound; may be empty
 };
 
-struct Checked {
+struct ActionCheck {
   std::vector<FrameCheck> frames;  ///< in the order played
   double length_s = 0;
   bool whole = true;  ///< false: stopped at length_s, before the end
   const FrameCheck* first_bad() const;
 };
 
-Checked check(const model::Entity& entity, const Params& params, const Made& made, int number);
+ActionCheck check(const model::Entity& entity, const Params& params, const CompiledActions& made,
+                  int number);
 
 }  // namespace verp::action

@@ -25,7 +25,7 @@ class Maker {
               [](const Document& a, const Document& b) { return a.name < b.name; });
   }
 
-  Made make() {
+  CompiledActions make() {
     check_names();
     drafts_.resize(documents_.size());
     for (std::size_t i = 0; i < documents_.size(); ++i) {
@@ -214,8 +214,8 @@ class Maker {
     }
   }
 
-  Made finish() {
-    Made made;
+  CompiledActions finish() {
+    CompiledActions made;
     LibraryHeader header;
     std::memcpy(header.magic, kLibraryMagic, sizeof kLibraryMagic);
     header.library_version = kLibraryVersion;
@@ -255,14 +255,14 @@ class Maker {
 
 }  // namespace
 
-int Made::number(const std::string& name) const {
+int CompiledActions::number(const std::string& name) const {
   for (std::size_t i = 0; i < documents.size(); ++i) {
     if (documents[i].name == name) return static_cast<int>(i) + 1;
   }
   return 0;
 }
 
-int Made::require(const std::string& name, const std::string& place) const {
+int CompiledActions::require(const std::string& name, const std::string& place) const {
   const int found = number(name);
   if (found > 0) return found;
   std::string names;
@@ -272,7 +272,7 @@ int Made::require(const std::string& name, const std::string& place) const {
       names.empty() ? "write one: host/guide/actions.md has the words" : "there are: " + names);
 }
 
-Made make_library(const Params& params, std::vector<Document> documents) {
+CompiledActions make_library(const Params& params, std::vector<Document> documents) {
   return Maker(params, std::move(documents)).make();
 }
 

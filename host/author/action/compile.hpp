@@ -9,7 +9,7 @@
 namespace verp::action {
 
 /// Compiled actions: the image for a controller, and each frame's source.
-struct Made {
+struct CompiledActions {
   std::vector<std::uint32_t> words;  ///< aligned
   std::vector<Document> documents;   ///< of action 1, 2, ...: by name
   std::vector<int> line;             ///< one per frame
@@ -24,6 +24,6 @@ struct Made {
 
 /// Compiles a robot's actions. Throws LoadError with file and line for what the robot cannot do,
 /// and for endless links.
-Made make_library(const Params& params, std::vector<Document> documents);
+CompiledActions make_library(const Params& params, std::vector<Document> documents);
 
 }  // namespace verp::action

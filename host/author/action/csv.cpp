@@ -26,7 +26,7 @@ std::vector<std::string> cells_of(std::string line) {
 
 }  // namespace
 
-std::string to_csv(const Params& params, const Made& made, int number) {
+std::string to_csv(const Params& params, const CompiledActions& made, int number) {
   const Library library = made.library();
   const Action& own = library.action(number);
   std::string text = "time_s,hold_s";

@@ -7,7 +7,7 @@
 namespace verp::action {
 
 /// The compiled action; body and feet become joint angles.
-std::string to_csv(const Params& params, const Made& made, int number);
+std::string to_csv(const Params& params, const CompiledActions& made, int number);
 
 /// Lists the parts that a table cannot hold: "note, stance, repeats"; may be empty.
 std::string not_in_csv(const Document& document);

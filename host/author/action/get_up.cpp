@@ -10,7 +10,7 @@ namespace verp::action {
 
 void take_get_up_actions(session::WalkPlan& plan) {
   const auto folder = folder_of(plan.entity.file);
-  const Made made = make_library(plan.params, read_folder(folder));
+  const CompiledActions made = make_library(plan.params, read_folder(folder));
   // A robot that is put down on one side needs no way up from the other.
   const sim::Lies lies = plan.twin.lies;
   if (lies != sim::Lies::kBack) made.require(kGetUpFront, folder.string());
@@ -22,7 +22,7 @@ std::string offer_get_up_actions(session::WalkPlan& plan) {
   if (!plan.actions.empty()) return "";
   try {
     const auto folder = folder_of(plan.entity.file);
-    Made made = make_library(plan.params, read_folder(folder));
+    CompiledActions made = make_library(plan.params, read_folder(folder));
     const bool both = made.number(kGetUpFront) != 0 && made.number(kGetUpBack) != 0;
     if (both) plan.actions = std::move(made.words);
   } catch (const model::LoadError& error) {

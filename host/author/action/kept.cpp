@@ -4,7 +4,7 @@
 
 namespace verp::action {
 
-std::vector<std::uint8_t> kept_image(const Made& made, const Params& params) {
+std::vector<std::uint8_t> kept_image(const CompiledActions& made, const Params& params) {
   LibraryHeader header;
   std::memcpy(static_cast<void*>(&header), made.words.data(), sizeof header);
   const KeptMark mark = make_mark(header, params);

@@ -8,6 +8,6 @@
 namespace verp::action {
 
 /// The library as in a board's flash, with its robot's mark.
-std::vector<std::uint8_t> kept_image(const Made& made, const Params& params);
+std::vector<std::uint8_t> kept_image(const CompiledActions& made, const Params& params);
 
 }  // namespace verp::action

@@ -9,7 +9,7 @@ namespace verp::action {
 namespace {
 
 /// The way on the floor, in the heading of `from`.
-void tell_way(const sim::Truth& from, const sim::Truth& to, Played& played) {
+void tell_way(const sim::Truth& from, const sim::Truth& to, PlayedAction& played) {
   const Eigen::Rotation2Dd home(-from.yaw_rad);
   played.went_m = home * (to.body_world.translation() - from.body_world.translation()).head<2>();
   played.turned_rad = std::remainder(to.yaw_rad - from.yaw_rad, 2 * std::numbers::pi);
@@ -19,10 +19,11 @@ constexpr double kLongest_s = 2 * (PlayOperator::kStandUp_s + PlayOperator::kMos
 
 }  // namespace
 
-Played play(session::WalkPlan plan, int number, session::Hooks hooks, session::Options options) {
+PlayedAction play(session::WalkPlan plan, int number, session::Hooks hooks,
+                  session::Options options) {
   plan.walk_s = kLongest_s;
   PlayOperator person(number, 1e-6 * plan.params.period_us);
-  Played played;
+  PlayedAction played;
   sim::Truth from;
   hooks.order = [&](std::uint32_t tick) { return person.order(tick); };
   hooks.ticked = [&, also = hooks.ticked](const session::Tick& tick) {

@@ -3,7 +3,7 @@
 
 namespace verp::action {
 
-struct Played {
+struct PlayedAction {
   session::WalkResult run;
   double action_s = 0;  ///< from the stand to the stand
   double asked_s = 0;   ///< simulated time of the request
@@ -13,6 +13,7 @@ struct Played {
 };
 
 /// Plays action `number` of plan.actions on the twin, and runs the caller's `hooks`.
-Played play(session::WalkPlan plan, int number, session::Hooks hooks, session::Options options);
+PlayedAction play(session::WalkPlan plan, int number, session::Hooks hooks,
+                  session::Options options);
 
 }  // namespace verp::action

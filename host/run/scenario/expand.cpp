@@ -178,7 +178,7 @@ Command velocity_of(const Orders& orders, const GaitTuning& gait) {
 
 void give_orders(const Orders& orders, WalkPlan& plan) {
   plan.asked = velocity_of(orders, plan.params.tuning.gait);
-  const session::Followed followed = session::within_servo_speed(plan.params, *plan.asked);
+  const session::FeasibleVelocity followed = session::within_servo_speed(plan.params, *plan.asked);
   plan.velocity = followed.velocity;
   plan.remark = followed.remark;
   plan.stands = std::holds_alternative<Stand>(orders);

@@ -7,9 +7,9 @@
 #include "firmware/app/app.hpp"
 #include "host/boards/board/board_error.hpp"
 #include "host/boards/board/loop_on_target.hpp"
-#include "host/run/session/desk.hpp"
 #include "host/run/session/flow.hpp"
 #include "host/run/session/not_up.hpp"
+#include "host/run/session/operator_console.hpp"
 
 namespace verp::session {
 namespace {
@@ -47,8 +47,8 @@ class LocalController final : public Controller {
   }
 
   Robot& robot_;
-  Desk desk_;
-  app::App<Bus, Desk, Desk, app::NoImu, Law> app_;
+  OperatorConsole desk_;
+  app::App<Bus, OperatorConsole, OperatorConsole, app::NoImu, Law> app_;
   bool up_ = false;
 };
 

@@ -33,7 +33,7 @@ void check(const Intervention& intervention, const sim::Quantities& quantities);
 void apply(const Intervention& intervention, sim::Quantities& quantities);
 
 /// One that was done.
-struct Done {
+struct AppliedIntervention {
   std::uint32_t tick =
       0;              ///< of the robot's controller, after which it was; 0 of one that is silent
   double time_s = 0;  ///< simulated

@@ -44,7 +44,8 @@ struct WalkPlan {
   std::function<Decide()> own;
   /// Where that board's images are, with such a controller in them; empty: those of this project.
   std::string firmware_folder;
-  std::string link;  ///< at whose other end its controller is (served.hpp); empty: it is not
+  std::string
+      link;  ///< at whose other end its controller is (remote_controller.hpp); empty: it is not
   std::string name;  ///< among other robots of the world; empty: as params have it
   int number = 0;    ///< among the robots of its scenario, from 0 on
   std::vector<Intervention> interventions;  ///< of what is done to the twin, in any order
@@ -63,7 +64,7 @@ struct Tick {
 };
 
 /// Something that became of a robot, in words.
-struct Happened {
+struct RunEvent {
   double at_s = 0;  ///< simulated time
   std::string what;
 };
@@ -80,7 +81,7 @@ struct Hooks {
   Decide decide;
   std::function<void(const Tick&)> ticked;
   /// What becomes of a robot that falls, lies or gets up.
-  std::function<void(const Happened&)> told;
+  std::function<void(const RunEvent&)> told;
   /// When the robot's cameras looked (plan.twin.cameras), up to the tick that was just recorded;
   /// stamp_ns: as the trace counts time. Not called any more once a trace that was given breaks
   /// off.
@@ -106,12 +107,12 @@ struct WalkResult {
   std::uint64_t digest = 0;
   std::uint32_t faults = 0;          ///< safety::Fault bits at the end
   int falls = 0, get_ups = 0;        ///< as the controller saw them
-  std::vector<Happened> fall_story;  ///< of each fall and of getting up; of what the plan lets it
+  std::vector<RunEvent> fall_story;  ///< of each fall and of getting up; of what the plan lets it
   double longest_step_m = 0;  ///< that the gait made: the asked one, or what limits left of it
   double simulated_s = 0, wall_s = 0;
   sim::Vec2 end_m{0, 0};              ///< where its body was then, in the world
   std::vector<double> set_upright_s;  ///< when somebody set it on its feet, simulated time
-  std::vector<Done> interventions;    ///< what of the plan's was done, and what else
+  std::vector<AppliedIntervention> interventions;  ///< what of the plan's was done, and what else
   bool interrupted = false;
   std::optional<CanTraffic> can;  ///< of a walk over CAN
   std::string trace_failure;  ///< why the trace breaks off; the walk went on. Empty: it does not

@@ -7,7 +7,7 @@
 #include "host/os/link/can_port.hpp"
 #include "host/os/link/link_error.hpp"
 #include "host/os/link/system_clock.hpp"
-#include "host/run/session/served.hpp"
+#include "host/run/session/remote_controller.hpp"
 #include "host/run/shadow/live_check.hpp"
 #include "host/twin/can/lockstep_server.hpp"
 #include "host/twin/can/other_nodes.hpp"
@@ -18,10 +18,10 @@ namespace verp::session {
 namespace {
 
 /// CiA 402 drives on a SocketCAN interface.
-class ServedOnCan final : public Served {
+class ServedOnCan final : public RemoteController {
  public:
   ServedOnCan(Robot& robot, const ServeOptions& options)
-      : Served(robot, options, true),
+      : RemoteController(robot, options, true),
         port_(link::parse_endpoint(options.link)),
         claim_(port_.interface().name, "nodes", "`verp hil`"),
         server_(robot.plan().params, robot.can(), own_hooks()),
@@ -36,7 +36,7 @@ class ServedOnCan final : public Served {
   }
 
   ServedResult result() const override {
-    ServedResult result = Served::result();
+    ServedResult result = RemoteController::result();
     if (live_) result.compared += live_->compared();
     result.losses = losses_;
     result.overruns = port_.errors().overruns;
@@ -66,7 +66,7 @@ class ServedOnCan final : public Served {
   }
 
   can::LockstepHooks own_hooks() {
-    return {Served::hooks(),
+    return {RemoteController::hooks(),
             [this](const CanFrame& frame) {
               if (shadow_ != nullptr) shadow_->sent(frame);
             },
@@ -218,7 +218,7 @@ class ServedOnCan final : public Served {
   std::optional<shadow::LiveCheck> live_;
   std::vector<CanFrame> answer_;
   std::vector<CanFrame> unannounced_;  ///< received before the pace was known
-  std::vector<can::RealtimeServer::Heard> heard_;
+  std::vector<can::RealtimeServer::ReceivedFrame> heard_;
   std::uint64_t skew_us_ = link::monotonic_ns() / 1000 - port_.now_us();
   std::uint32_t losses_ = 0;
   bool lost_ = false;
@@ -228,7 +228,7 @@ class ServedOnCan final : public Served {
 
 }  // namespace
 
-std::unique_ptr<Served> make_served_on_can(Robot& robot, const ServeOptions& options) {
+std::unique_ptr<RemoteController> make_served_on_can(Robot& robot, const ServeOptions& options) {
   return std::make_unique<ServedOnCan>(robot, options);
 }
 

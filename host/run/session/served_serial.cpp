@@ -6,17 +6,17 @@
 
 #include "host/os/link/link.hpp"
 #include "host/os/link/system_clock.hpp"
-#include "host/run/session/served.hpp"
+#include "host/run/session/remote_controller.hpp"
 #include "host/twin/bus/lockstep_server.hpp"
 
 namespace verp::session {
 namespace {
 
 /// Dynamixel servos on a byte link.
-class ServedOnSerial final : public Served {
+class ServedOnSerial final : public RemoteController {
  public:
   ServedOnSerial(Robot& robot, const ServeOptions& options)
-      : Served(robot, options, false),
+      : RemoteController(robot, options, false),
         link_(link::parse_endpoint(options.link)),
         lockstep_(robot.plan().params, robot.bus(), own_hooks()),
         realtime_(robot.bus()) {
@@ -28,7 +28,7 @@ class ServedOnSerial final : public Served {
   }
 
   ServedResult result() const override {
-    ServedResult result = Served::result();
+    ServedResult result = RemoteController::result();
     result.losses = link_.errors().losses;
     result.overruns = link_.errors().overruns;
     result.lockstep = lockstep_.counters();
@@ -53,7 +53,7 @@ class ServedOnSerial final : public Served {
   }
 
   bus::LockstepHooks own_hooks() {
-    bus::LockstepHooks hooks{Served::hooks(),
+    bus::LockstepHooks hooks{RemoteController::hooks(),
                              [this](std::span<const std::uint8_t> frame) {
                                if (shadow_ != nullptr) shadow_->sent({frame.begin(), frame.end()});
                              },
@@ -147,7 +147,7 @@ class ServedOnSerial final : public Served {
 
 }  // namespace
 
-std::unique_ptr<Served> make_served_on_serial(Robot& robot, const ServeOptions& options) {
+std::unique_ptr<RemoteController> make_served_on_serial(Robot& robot, const ServeOptions& options) {
   return std::make_unique<ServedOnSerial>(robot, options);
 }
 

@@ -96,7 +96,7 @@ Command longest_order(const Params& params) {
   return command;
 }
 
-Followed within_servo_speed(const Params& params, const Command& velocity) {
+FeasibleVelocity within_servo_speed(const Params& params, const Command& velocity) {
   const Fastest asked = fastest_joint(params, velocity);
   if (asked.share <= kMostSpeedShare) return {velocity, ""};
   double enough = 0, too_much = 1;

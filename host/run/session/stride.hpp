@@ -25,10 +25,10 @@ Command longest_order(const Params& params);
 
 /// `velocity`, reduced to what the servos can follow; `remark` reports a reduction, else it is
 /// empty.
-struct Followed {
+struct FeasibleVelocity {
   Command velocity;
   std::string remark;
 };
-Followed within_servo_speed(const Params& params, const Command& velocity);
+FeasibleVelocity within_servo_speed(const Params& params, const Command& velocity);
 
 }  // namespace verp::session

@@ -250,7 +250,7 @@ std::vector<Inputs> readings(const HeardTick& tick, const Inputs& before, const 
     });
   }
   if ((tick.flags & kSlowFresh) != 0) {
-    reader.each(tick.slow, [](Inputs& to, const SlowTold& told) {
+    reader.each(tick.slow, [](Inputs& to, const SlowReport& told) {
       to.slow_joint = told.joint;
       to.slow_temperature_c = told.temperature_c;
       to.slow_error = told.error;

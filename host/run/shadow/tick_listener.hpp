@@ -18,12 +18,12 @@ namespace verp::shadow {
 template <class Value>
 using Said = std::vector<Value>;
 
-struct SlowTold {
+struct SlowReport {
   std::uint8_t joint = 0;
   std::uint8_t temperature_c = 0;
   std::uint8_t error = 0;
   std::uint16_t voltage_tenth_v = 0;
-  bool operator==(const SlowTold&) const = default;
+  bool operator==(const SlowReport&) const = default;
 };
 
 /// One tick as heard on a CAN bus.
@@ -36,7 +36,7 @@ struct HeardTick {
   std::array<Said<std::int32_t>, kMaxJoints> position;
   Said<std::array<std::int16_t, 3>> gyro, accel;
   std::array<Said<std::array<std::uint16_t, kFootSensors>>, kFeet> foot;
-  Said<SlowTold> slow;
+  Said<SlowReport> slow;
 };
 
 /// Reassembles a controller's ticks from the frames on its bus. It sends nothing.
@@ -63,7 +63,7 @@ class TickListener {
   struct Asked {
     int joint = -1;
     std::uint16_t index = 0;
-    SlowTold told;
+    SlowReport told;
   };
 
   void begin_round();
@@ -81,7 +81,7 @@ class TickListener {
   HeardTick early_;   ///< heard after the last round was complete and before the next began
   bool told_ = true;  ///< of the newest round
   Asked asked_;
-  Said<SlowTold> slow_;
+  Said<SlowReport> slow_;
   std::uint64_t missed_ = 0;
   bool booted_ = false;
 };

@@ -147,7 +147,7 @@ void straighten(const model::Entity& entity, action::Document& document) {
   };
   for (bool changed = true; changed;) {
     changed = false;
-    const action::Made made = action::make_library(params, {document});
+    const action::CompiledActions made = action::make_library(params, {document});
     for (const action::FrameCheck& each : action::check(entity, params, made, 1).frames) {
       if (each.problem.empty() || each.frame < 0) continue;
       const auto at = static_cast<std::size_t>(each.frame);

@@ -50,7 +50,7 @@ constexpr double kStopping_s = 1.5;  // for the gait's end
 
 void walk(session::WalkPlan plan, const sim::WorldOptions& world, const StabilityOptions& options,
           Workers& workers, StabilityCell& cell) {
-  const session::Followed followed =
+  const session::FeasibleVelocity followed =
       session::within_servo_speed(plan.params, command_of(cell.asked));
   plan.velocity = followed.velocity;
   plan.asked.reset();  // the map reports both velocities

@@ -28,8 +28,8 @@ bool would_block() {
 
 }  // namespace
 
-Connection::Connection(int socket, Heard heard, std::span<const std::string> origins)
-    : socket_(socket), heard_(std::move(heard)), origins_(origins) {}
+Connection::Connection(int socket, OnMessage on_message, std::span<const std::string> origins)
+    : socket_(socket), on_message_(std::move(on_message)), origins_(origins) {}
 
 Connection::~Connection() {
   ::close(socket_);
@@ -91,7 +91,7 @@ void Connection::open() {
   calls.on_msg_recv_callback = [](wslay_event_context_ptr, const wslay_event_on_msg_recv_arg* what,
                                   void* self) {
     if (wslay_is_ctrl_frame(what->opcode)) return;  // wslay answers these itself
-    static_cast<Connection*>(self)->heard_(
+    static_cast<Connection*>(self)->on_message_(
         what->opcode == WSLAY_TEXT_FRAME,
         {reinterpret_cast<const char*>(what->msg), what->msg_length});
   };

@@ -17,10 +17,10 @@ class Connection {
   using Clock = std::chrono::steady_clock;
   enum class Stage { kGreeting, kRefused, kOpen, kGone };
   /// Receives a complete message, text or binary.
-  using Heard = std::function<void(bool is_text, std::string_view message)>;
+  using OnMessage = std::function<void(bool is_text, std::string_view message)>;
 
   /// `origins`: further allowed Origins; must outlive the connection.
-  Connection(int socket, Heard heard, std::span<const std::string> origins = {});
+  Connection(int socket, OnMessage on_message, std::span<const std::string> origins = {});
   ~Connection();
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
@@ -55,7 +55,7 @@ class Connection {
   void look_for_end();
 
   int socket_;
-  Heard heard_;
+  OnMessage on_message_;
   std::span<const std::string> origins_;
   Stage stage_ = Stage::kGreeting;
   std::string in_, out_;  ///< handshake; once open, in_ holds the bytes that came with it

@@ -4,7 +4,7 @@
 
 namespace verp::can {
 
-void RealtimeServer::hear(std::span<const Heard> frames, std::uint64_t clock_us,
+void RealtimeServer::hear(std::span<const ReceivedFrame> frames, std::uint64_t clock_us,
                           std::vector<CanFrame>& answer) {
   if (frames.empty()) return;
   if (!begun_) {
@@ -16,7 +16,7 @@ void RealtimeServer::hear(std::span<const Heard> frames, std::uint64_t clock_us,
   // Follow the clock, not the frames: on a slow PC each frame is older than the one before.
   skip(clock_us);
   const std::uint64_t least_us = clock_us - std::min(clock_us, kMostBehind_us / 2);
-  for (const Heard& each : frames) {
+  for (const ReceivedFrame& each : frames) {
     go_on(std::clamp(each.came_us, least_us, clock_us), answer);
     ++counters_.frames;
     if (!bus_.send(each.frame)) ++counters_.dropped;

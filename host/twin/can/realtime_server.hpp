@@ -25,7 +25,7 @@ class RealtimeServer {
   static constexpr std::uint64_t kMostBehind_us = 50'000;
   static constexpr std::uint64_t kKeepsUp_us = 1'000'000;  ///< time without a skip
 
-  struct Heard {
+  struct ReceivedFrame {
     CanFrame frame;
     std::uint64_t came_us = 0;
   };
@@ -36,7 +36,8 @@ class RealtimeServer {
   /// kMostBehind_us / 2 before `clock_us`) and appends the bus's frames to `answer`. It skips once
   /// for all frames. Otherwise, on a slow PC, a master that asks more often than there are turns
   /// would get later and later answers.
-  void hear(std::span<const Heard> frames, std::uint64_t clock_us, std::vector<CanFrame>& answer);
+  void hear(std::span<const ReceivedFrame> frames, std::uint64_t clock_us,
+            std::vector<CanFrame>& answer);
   /// Advances to `clock_us` without a frame; does nothing before the first frame.
   void turn(std::uint64_t clock_us, std::vector<CanFrame>& answer);
   /// Records how late the twin is at the end of a turn.

@@ -195,7 +195,7 @@ void Radio::forget() {
   std::erase_if(air_, [&](const Message& old) { return old.over && old.over_us <= earliest_us; });
 }
 
-std::vector<Heard> Radio::take(int station) {
+std::vector<ReceivedMessage> Radio::take(int station) {
   return std::exchange(stations_.at(static_cast<std::size_t>(station)).heard, {});
 }
 

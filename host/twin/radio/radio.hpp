@@ -36,7 +36,7 @@ using Place = std::array<double, 3>;  ///< antenna position, m
 
 inline constexpr int kEverybody = -1;
 
-struct Heard {
+struct ReceivedMessage {
   int from = 0;
   std::string data;
   std::uint64_t number = 0;  ///< counted by send(), for records
@@ -75,7 +75,7 @@ class Radio {
   /// Ends all messages that are over by now; `places` are the antenna positions of the stations.
   void advance(std::uint64_t now_us, std::span<const Place> places);
   /// Messages that the station received up to the last advance(), in order of arrival.
-  std::vector<Heard> take(int station);
+  std::vector<ReceivedMessage> take(int station);
 
   /// Outcomes since the last call.
   std::vector<Outcome> take_outcomes();
@@ -99,7 +99,7 @@ class Radio {
   };
   struct Station {
     std::deque<Message> waiting;
-    std::vector<Heard> heard;
+    std::vector<ReceivedMessage> heard;
   };
 
   std::uint64_t on_air_us(const Message& message) const;

@@ -10,13 +10,13 @@ namespace {
 using test::generic21;
 using test::Robot;
 
-Checked checked(const std::string& text) {
-  const Made made = generic21().make({text});
+ActionCheck checked(const std::string& text) {
+  const CompiledActions made = generic21().make({text});
   return check(generic21().entity, generic21().params, made, 1);
 }
 
 void expect_bad(const std::string& text, int line, const std::string& what) {
-  const Checked result = checked(text);
+  const ActionCheck result = checked(text);
   ASSERT_NE(result.first_bad(), nullptr) << what;
   EXPECT_EQ(result.first_bad()->line, line);
   EXPECT_NE(result.first_bad()->problem.find(what), std::string::npos)
@@ -40,7 +40,7 @@ TEST(ActionCheck, NamesTheFrameInWhichTheWeightIsBesideTheSoles) {
 TEST(ActionCheck, SaysThatItEndsBeforeAnActionOfHours) {
   const std::string once = "action a\nframe 1\n head_yaw 10\n";
   EXPECT_TRUE(checked(once).whole);
-  const Checked hours =
+  const ActionCheck hours =
       checked("action a\nframe start 50\n head_yaw 10\nframe 50\n repeat 255 from start\n");
   EXPECT_FALSE(hours.whole);
   EXPECT_EQ(hours.first_bad(), nullptr);
@@ -49,10 +49,11 @@ TEST(ActionCheck, SaysThatItEndsBeforeAnActionOfHours) {
 TEST(ActionCheck, EveryShippedActionPasses) {
   for (const char* name : {"generic21", "op3", "darwin_op"}) {
     const Robot robot(name);
-    const Made made = make_library(robot.params, read_folder(folder_of(robot.entity.file)));
+    const CompiledActions made =
+        make_library(robot.params, read_folder(folder_of(robot.entity.file)));
     EXPECT_GE(made.library().count(), 6) << name;
     for (int number = 1; number <= made.library().count(); ++number) {
-      const Checked result = check(robot.entity, robot.params, made, number);
+      const ActionCheck result = check(robot.entity, robot.params, made, number);
       const FrameCheck* bad = result.first_bad();
       EXPECT_EQ(bad, nullptr) << name << " " << made.library().action(number).name << " line "
                               << bad->line << ": " << bad->problem;

@@ -259,11 +259,12 @@ TEST(RobotisMotion, PagesOfMoreStepsThanTheyHoldOrOfNoPositionsAreRefusedByNumbe
 }
 
 TEST(ActionCsv, TableAndBackIsTheSameLibrary) {
-  const Made made =
+  const CompiledActions made =
       op3().make({"action a\nframe 0.5 hold 0.2\n head_pan 20\n body z -0.02\n"
                   "frame 0.4\n head_pan -20\n body stand\n"});
   const std::string table = to_csv(op3().params, made, 1);
-  const Made again = make_library(op3().params, {from_csv(op3().params, "a.csv", table, "a")});
+  const CompiledActions again =
+      make_library(op3().params, {from_csv(op3().params, "a.csv", table, "a")});
   ASSERT_EQ(again.library().action(1).frames, 2);
   for (int i = 0; i < 2; ++i) {
     const Frame &one = made.library().frame(i), &other = again.library().frame(i);

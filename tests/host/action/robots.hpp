@@ -12,7 +12,7 @@ namespace verp::action::test {
 struct Robot {
   explicit Robot(const std::string& name)
       : entity(model::load_robot(model::find_model(name))), params(model::make_params(entity)) {}
-  Made make(const std::vector<std::string>& texts) const {
+  CompiledActions make(const std::vector<std::string>& texts) const {
     std::vector<Document> documents;
     for (const std::string& text : texts) {
       documents.push_back(

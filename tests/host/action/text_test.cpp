@@ -84,7 +84,7 @@ TEST(ActionText, RubbishIsRefusedAndNeverCrashes) {
 TEST(ActionLibrary, IsWhatTheCoreTakesAndTheSameEveryTime) {
   const std::vector<std::string> texts = {"action b\nframe 1\n head_yaw 10\n",
                                           "action a\nframe 0.5\n l_elbow -20\n"};
-  const Made made = generic21().make(texts);
+  const CompiledActions made = generic21().make(texts);
   const Library library = made.library();
   ASSERT_EQ(library.count(), 2) << "check_library() takes it";
   EXPECT_STREQ(library.action(1).name, "a") << "by name, in whatever order files come";
@@ -117,7 +117,7 @@ TEST(ActionLibrary, RefusesToMoveAFollowerElsewhereThanItsMotorDoes) {
 }
 
 TEST(ActionLibrary, MirroredTwiceIsTheSame) {
-  const Made made = generic21().make(
+  const CompiledActions made = generic21().make(
       {"action left\nframe 0.5\n l_shoulder_roll 60\n l_elbow -50\n head_yaw 30\n over left 0.7\n",
        "action right\nmirror left\n",
        "action by_hand\nframe 0.5\n r_shoulder_roll -60\n r_elbow -50\n head_yaw -30\n"
@@ -133,7 +133,7 @@ TEST(ActionLibrary, MirroredTwiceIsTheSame) {
 }
 
 TEST(ActionLibrary, AJointThatTurnsBackRestsAndOneThatGoesOnPasses) {
-  const Made made =
+  const CompiledActions made =
       generic21().make({"action a\nframe 0.5\n head_yaw 20\n head_pitch 10\nframe 0.5\n head_yaw "
                         "40\n head_pitch 0\n"});
   const Frame& first = made.library().frame(0);

@@ -23,7 +23,7 @@ class CanRealTime : public ::testing::Test {
   /// Passes a frame on without delay, as a PC that is never late.
   void hear(const CanFrame& frame, std::uint64_t clock_us) { hear(frame, clock_us, clock_us); }
   void hear(const CanFrame& frame, std::uint64_t came_us, std::uint64_t clock_us) {
-    server.hear(std::vector{RealtimeServer::Heard{frame, came_us}}, clock_us, answer);
+    server.hear(std::vector{RealtimeServer::ReceivedFrame{frame, came_us}}, clock_us, answer);
   }
 
   test::CanBench bench{3};
@@ -142,7 +142,7 @@ TEST_F(CanRealTime, WhoAsksMoreOftenThanThereAreTurnsIsAnsweredInTime) {
   std::deque<std::uint64_t> asked_us;
   std::uint64_t next_us = kApart_us, worst_us = 0, questions = 0, answers = 0;
   for (std::uint64_t clock_us = 1000; clock_us < kEnd_us;) {
-    std::vector<RealtimeServer::Heard> waiting;
+    std::vector<RealtimeServer::ReceivedFrame> waiting;
     for (; next_us <= clock_us; next_us += kApart_us, ++questions) {
       waiting.push_back({ask_1000(1), next_us});
       asked_us.push_back(next_us);

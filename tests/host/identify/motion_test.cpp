@@ -16,8 +16,8 @@ TEST(Motion, OfAnyRobotKeepsItsLinksApartAndItsServosWithinTheirLimits) {
   for (const char* name : {"op3", "darwin_op"}) {
     const model::Entity robot = model::load_robot(model::find_model(name));
     const Params params = model::make_params(robot);
-    const action::Made made = action::make_library(params, {motion_of(robot)});
-    const action::Checked checked = action::check(robot, params, made, 1);
+    const action::CompiledActions made = action::make_library(params, {motion_of(robot)});
+    const action::ActionCheck checked = action::check(robot, params, made, 1);
     EXPECT_GT(checked.length_s, 60) << name;
     const action::FrameCheck* bad = checked.first_bad();
     EXPECT_EQ(bad, nullptr) << name << ", frame " << bad->frame << ": " << bad->problem;

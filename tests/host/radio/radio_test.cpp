@@ -37,7 +37,7 @@ TEST(Radio, EverybodyInRangeHearsABroadcastAndOneAloneWhatIsAddressed) {
   row.radio.advance(kLate_us, row.places);
   EXPECT_EQ(row.heard(0), 0u);
   EXPECT_EQ(row.heard(1), 1u);
-  const std::vector<Heard> last = row.radio.take(2);
+  const std::vector<ReceivedMessage> last = row.radio.take(2);
   ASSERT_EQ(last.size(), 2u);
   EXPECT_EQ(last[0].data, "all");
   EXPECT_EQ(last[0].from, 0);

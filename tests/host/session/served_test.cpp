@@ -1,4 +1,4 @@
-#include "host/run/session/served.hpp"
+#include "host/run/session/remote_controller.hpp"
 
 #include <unistd.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(Served, WalksBesideARobotOfThisProcessAndBothHaveTheBitsTheyHaveAlone) {
+TEST(RemoteController, WalksBesideARobotOfThisProcessAndBothHaveTheBitsTheyHaveAlone) {
   const WalkPlan here = plan_of("can", -1), there = plan_of("dxl", 1, 2);
   const fs::path folder = fs::temp_directory_path() / ("served" + std::to_string(::getpid()));
   fs::create_directory(folder);
@@ -31,7 +31,7 @@ TEST(Served, WalksBesideARobotOfThisProcessAndBothHaveTheBitsTheyHaveAlone) {
   verp::test::LinkController controller(there.params, "unix:" + bus, "unix:" + orders);
   Session session;
   session.add(here, keep(chain_here));
-  Served* served = nullptr;
+  RemoteController* served = nullptr;
   session.add(there, keep(chain_there), [&](Robot& robot) {
     auto made = make_served(robot, options);
     served = made.get();
@@ -50,7 +50,7 @@ TEST(Served, WalksBesideARobotOfThisProcessAndBothHaveTheBitsTheyHaveAlone) {
 }
 
 // A board's operator does not see the plan's notes.
-TEST(Served, SaysWhenTheLegsCannotDoWhatIsAsked) {
+TEST(RemoteController, SaysWhenTheLegsCannotDoWhatIsAsked) {
   WalkPlan plan = plan_of("dxl");
   plan.velocity.vx_tenth_mm_s = 5000;  // steps of 11 cm in cycles of 450 ms; the legs allow 8
   const fs::path folder = fs::temp_directory_path() / ("notes" + std::to_string(::getpid()));
@@ -74,7 +74,7 @@ TEST(Served, SaysWhenTheLegsCannotDoWhatIsAsked) {
 }
 
 // Only requests to the clock count as a sign of life.
-TEST(Served, WhoGreetsAndThenSendsRubbishLosesItsRobot) {
+TEST(RemoteController, WhoGreetsAndThenSendsRubbishLosesItsRobot) {
   const fs::path place = fs::temp_directory_path() / ("rubbish" + std::to_string(::getpid()));
   const WalkPlan plan = plan_of("dxl");
   std::string told;
@@ -110,7 +110,7 @@ TEST(Served, WhoGreetsAndThenSendsRubbishLosesItsRobot) {
       << session.result(0).failure;
 }
 
-TEST(Served, LetsTheSessionsUserInWhileNobodyComes) {
+TEST(RemoteController, LetsTheSessionsUserInWhileNobodyComes) {
   const fs::path place = fs::temp_directory_path() / ("nobody" + std::to_string(::getpid()));
   int asked = 0;
   Session session({.interrupted = [&] { return asked > 3; }});

@@ -24,14 +24,14 @@ Params robot(float cycle_s) {
 
 TEST(Stride, WhatTheServosFollowIsLeftAsItIs) {
   const Params params = robot(0.45F);
-  const Followed followed = within_servo_speed(params, ahead(0.08, 0.45));
+  const FeasibleVelocity followed = within_servo_speed(params, ahead(0.08, 0.45));
   EXPECT_EQ(followed.velocity.vx_tenth_mm_s, ahead(0.08, 0.45).vx_tenth_mm_s);
   EXPECT_EQ(followed.remark, "");
 }
 
 TEST(Stride, StepsThatTheServosCannotFollowAreShortenedWithARemark) {
   const Params params = robot(0.34F);
-  const Followed followed = within_servo_speed(params, ahead(0.15, 0.34));
+  const FeasibleVelocity followed = within_servo_speed(params, ahead(0.15, 0.34));
   EXPECT_GT(followed.velocity.vx_tenth_mm_s, ahead(0.05, 0.34).vx_tenth_mm_s);
   EXPECT_LT(followed.velocity.vx_tenth_mm_s, ahead(0.08, 0.34).vx_tenth_mm_s);
   EXPECT_NE(followed.remark.find("hip_pitch"), std::string::npos) << followed.remark;

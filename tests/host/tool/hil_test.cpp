@@ -23,7 +23,7 @@ class Hil : public Program {
   Params params() const {
     return model::make_params(model::load_robot(model::find_model("generic21")));
   }
-  action::Made actions() const {
+  action::CompiledActions actions() const {
     const auto entity = model::load_robot(model::find_model("generic21"));
     return action::make_library(params(), action::read_folder(action::folder_of(entity.file)));
   }
@@ -202,7 +202,7 @@ TEST_F(Hil, ARobotThatIsPushedOverGetsUpByTheControllersActions) {
   const std::string words = "--for 3 --json --get-up --push '1: trunk -60,0,0 N for 0.15'";
   const json expected = here(words);
   ASSERT_EQ(expected.at("get_ups"), 1);
-  const action::Made made = actions();
+  const action::CompiledActions made = actions();
   LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"), {}, 0,
                             made.library());
   const Outcome outcome = hil(words + " --record hil.mcap " + sockets());
@@ -220,7 +220,7 @@ TEST_F(Hil, ARobotThatIsPushedOverGetsUpByTheControllersActions) {
 }
 
 TEST_F(Hil, ARobotThatLiesGetsUpFirst) {
-  const action::Made made = actions();
+  const action::CompiledActions made = actions();
   LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"), {}, 0,
                             made.library());
   const Outcome outcome = hil("--for 3 --json --start lying:back " + sockets());
@@ -244,7 +244,8 @@ TEST_F(Hil, AControllerWithoutActionsIsToldThatItCannotGetUp) {
 }
 
 TEST_F(Hil, AControllerWithOtherActionsIsRefused) {
-  const action::Made made = action::make_library(params(), {actions().documents.front()});
+  const action::CompiledActions made =
+      action::make_library(params(), {actions().documents.front()});
   LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"), {}, 0,
                             made.library());
   const Outcome outcome = hil("--for 3 --json --get-up " + sockets());

@@ -155,7 +155,7 @@ void LiveRun::begin() {
     orders->amend(tick, order);
   };
   hooks.ticked = [this](const session::Tick& tick) { ticked(tick); };
-  hooks.told = [this](const session::Happened& news) {
+  hooks.told = [this](const session::RunEvent& news) {
     const std::lock_guard lock(mutex_);
     status_.happened = fmt::format("{:.2f} s: {}", news.at_s, news.what);
   };

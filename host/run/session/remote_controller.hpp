@@ -67,7 +67,7 @@ struct ServedResult {
 /// walks as with a local controller, and this PC compares every tick. Without one, the twin serves
 /// for plan.walk_s from the first torque on (Robot::watch) and is scored by what it did. Subclasses
 /// add what differs between buses.
-class Served : public Controller {
+class RemoteController : public Controller {
  public:
   bool tick() final;
   void finish() final;
@@ -81,7 +81,7 @@ class Served : public Controller {
 
  protected:
   /// `connected`: the link is there from the beginning.
-  Served(Robot& robot, const ServeOptions& options, bool connected);
+  RemoteController(Robot& robot, const ServeOptions& options, bool connected);
 
   /// Serves incoming requests; waits kIdle_us for them, in real time kRealTimeTurn_us.
   virtual void turn() = 0;
@@ -153,9 +153,9 @@ class Served : public Controller {
 };
 
 /// The server for the robot's bus: byte link or CAN. Throws what opening a link throws.
-std::unique_ptr<Served> make_served(Robot& robot, const ServeOptions& options);
+std::unique_ptr<RemoteController> make_served(Robot& robot, const ServeOptions& options);
 
-std::unique_ptr<Served> make_served_on_serial(Robot& robot, const ServeOptions& options);
-std::unique_ptr<Served> make_served_on_can(Robot& robot, const ServeOptions& options);
+std::unique_ptr<RemoteController> make_served_on_serial(Robot& robot, const ServeOptions& options);
+std::unique_ptr<RemoteController> make_served_on_can(Robot& robot, const ServeOptions& options);
 
 }  // namespace verp::session

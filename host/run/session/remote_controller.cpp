@@ -1,4 +1,4 @@
-#include "host/run/session/served.hpp"
+#include "host/run/session/remote_controller.hpp"
 
 #include <fmt/format.h>
 
@@ -15,31 +15,31 @@ constexpr std::uint32_t kRestart_us = 1'000'000;
 
 }  // namespace
 
-Served::Served(Robot& robot, const ServeOptions& options, bool connected)
+RemoteController::RemoteController(Robot& robot, const ServeOptions& options, bool connected)
     : robot_(robot), options_(options), place_(options.link), connected_(connected) {}
 
-void Served::say(const std::string& line) const {
+void RemoteController::say(const std::string& line) const {
   if (options_.told) options_.told(line);
 }
 
-void Served::fail(const std::string& why, bool device) {
+void RemoteController::fail(const std::string& why, bool device) {
   if (!failure_.empty()) return;
   failure_ = why;
   device_trouble_ = device;
   if (options_.gave_up) options_.gave_up(why);
 }
 
-bool Served::over() const {
+bool RemoteController::over() const {
   const bool nobody_to_tell = !greeted() || real_time_begun();
   return !failure_.empty() || ended_ || stopped() || robot_.interrupted() ||
          (nobody_to_tell && robot_.over());
 }
 
-void Served::introduce() {
+void RemoteController::introduce() {
   if (!std::exchange(introduced_, true)) say("the twin waits for a controller on " + place_);
 }
 
-bool Served::tick() {
+bool RemoteController::tick() {
   try {
     if (!std::exchange(began_, true)) {
       if (!options_.operator_link.empty()) {
@@ -56,7 +56,7 @@ bool Served::tick() {
   return !over();
 }
 
-void Served::finish() {
+void RemoteController::finish() {
   while (tick()) {  // the controller has not been told to stop
   }
   try {
@@ -67,12 +67,12 @@ void Served::finish() {
   robot_.fail(failure_);
 }
 
-double Served::wall_s(double) const {
+double RemoteController::wall_s(double) const {
   const std::uint64_t start_ns = drive_ns_ == 0 ? start_ns_ : drive_ns_;
   return start_ns == 0 ? 0 : 1e-9 * static_cast<double>(link::monotonic_ns() - start_ns);
 }
 
-ServedResult Served::result() const {
+ServedResult RemoteController::result() const {
   ServedResult result;
   result.met = met();
   result.device_trouble = device_trouble_;
@@ -83,7 +83,7 @@ ServedResult Served::result() const {
   return result;
 }
 
-bus::SessionHooks Served::hooks() {
+bus::SessionHooks RemoteController::hooks() {
   return {.greeted = [this] { begins(); },
           .refused = [this](const std::string& why) { refused(why); },
           .tick_ends = [this] { return tick_ends(); },
@@ -96,7 +96,7 @@ bus::SessionHooks Served::hooks() {
 }
 
 // The controller lost its state, so this PC starts its copy again.
-void Served::begin_shadow() {
+void RemoteController::begin_shadow() {
   recorded_ = false;
   shadow_ = make_shadow([this](const TickRecord& tick, const State& state, const Outputs& outputs) {
     robot_.record(tick, state, outputs);
@@ -107,7 +107,7 @@ void Served::begin_shadow() {
   });
 }
 
-void Served::begins() {
+void RemoteController::begins() {
   if (!std::exchange(met_, true)) {
     start_ns_ = link::monotonic_ns();
     say("a controller has come, in lockstep");
@@ -127,7 +127,7 @@ void Served::begins() {
 
 // The controller waits for the answer to its greeting and serves its operator meanwhile. Both must
 // have the same actions; else this PC would act differently in a fall and report a difference.
-void Served::look_for_actions() {
+void RemoteController::look_for_actions() {
   if (!orders_) return;
   const int here = robot_.actions().count(), there = orders_->action_count();
   if (here == there) return;
@@ -149,13 +149,13 @@ void Served::look_for_actions() {
 }
 
 // Our own boards ask for lockstep first, and run in real time without it.
-void Served::refused(const std::string& why) {
+void RemoteController::refused(const std::string& why) {
   if (options_.pace != Pace::kRealTime) return fail(why);
   if (!std::exchange(declined_, true)) say("the controller offers lockstep: real time, it is told");
 }
 
 /// False: no further tick.
-bool Served::tick_ends() {
+bool RemoteController::tick_ends() {
   if (!shadow_) {
     if (robot_.ticking()) watch();
     return !robot_.over();
@@ -168,7 +168,7 @@ bool Served::tick_ends() {
 
 // The controller waits for the answer that begins its tick and serves its operator meanwhile, so it
 // applies what is written now in this tick.
-void Served::tick_begins(std::uint32_t tick) {
+void RemoteController::tick_begins(std::uint32_t tick) {
   if (!shadow_) return;
   const app::OperatorOrder order = robot_.order(tick);
   const bool news = order.flags != 0;
@@ -176,7 +176,7 @@ void Served::tick_begins(std::uint32_t tick) {
   if (news) shadow_->ordered(order);
 }
 
-void Served::compare(const bus::ControllerReport& told) {
+void RemoteController::compare(const bus::ControllerReport& told) {
   if (!recorded_ || told.tick != last_.tick) return;
   if (told.digest == last_.digest) {
     ++compared_;
@@ -188,7 +188,7 @@ void Served::compare(const bus::ControllerReport& told) {
        false);
 }
 
-void Served::watch() {
+void RemoteController::watch() {
   robot_.watch();
   const FallVerdict& verdict = robot_.verdict();
   if (verdict.driven() && drive_ns_ == 0) {
@@ -201,7 +201,7 @@ void Served::watch() {
   }
 }
 
-bool Served::set_upright() {
+bool RemoteController::set_upright() {
   const bool done = robot_.set_upright();
   if (done) lay_down_ = false;
   say(done ? "the robot is set on its feet, and held until its legs have torque"
@@ -209,30 +209,31 @@ bool Served::set_upright() {
   return done;
 }
 
-void Served::watch_until(std::uint64_t now_us) {
+void RemoteController::watch_until(std::uint64_t now_us) {
   while (now_us >= next_us_ && !robot_.over()) {
     watch();
     next_us_ += robot_.plan().params.period_us;
   }
 }
 
-bool Served::may_run_in_real_time() const {
+bool RemoteController::may_run_in_real_time() const {
   return options_.pace == Pace::kRealTime ||
          (options_.pace == Pace::kAuto && !shadows() && !greeted());
 }
 
-bool Served::still_listening(bool heard, std::uint64_t listen_ns) {
+bool RemoteController::still_listening(bool heard, std::uint64_t listen_ns) {
   if (heard_ns_ == 0 && heard) heard_ns_ = link::monotonic_ns();
   return options_.pace == Pace::kAuto && link::monotonic_ns() < heard_ns_ + listen_ns;
 }
 
-void Served::begin_real_time() {
+void RemoteController::begin_real_time() {
   start_ns_ = link::monotonic_ns();
   say("the master does not announce lockstep: the twin runs in real time");
   if (options_.real_time_begins) options_.real_time_begins();
 }
 
-void Served::waited(const bus::LockstepSession& clock, std::size_t came, const char* unit) {
+void RemoteController::waited(const bus::LockstepSession& clock, std::size_t came,
+                              const char* unit) {
   const std::uint64_t now = link::monotonic_ns();
   if (!greeted()) return waited_for_first(now, came, unit);
   const auto& asked = clock.counters();
@@ -254,7 +255,7 @@ void Served::waited(const bus::LockstepSession& clock, std::size_t came, const c
   }
 }
 
-void Served::waited_for_first(std::uint64_t now_ns, std::size_t came, const char* unit) {
+void RemoteController::waited_for_first(std::uint64_t now_ns, std::size_t came, const char* unit) {
   if (alone_ns_ == 0) alone_ns_ = now_ns;
   strange_ += came;
   if (options_.patience_s <= 0 || reminded_ ||
@@ -269,7 +270,7 @@ void Served::waited_for_first(std::uint64_t now_ns, std::size_t came, const char
                   place_, options_.patience_s, strange));
 }
 
-void Served::watch_link(bool connected, std::uint32_t losses) {
+void RemoteController::watch_link(bool connected, std::uint32_t losses) {
   if (connected == std::exchange(connected_, connected)) return;
   ended_ = !connected && options_.ends_with_controller && robot_.verdict().driven() &&
            !robot_.has_torque();
@@ -281,7 +282,7 @@ void Served::watch_link(bool connected, std::uint32_t losses) {
   if (connected && losses > 0) say("the link is back");
 }
 
-std::unique_ptr<Served> make_served(Robot& robot, const ServeOptions& options) {
+std::unique_ptr<RemoteController> make_served(Robot& robot, const ServeOptions& options) {
   auto served = robot.plan().params.bus_protocol == BusProtocol::kCia402
                     ? make_served_on_can(robot, options)
                     : make_served_on_serial(robot, options);

@@ -11,9 +11,9 @@ namespace verp::session {
 /// Connects the source of a robot's orders with its controller in this process. As on a board, the
 /// controller is device 200 on a wire and orders are register writes, so it rejects what a board
 /// rejects. Implements OperatorLink and Recorder of the loop.
-class Desk {
+class OperatorConsole {
  public:
-  explicit Desk(Robot& robot);
+  explicit OperatorConsole(Robot& robot);
 
   void brought_up(const app::BringUpReport& report) { device_.brought_up(report); }
   /// Throws bus::SinkError if the controller rejects an order.

@@ -1,4 +1,4 @@
-#include "host/run/session/desk.hpp"
+#include "host/run/session/operator_console.hpp"
 
 #include <string>
 #include <utility>
@@ -8,14 +8,14 @@
 
 namespace verp::session {
 
-Desk::Desk(Robot& robot)
+OperatorConsole::OperatorConsole(Robot& robot)
     : robot_(robot),
       device_(wire_, robot.plan().params,
               app::OperatorSetup{.self_test = app::table::SelfTest::kNotRun}) {
   device_.offer_actions(robot.actions().count());
 }
 
-app::OperatorOrder Desk::order(std::uint32_t tick) {
+app::OperatorOrder OperatorConsole::order(std::uint32_t tick) {
   const app::OperatorOrder wanted = robot_.order(tick);
   const bool stop = (wanted.flags & kEmergencyStop) != 0;
   const bool changed = std::exchange(stopped_, stop) != stop;
@@ -32,7 +32,7 @@ app::OperatorOrder Desk::order(std::uint32_t tick) {
   return device_.order(tick);
 }
 
-void Desk::hand_over(std::size_t packets) {
+void OperatorConsole::hand_over(std::size_t packets) {
   wire_.told.clear();
   while (device_.poll()) {
   }
@@ -51,7 +51,7 @@ void Desk::hand_over(std::size_t packets) {
   if (answers != packets) throw bus::SinkError("the controller does not answer its operator");
 }
 
-void Desk::record(const TickRecord& tick, const State& state, const Outputs& outputs) {
+void OperatorConsole::record(const TickRecord& tick, const State& state, const Outputs& outputs) {
   device_.record(tick, state, outputs);
   robot_.take(tick, state, outputs);
 }
