@@ -23,7 +23,7 @@
 namespace verp::tool {
 namespace {
 
-/// Said of controllers outside, where there is none: something is not as its user thinks.
+/// Refuses options for controllers elsewhere if no robot has one: the user expects something else.
 void require_outside(const WalkOptions& options, const std::vector<WalkPlan>& plans) {
   const bool outside = std::any_of(plans.begin(), plans.end(),
                                    [](const WalkPlan& plan) { return !plan.link.empty(); });
@@ -35,7 +35,7 @@ void require_outside(const WalkOptions& options, const std::vector<WalkPlan>& pl
                   options.team.of_outside));
 }
 
-/// What only the controller itself can tell is not to be had from the other end of a link.
+/// Only the controller itself can record, and this one is at the other end of a link.
 void refuse_of_outside(const WalkOptions& options, const WalkPlan& first) {
   const bool wanted =
       !options.record_file.empty() || !options.report_folder.empty() || options.live.on;
@@ -46,8 +46,8 @@ void refuse_of_outside(const WalkOptions& options, const WalkPlan& first) {
       "one, or have the controller outside record its own");
 }
 
-/// Robots of one world have seeds in a row: those of two walks would be the same ones in part, and
-/// no share could be told of them.
+/// Robots of one world have consecutive seeds. Two walks would share some, so their results would
+/// not be independent.
 void require_one_robot(const WalkOptions& options, const std::vector<WalkPlan>& plans) {
   const char* option = !options.seeds_text.empty() ? "--seeds"
                        : !options.map.kind.empty() ? "--map"
@@ -59,7 +59,7 @@ void require_one_robot(const WalkOptions& options, const std::vector<WalkPlan>& 
                                    option));
 }
 
-/// What observes a walk, besides the trace.
+/// The observers of a walk.
 struct Observers {
   Observers(const WalkOptions& options, Walk& walk, RunFiles& files, LiveStream& live,
             cli::Progress& progress)
@@ -73,7 +73,7 @@ struct Observers {
     if (pace) all.push_back(&*pace);
   }
 
-  /// What they have to say in the end.
+  /// Adds their results.
   void add_to(Drawn& more, double took_s) const {
     if (radio) {
       more.json["radio"] = radio->json();
@@ -100,7 +100,7 @@ struct Observers {
   std::vector<session::Observer*> all;
 };
 
-/// Runs it, tells of it, and returns the exit status.
+/// Runs the walk, reports it and returns the exit status.
 int walk_once(WalkOptions options, Walk& walk) {
   const WalkPlan& first = walk.run.plans.front();
   sweep_of(options);  // before the long run: a mistake in it is found now
@@ -139,7 +139,7 @@ int walk_once(WalkOptions options, Walk& walk) {
 
 int run_walk(WalkOptions options) {
   read_robot_words(options);
-  if (options.touch.list) {  // of the robot as it is
+  if (options.touch.list) {  // lists the quantities of the nominal robot
     options.vary = false;
     options.touch.pushes.clear();
     options.touch.settings.clear();

@@ -5,18 +5,17 @@
 #include "host/run/session/plan.hpp"
 #include "host/run/session/session.hpp"
 
-/// Sessions as this program runs them: they show how far they are, and Ctrl-C ends them.
+/// Sessions of this program: they show their progress, and Ctrl-C ends them.
 namespace verp::tool {
 
 using session::WalkPlan;
 using session::WalkResult;
 
-/// Shows how far the first robot is, and says on stderr what becomes of robots that fall and may
-/// get up.
+/// Shows the progress of the first robot, and reports on stderr falls and get-ups.
 class RunOnScreen final : public session::Observer {
  public:
-  /// `command` is who says so; empty: nobody says anything. `label` stands beside the bar; empty:
-  /// the robot's name.
+  /// `command` begins each line; empty: no lines. `label` stands beside the bar; empty: the robot's
+  /// name.
   RunOnScreen(cli::Progress& progress, std::string command, std::string label = {})
       : progress_(progress), command_(std::move(command)), label_(std::move(label)) {}
 
@@ -30,7 +29,7 @@ class RunOnScreen final : public session::Observer {
   double walk_s_ = 0;
 };
 
-/// Has the first robot's ticks written into a trace; null: none.
+/// Writes the first robot's ticks into a trace, which may be null.
 class KeptTrace final : public session::Observer {
  public:
   explicit KeptTrace(record::TraceWriter* trace, bool keep_series = false)

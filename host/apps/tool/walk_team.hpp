@@ -8,15 +8,14 @@
 #include "host/apps/tool/walk_scenario.hpp"
 #include "host/os/link/system_clock.hpp"
 
-/// The robots of one `verp walk`: the run itself, what each leaves, and what is said of those
-/// beside the first.
+/// The robots of one `verp walk`: their run, their files, and the report on all but the first.
 namespace verp::tool {
 
-/// A trace for each robot that this program drives, the first one's where the command line has it
-/// and the others' beside it; and the first one's report.
+/// A trace for each robot that this program drives, the first at the path of the command line and
+/// the others beside it; and the first robot's report.
 class RunFiles final : public session::Observer {
  public:
-  /// Throws as WalkFiles does.
+  /// Throws like WalkFiles.
   RunFiles(const WalkOptions& options, const Walk& walk, LiveStream& live);
 
   void join(std::size_t index, const WalkPlan& plan, session::Hooks& hooks) override;
@@ -24,17 +23,17 @@ class RunFiles final : public session::Observer {
   WalkFiles& first() { return files_.front(); }
   /// Ends the traces of all but the first.
   void finish_others(const std::vector<WalkResult>& results);
-  /// Name of a robot's trace; empty: there is none.
+  /// Path of a robot's trace; empty if there is none.
   std::string name(std::size_t robot) const;
-  /// What was wanted of all but the first and is not there.
+  /// Missing files of all robots but the first.
   std::vector<std::string> lost_of_others() const;
 
  private:
   std::deque<WalkFiles> files_;
 };
 
-/// A run that goes no faster than the clock, before all that is not urgent where the system allows
-/// it, as `verp run` has it. One that falls a second behind gives that up, so that others run too.
+/// Paces a run by the clock, with real-time priority if the system allows it, like `verp run`. A
+/// run that falls a second behind gives the priority up, so that other programs get time.
 class RealTimePace final : public session::Observer {
  public:
   explicit RealTimePace(const Walk& walk);
@@ -54,21 +53,21 @@ class RealTimePace final : public session::Observer {
 
 struct Walks {
   std::vector<WalkResult> results;  ///< of each plan
-  double took_s = 0;                ///< by the clock, waiting included
+  double took_s = 0;                ///< wall time, with waiting
   cli::Json objects =
       cli::Json::array();  ///< of the world that can be pushed or move, where they ended
 };
 
-/// Runs them all. A robot whose plan names a link is driven from there, in lockstep: the world
-/// waits until its controller has come, and in every tick until it has answered. One that loses its
-/// controller ends the run of all, or by Scenario::if_lost_go_on its own.
+/// Runs all robots. If a plan names a link, a controller there drives the robot in lockstep: the
+/// world waits for it at the start and in every tick. A robot that loses its controller ends the
+/// whole run, or with Scenario::if_lost_go_on only its own.
 Walks walk_together(const Walk& walk, const std::vector<session::Observer*>& observers,
                     cli::Progress& progress);
 
-/// What there is to say of the world and of the robots beside the first.
+/// Text on the world and on all robots but the first.
 std::string team_text(const Walk& walk, const Walks& walks, const RunFiles& files);
 cli::Json team_json(const Walk& walk, const Walks& walks, const RunFiles& files);
-/// A line for each robot beside the first whose walk is no good.
+/// A line for each robot but the first whose walk failed.
 std::vector<std::string> failures_of(const Walk& walk, const Walks& walks, const RunFiles& files);
 
 }  // namespace verp::tool

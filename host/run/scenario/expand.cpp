@@ -24,13 +24,12 @@ namespace {
 namespace fs = std::filesystem;
 using session::WalkPlan;
 
-/// A robot driven over a link gets so much longer than its walk, to rise before and to sit down
-/// after it.
+/// Extra time of a robot that is driven over a link: it rises before its walk and sits down after.
 constexpr double kBeforeAndAfter_s = 10;
-/// And so much if it may get up: all tries together.
+/// Extra time for all tries to get up.
 constexpr double kGetUps_s = 60;
 
-/// The decimal number that a float32 was written as: 0.06 for 0.06F.
+/// The decimal number behind a float32: 0.06 for 0.06F.
 double decimal(float value) {
   return std::stod(fmt::format("{:g}", value));
 }
@@ -211,7 +210,7 @@ record::mcap::StringMap metadata_of(const WalkPlan& plan, const Scenario& scenar
   const auto* ahead = std::get_if<Ahead>(&robot.orders);
   record::mcap::StringMap all = metadata_of(plan);
   all.merge(record::mcap::StringMap{
-      // As find_world() finds it again wherever a reader looks for it.
+      // find_world() finds this path from any folder.
       {"world_file", fs::is_regular_file(world) ? fs::absolute(world).string() : world},
       {"step_m", fmt::format("{}", ahead != nullptr ? ahead->step_m : Ahead{}.step_m)},
       {"cycle_s", fmt::format("{}", plan.params.tuning.gait.cycle_s)},

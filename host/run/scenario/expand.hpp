@@ -10,51 +10,51 @@
 #include "host/trace/record/mcap_format.hpp"
 #include "host/twin/sim/world.hpp"
 
-/// From a Scenario to what a session takes.
+/// Turns a Scenario into the plans of a session.
 namespace verp::scenario {
 
-/// A value of a Scenario that makes no run. `where` is its path, such as "robots[0].tuning".
+/// A Scenario's value is invalid. `where` is its path, such as "robots[0].tuning".
 class ScenarioError : public std::invalid_argument {
  public:
   ScenarioError(std::string path, const std::string& what, std::vector<std::string> names = {})
       : std::invalid_argument(what), where(std::move(path)), known(std::move(names)) {}
 
   const std::string where;
-  const std::vector<std::string> known;  ///< names that would have been understood
+  const std::vector<std::string> known;  ///< valid names
 };
 
-/// A Scenario with its files loaded: a session needs no more than this.
+/// A Scenario with its files loaded; all that a session needs.
 struct Expanded {
   sim::WorldOptions world = {};
-  /// Robots whose controllers are outside come last: report and pictures are of the first one.
+  /// Robots with a controller elsewhere come last. Report and pictures show the first robot.
   std::vector<session::WalkPlan> plans = {};
-  /// What Robot::vary drew for the first robot and for the floor.
+  /// Values that Robot::vary drew for the first robot and the floor.
   std::vector<std::pair<std::string, double>> drawn = {};
 };
 
-/// Loads world and robots, checks the disturbances against them, draws what varies. A robot that
-/// may get up (WalkPlan::get_ups) still needs its actions: host/author/action/get_up.hpp. Throws
-/// ScenarioError and model::LoadError.
+/// Loads world and robots, checks the disturbances, draws random robots. A robot that may get up
+/// (WalkPlan::get_ups) still needs its actions: host/author/action/get_up.hpp. Throws ScenarioError
+/// and model::LoadError.
 Expanded expand(const Scenario& scenario);
-/// The same in a world that was loaded already.
+/// The same in a world that the caller has loaded.
 Expanded expand(const Scenario& scenario, const sim::WorldOptions& world);
 
-/// The parts of it, for callers that have loaded a robot by themselves or have only one.
+/// Parts of expand(), for callers that load a robot themselves or have only one.
 sim::WorldOptions world_of(const World& world);
 session::WalkPlan plan_of(const Robot& robot, double length_s);
 session::WalkPlan plan_of(const Robot& robot, double length_s, model::Entity entity);
 
-/// What the orders come to with this gait, in the units of the controller.
+/// The orders as a velocity of this gait, in the controller's units.
 Command velocity_of(const Orders& orders, const GaitTuning& gait);
-/// Gives the plan, whose Params are there, the orders, or as much of them as its servos can follow.
+/// Writes the orders into the plan, reduced to what its servos can follow. Needs plan.params.
 void give_orders(const Orders& orders, session::WalkPlan& plan);
-/// Throws std::out_of_range for a name that the tuning does not have.
+/// Throws std::out_of_range for an unknown name.
 void tune(const std::map<std::string, double>& values, Tuning& tuning);
 
 /// Metadata of a trace: the robot of this plan, and, with a scenario, the walk.
 record::mcap::StringMap metadata_of(const session::WalkPlan& plan);
 record::mcap::StringMap metadata_of(const session::WalkPlan& plan, const Scenario& scenario);
-/// "0.1,0,0.2"; empty: these orders are none by velocity.
+/// "0.1,0,0.2"; empty if the orders are not a velocity.
 std::string velocity_text(const Orders& orders);
 
 }  // namespace verp::scenario

@@ -13,17 +13,16 @@
 /// One run as plain data: a world, the robots in it, and how long it lasts. The command line, the
 /// window, the library, the demos and the tests all describe a run by a Scenario.
 ///
-///     scenario::Scenario scenario;                          // generic21 walks 20 s on a level
-///     floor scenario.robots[0].orders = scenario::Velocity{0.1, 0, 0.2}; const scenario::Expanded
-///     run = scenario::expand(scenario);         // expand.hpp: loads the files const
-///     session::WalkResult result = session::walk(run.plans[0], {}, {.world = run.world});
+///     scenario::Scenario scenario;  // generic21 walks 20 s on a level floor
+///     scenario.robots[0].orders = scenario::Velocity{0.1, 0, 0.2};
+///     const scenario::Expanded run = scenario::expand(scenario);  // expand.hpp: loads the files
+///     session::walk(run.plans[0], {}, {.world = run.world});
 ///
 /// The defaults are those of `verp walk`. text.hpp reads and prints a Scenario as a JSON file.
 namespace verp::scenario {
 
 struct World {
-  std::string
-      file;  ///< name of a world in common/worlds, or path of an SDF file; empty: level floor
+  std::string file;  ///< a world of common/worlds, or an SDF file's path; empty: level floor
   double physics_step_ms = 1;
 
   bool operator==(const World&) const = default;
@@ -45,11 +44,11 @@ struct Stand {
 /// What the operator asks of a robot.
 using Orders = std::variant<Ahead, Velocity, Stand>;
 
-/// Who computes a robot's ticks. All empty: the core, in this process.
+/// Computes the robot's ticks. All empty: the core, in this process.
 struct Controller {
-  std::string folder;  ///< a controller of the user's own (`verp new controller`)
+  std::string folder;  ///< the user's own controller (`verp new controller`)
   std::string board;   ///< the emulated board that runs it
-  std::string link;    ///< or the link at whose other end it is, in lockstep
+  std::string link;    ///< link to a controller elsewhere, in lockstep
 
   bool operator==(const Controller&) const = default;
 };
@@ -60,23 +59,23 @@ struct Place {
 };
 
 struct Robot {
-  std::string name;                 ///< among several robots; empty: the model's
+  std::string name;                 ///< distinguishes robots; empty: the model's name
   std::string model = "generic21";  ///< name of a robot in common/robots, or path of an SDF file
   std::string bus;                  ///< by name; empty: the model's first
   std::map<std::string, double> tuning;  ///< `verp parameters` lists the names
   Orders orders;
   Controller controller;
-  std::uint64_t seed = 1;  ///< of every random thing in this robot
-  bool vary = false;       ///< another robot of this kind, drawn from the seed (sim/vary.hpp)
+  std::uint64_t seed = 1;  ///< seeds all randomness of this robot
+  bool vary = false;       ///< domain randomization: draws the robot from the seed (sim/vary.hpp)
   Place at;
-  sim::Lies lies = sim::Lies::kNo;  ///< how it is put down at the start
+  sim::Lies lies = sim::Lies::kNo;  ///< pose at the start
   bool get_up = false;              ///< a fall does not end its run
   std::vector<session::Intervention> disturbances;
 
   bool operator==(const Robot&) const = default;
 };
 
-/// Robots talk by this. They are its stations, in the order of Scenario::robots.
+/// The robots' radio. Its stations are Scenario::robots, in that order.
 struct Radio {
   radio::Conditions conditions;
   std::uint64_t seed = 1;
@@ -88,10 +87,10 @@ struct Scenario {
   World world;
   std::vector<Robot> robots{Robot{}};
   std::optional<Radio> radio;
-  double length_s = 20;        ///< of the gait, all three phases
+  double length_s = 20;        ///< length of the gait, all three phases
   bool real_time = false;      ///< no faster than the clock
-  bool if_lost_go_on = false;  ///< a robot that loses its controller ends only its own run
-  double patience_s = 10;      ///< how long a controller on a link may keep the world waiting
+  bool if_lost_go_on = false;  ///< losing a controller ends only that robot's run
+  double patience_s = 10;      ///< the world waits this long for a controller on a link
 
   bool operator==(const Scenario&) const = default;
 };

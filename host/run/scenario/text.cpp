@@ -57,7 +57,7 @@ class Writer {
   Json& to_;
 };
 
-/// Takes fields out of an object; what nobody took in the end is unknown.
+/// Takes fields out of an object. Keys that no field took are unknown.
 class Reader {
  public:
   static constexpr bool kReads = true;
