@@ -6,7 +6,7 @@
 
 namespace verp::tool {
 
-struct HilResult : session::RemoteControllerResult {
+struct HilResult : session::RemoteResult {
   WalkResult walk;
 
   double ticks_per_s() const {

@@ -72,8 +72,8 @@ double RemoteController::wall_s(double) const {
   return start_ns == 0 ? 0 : 1e-9 * static_cast<double>(link::monotonic_ns() - start_ns);
 }
 
-ServedResult RemoteController::result() const {
-  ServedResult result;
+RemoteResult RemoteController::result() const {
+  RemoteResult result;
   result.met = met();
   result.device_trouble = device_trouble_;
   result.lay_down = robot_.verdict().lay_down();

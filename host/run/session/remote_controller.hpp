@@ -49,7 +49,7 @@ struct CanFrames {
   std::uint64_t skipped_us = 0;  ///< clock time skipped because this PC was slower
 };
 
-struct ServedResult {
+struct RemoteResult {
   bool met = false;             ///< a controller came, or a master that sends requests
   bool device_trouble = false;  ///< the link or the controller caused the walk's failure
   bool lay_down = false;        ///< the robot was released, and lies
@@ -77,7 +77,7 @@ class RemoteController : public Controller {
   /// The user sets the robot on its feet. False: impossible while a servo has torque.
   bool set_upright();
   /// Call once, at the end.
-  virtual ServedResult result() const;
+  virtual RemoteResult result() const;
 
  protected:
   /// `connected`: the link is there from the beginning.

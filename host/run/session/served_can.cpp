@@ -35,8 +35,8 @@ class ServedOnCan final : public RemoteController {
     }
   }
 
-  ServedResult result() const override {
-    ServedResult result = RemoteController::result();
+  RemoteResult result() const override {
+    RemoteResult result = RemoteController::result();
     if (live_) result.compared += live_->compared();
     result.losses = losses_;
     result.overruns = port_.errors().overruns;

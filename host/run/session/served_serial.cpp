@@ -27,8 +27,8 @@ class ServedOnSerial final : public RemoteController {
     if (options.operator_link.empty()) lockstep_.welcome_strangers();
   }
 
-  ServedResult result() const override {
-    ServedResult result = RemoteController::result();
+  RemoteResult result() const override {
+    RemoteResult result = RemoteController::result();
     result.losses = link_.errors().losses;
     result.overruns = link_.errors().overruns;
     result.lockstep = lockstep_.counters();
