@@ -34,7 +34,7 @@ class LateLockstep : public Program {
     const Outcome outcome = twin.wait();
     controller.join();
     ASSERT_EQ(outcome.status, 0) << outcome.err;
-    const cli::Json result = cli::Json::parse(outcome.out), expected = cli::Json::parse(here.out);
+    const Json result = Json::parse(outcome.out), expected = Json::parse(here.out);
     EXPECT_EQ(result.at("digest"), expected.at("digest"));
     EXPECT_EQ(result.at("compared_ticks"), expected.at("ticks"));
     EXPECT_EQ(result.at("fallen"), false);

@@ -22,7 +22,7 @@ class RunLatency : public RunBench {
     Outcome outcome;
     for (int attempt = 0; attempt < 20; ++attempt) {
       outcome = run(words)->wait();
-      const cli::Json result = cli::Json::parse(outcome.out);
+      const Json result = Json::parse(outcome.out);
       if (result.contains("deadlines")) {
         EXPECT_GE(result.at("latency").at("median_us"), least_us);
         return outcome;
@@ -43,7 +43,7 @@ class RunLatency : public RunBench {
   /// Walked by the table and reported the truth. Only a skipped period excuses a missing walk: the
   /// robot may have held too long or fallen, with status 1. A late tick changes nothing.
   void expect_ran(const Outcome& outcome) {
-    const cli::Json result = cli::Json::parse(outcome.out);
+    const Json result = Json::parse(outcome.out);
     EXPECT_EQ(result.at("ticks"), cable_->ticks()) << "as they came over the cable";
     expect_same_account(result, trace());
     std::uint32_t seen = 0;
@@ -98,7 +98,7 @@ TEST_F(RunLatency, SixteenMillisecondsFitNoPeriod) {
     EXPECT_GE(number_after("held up for ", refused.err), 32) << refused.err;
     EXPECT_NE(refused.err.find("latency_timer"), std::string::npos) << refused.err;
     EXPECT_EQ(refused.err.find("--period"), std::string::npos) << "no period would help";
-    EXPECT_EQ(cli::Json::parse(refused.out).at("exit"), 3);
+    EXPECT_EQ(Json::parse(refused.out).at("exit"), 3);
   }
   EXPECT_EQ(cable_->ticks(), 0u);
 }
@@ -123,8 +123,8 @@ TEST_F(RunLatency, StallsOfThePcAreCountedAsTheyWere) {
   const Outcome outcome = program->wait();
   const double lived_us =
       std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begun).count();
-  const cli::Json result = cli::Json::parse(outcome.out);
-  const cli::Json& deadlines = result.at("deadlines");
+  const Json result = Json::parse(outcome.out);
+  const Json& deadlines = result.at("deadlines");
   EXPECT_GE(deadlines.at("missed"), 5) << outcome.err;
   EXPECT_GE(deadlines.at("skipped_periods"), least_skipped);
   EXPECT_GE(deadlines.at("worst_late_us"), longest_us - kPeriod_us);

@@ -11,10 +11,10 @@ namespace {
 using RealRobot = RunBench;
 using TimelyRobot = RunBench;
 
-cli::Json result_of(const Outcome& outcome) {
-  const cli::Json result = cli::Json::parse(outcome.out, nullptr, false);
+Json result_of(const Outcome& outcome) {
+  const Json result = Json::parse(outcome.out, nullptr, false);
   EXPECT_TRUE(result.is_object()) << outcome.out << outcome.err;
-  return result.is_object() ? result : cli::Json::object();
+  return result.is_object() ? result : Json::object();
 }
 
 TEST_F(RealRobot, RefusesWhatCannotBe) {
@@ -99,7 +99,7 @@ TEST_F(TimelyRobot, AnInterruptSitsTheRobotDown) {
     EXPECT_EQ(outcome.status, 128 + signal);
     EXPECT_NE(outcome.err.find("sits down"), std::string::npos) << outcome.err;
     EXPECT_NE(outcome.err.find("to sitting"), std::string::npos) << outcome.err;
-    const cli::Json result = result_of(outcome);
+    const Json result = result_of(outcome);
     EXPECT_EQ(result.value("interrupted", false), true);
     EXPECT_EQ(result.value("let_go", false), true) << outcome.err;
     expect_table(trace());
@@ -116,13 +116,13 @@ TEST_F(TimelyRobot, PlaysAnActionThenSitsDownAndLetsGo) {
   const Outcome outcome = program->wait();
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("standing to acting"), std::string::npos) << outcome.err;
-  const cli::Json result = result_of(outcome);
+  const Json result = result_of(outcome);
   EXPECT_GT(result.value("action_s", 0.0), 1.0);
   EXPECT_EQ(result.value("let_go", false), true);
   EXPECT_EQ(verp("replay run.mcap").status, 0);
 }
 
-cli::Json verdict_of(Process& twin, int status) {
+Json verdict_of(Process& twin, int status) {
   twin.signal(SIGINT);
   const Outcome outcome = twin.wait();
   EXPECT_EQ(outcome.status, status) << outcome.err;
@@ -139,7 +139,7 @@ TEST_F(TimelyRobot, LyingDownLimpAfterAGoodWalkIsNoFall) {
   EXPECT_EQ(result_of(program->wait()).value("let_go", false), true);
   EXPECT_TRUE(twin_->says("let go and lies down"));
   EXPECT_EQ(verp("bus ping --id 1 --link serial:" + port() + "@2000000").status, 0);
-  const cli::Json result = verdict_of(*twin_, 0);
+  const Json result = verdict_of(*twin_, 0);
   EXPECT_EQ(result.value("fallen", true), false);
   EXPECT_EQ(result.value("let_go_and_lies", false), true);
 }
@@ -185,7 +185,7 @@ TEST_F(TimelyRobot, ALostCableIsNamedAndEndsByTheTable) {
                            "sitting to relaxed", "21 servos did not say that they let go"}) {
     EXPECT_NE(outcome.err.find(said), std::string::npos) << said << "\n" << outcome.err;
   }
-  const cli::Json result = result_of(outcome);
+  const Json result = result_of(outcome);
   EXPECT_EQ(result.value("let_go", true), false);
   EXPECT_NE(result.value("failure", "").find("let go by itself"), std::string::npos);
   EXPECT_EQ(result.at("bus").at("losses"), 1);
@@ -258,7 +258,7 @@ TEST_F(TimelyRobot, ASilentImuIsNeverPassedOver) {
   EXPECT_TRUE(program->says("balance is off"));
   EXPECT_TRUE(program->says("rising to standing"));
   program->signal(SIGINT);
-  const cli::Json result = result_of(program->wait());
+  const Json result = result_of(program->wait());
   EXPECT_EQ(result.value("imu", ""), "none");
   const record::Trace taken = trace();
   EXPECT_EQ(taken.params.imu.device_id, 0);
@@ -283,8 +283,7 @@ TEST_F(TimelyRobot, TorqueIsLimitedInEveryServo) {
       read = verp("bus read --register goal_pwm --json --id " + std::string(id) +
                   " --link serial:" + port() + "@2000000");
     }
-    EXPECT_EQ(cli::Json::parse(read.out).at("registers").at("goal_pwm"), 885 * 30 / 100)
-        << read.err;
+    EXPECT_EQ(Json::parse(read.out).at("registers").at("goal_pwm"), 885 * 30 / 100) << read.err;
   }
 }
 

@@ -184,7 +184,7 @@ class SlowController {
       std::uint8_t piece[256];
       const std::size_t count = link_.read(piece, sizeof piece, 1000);
       for (std::size_t i = 0; i < count; ++i) {
-        for (bool found = parser_.push(piece[i]); found; found = parser_.next()) cli::answer();
+        for (bool found = parser_.push(piece[i]); found; found = parser_.next()) answer();
       }
       while (!replies_.empty() && link::monotonic_ns() / 1000 >= replies_.front().due_us) {
         link_.write(replies_.front().bytes.data(), replies_.front().bytes.size(), 100'000);
@@ -192,7 +192,7 @@ class SlowController {
       }
     }
   }
-  void cli::answer() {
+  void answer() {
     const dxl::Packet& packet = parser_.packet();
     std::vector<std::uint8_t> data = {0, 0, 1};
     if (packet.instruction == dxl::Instruction::kPing) {

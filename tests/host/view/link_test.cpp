@@ -105,7 +105,7 @@ TEST_F(Link, DifferencesOfEachJointAreSignals) {
 
 TEST(StepOn, HasTheRecordedBitsUntilANumberIsChanged) {
   const std::string file = place("step.mcap");
-  LiveRun run({.plan = plan_of("dxl")});
+  LiveRun run({.run = {.plans = {plan_of("dxl")}}});
   run.set_speed(0);
   run.play();
   ASSERT_TRUE(wait_for([&] { return run.status().ticks > 300; })) << run.status().failure;

@@ -65,7 +65,7 @@ void until(const LiveRun& run, std::uint64_t ticks) {
 TEST(LiveRun, HasTheBitsOfTheSameWalkWithoutAWindowAtAnySpeed) {
   const session::WalkPlan plan = plan_of("dxl");
   const session::test::Chain expected = session::test::alone(plan);
-  LiveRun run({.plan = plan});
+  LiveRun run({.run = {.plans = {plan}}});
   const auto check = [&](std::uint64_t at_least) {
     until(run, at_least);
     run.pause();
@@ -94,7 +94,7 @@ TEST(LiveRun, HasTheBitsOfTheSameWalkWithoutAWindowAtAnySpeed) {
 TEST(LiveRun, ARunThatAPersonTouchedReplaysFromItsTrace) {
   const auto file = std::filesystem::temp_directory_path() / "verp_view_touched.mcap";
   const session::WalkPlan plan = plan_of("dxl");
-  LiveRun run({.plan = plan});
+  LiveRun run({.run = {.plans = {plan}}});
   run.set_speed(0);
   run.play();
   until(run, 50);
@@ -121,7 +121,7 @@ TEST(LiveRun, ARunThatAPersonTouchedReplaysFromItsTrace) {
 }
 
 TEST(LiveRun, APushThatIsNoneIsToldAndTheRunGoesOn) {
-  LiveRun run({.plan = plan_of("dxl")});
+  LiveRun run({.run = {.plans = {plan_of("dxl")}}});
   run.set_speed(0);
   run.play();
   session::Intervention push{.kind = session::Intervention::Kind::kPush, .name = "no_such_link"};
