@@ -155,9 +155,9 @@ void bench_window(int robots, std::uint32_t step_us, int seconds) {
   QTemporaryDir folder;
   QSettings settings(folder.filePath("view.ini"), QSettings::IniFormat);
   MainWindow window(settings, [](const std::string&) { return RunSetup{}; });
-  RunSetup setup{.run = {.plans = {plan_at(0)}}};
+  RunSetup setup;
   setup.run.world.step_us = step_us;
-  for (int i = 1; i < robots; ++i) setup.run.plans.push_back(plan_at(kApart_m * i));
+  for (int i = 0; i < robots; ++i) setup.run.plans.push_back(plan_at(kApart_m * i));
   window.show();
   window.watch(std::move(setup));
   window.resize(window.size() + QSize(kSize.width, kSize.height) - window.scene().size());
