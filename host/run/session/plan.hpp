@@ -15,13 +15,12 @@
 #include "host/twin/sim/metrics.hpp"
 #include "host/twin/sim/robot.hpp"
 
-/// One run: a world, the robots in it, each with its bus, controller, operator, meter and record.
-/// Knows no words, options, terminals or signals: who uses it gives what it needs and asks how it
-/// went.
+/// One run: a world and its robots, each with its bus, controller, operator, meter and trace. This
+/// library knows no command lines, terminals or signals: the caller passes data and reads results.
 namespace verp::session {
 
-/// One tick of a controller in this process: what it leaves in Outputs is sent, what it leaves in
-/// State is recorded.
+/// One tick of a controller in this process. The robot receives its Outputs; the trace records its
+/// State.
 using Decide = std::function<void(const Params&, State&, const Inputs&, Outputs&)>;
 
 /// One walk of one robot, fully determined by these values and the world's.
@@ -29,71 +28,67 @@ struct WalkPlan {
   model::Entity entity;
   Params params;
   Command velocity;                    ///< vx, vy, wz
-  std::optional<Command> asked = {};   ///< what a walk is judged by, if more than the velocity
-  std::vector<std::uint32_t> actions;  ///< image of the library (common/action); empty: none
-  std::string remark;                  ///< how that is not what was asked; goes into the result's
-  double walk_s = 20;     ///< of gait; of a run whose orders come from Hooks::order: of the run
-  sim::TwinOptions twin;  ///< seed, where it stands, what of it varies
-  /// How often in a row the operator has it try to get up once it lies; 0: it lies, and a fall ends
-  /// the walk. `actions` hold how.
+  std::optional<Command> asked = {};   ///< velocity to judge the walk by, if not `velocity`
+  std::vector<std::uint32_t> actions;  ///< image of an action library (common/action)
+  std::string remark;                  ///< how the plan deviates from the user's order
+  double walk_s = 20;                  ///< of gait; of the run if Hooks::order gives the orders
+  sim::TwinOptions twin;               ///< seed, start pose, variation
+  /// Attempts in a row to get up after a fall, by an action of `actions`. 0: a fall ends the walk.
   int get_ups = 0;
-  bool stands = false;  ///< for walk_s, in place of a walk: it steps only where it has to
-  std::string board;    ///< emulated board that runs the controller; empty: this process
-  /// A controller of somebody's own in place of the core (host/run/own), made for one run; empty:
-  /// none.
+  bool stands = false;  ///< stands for walk_s and steps only to keep its balance
+  std::string board;    ///< emulated board of the controller; empty: this process
+  /// Makes the user's controller (host/run/own) for one run, in place of the core; empty: the core.
   std::function<Decide()> own;
-  /// Where that board's images are, with such a controller in them; empty: those of this project.
+  /// Folder of the board's images with the user's controller; empty: this project's images.
   std::string firmware_folder;
-  std::string
-      link;  ///< at whose other end its controller is (remote_controller.hpp); empty: it is not
-  std::string name;  ///< among other robots of the world; empty: as params have it
-  int number = 0;    ///< among the robots of its scenario, from 0 on
-  std::vector<Intervention> interventions;  ///< of what is done to the twin, in any order
+  std::string link;  ///< to a controller elsewhere (remote_controller.hpp); empty: none
+  std::string name;  ///< among the world's robots; empty: name in params
+  int number = 0;    ///< in its scenario, from 0
+  std::vector<Intervention> interventions;  ///< on the twin, in any order
 };
 
-/// What there is to see after a tick of one robot.
+/// State of one robot after a tick.
 struct Tick {
   const sim::Observation& seen;
-  double gone_s = 0;  ///< of plan.walk_s
-  /// Null of a controller that tells nothing of itself.
+  double gone_s = 0;  ///< elapsed part of plan.walk_s
+  /// Null for a controller that reports nothing.
   const TickRecord* record = nullptr;
   const State* state = nullptr;
   const Outputs* outputs = nullptr;
-  const sim::World* world = nullptr;  ///< and whose contacts in it are this robot's
-  int owner = sim::kScenery;
+  const sim::World* world = nullptr;
+  int owner = sim::kScenery;  ///< of this robot's contacts in `world`
 };
 
-/// Something that became of a robot, in words.
+/// An event of a robot's run, as text.
 struct RunEvent {
   double at_s = 0;  ///< simulated time
   std::string what;
 };
 
-/// What a user wants of one robot's run. Empty members are allowed. All are called during
-/// Session::tick(), by the thread that called it, and never at the same time; of one of several
-/// robots `order` and `amend` are called on a stack of its own (Flow).
+/// Callbacks of one robot's run; all may be empty. Session::tick() calls them in its caller's
+/// thread, one at a time. In a run of several robots it calls `order` and `amend` on the robot's
+/// own stack (Flow).
 struct Hooks {
-  /// Orders in place of the walk's own; asked once a tick, with the number of the last one begun.
+  /// Gives the orders in place of the walk's operator, once per tick. `tick`: last begun tick.
   std::function<app::OperatorOrder(std::uint32_t tick)> order;
-  /// Sees each order before it goes out, whoever gave it, and may change it (LiveOrders).
+  /// May change each order before the robot sends it (LiveOrders).
   std::function<void(std::uint32_t tick, app::OperatorOrder& order)> amend;
-  /// In place of the core's step(), and of the plan's own. It may throw, which ends the run.
+  /// Replaces the core's step() and WalkPlan::own. An exception ends the run.
   Decide decide;
   std::function<void(const Tick&)> ticked;
-  /// What becomes of a robot that falls, lies or gets up.
+  /// Receives falls and recoveries.
   std::function<void(const RunEvent&)> told;
-  /// When the robot's cameras looked (plan.twin.cameras), up to the tick that was just recorded;
-  /// stamp_ns: as the trace counts time. Not called any more once a trace that was given breaks
-  /// off.
+  /// Receives the exposures of the robot's cameras (plan.twin.cameras) up to the last recorded
+  /// tick. stamp_ns: trace time. Calls end when `trace` fails.
   std::function<void(const sim::Exposure&, std::uint64_t stamp_ns)> exposed;
-  /// What its lasers measured, as they come, stamped likewise.
+  /// Receives the robot's laser scans, with the same time stamp.
   std::function<void(const sim::Scan&, std::uint64_t stamp_ns)> scanned;
-  record::TraceWriter* trace = nullptr;  ///< gets every tick; must outlive the run
-  bool keep_series = false;              ///< WalkResult::series
-  bool open_end = false;  ///< neither its length nor a fall ends the run: its user does
+  record::TraceWriter* trace = nullptr;  ///< records every tick; must outlive the run
+  bool keep_series = false;              ///< fills WalkResult::series
+  bool open_end = false;  ///< only the caller ends the run; its length or a fall does not
 };
 
-/// What a CAN bus carried in a walk, from its first tick on.
+/// Traffic on a CAN bus from the first tick on.
 struct CanTraffic {
   double bits_per_tick = 0, bare_bits_per_tick = 0;  ///< with and without stuff bits
   std::uint32_t overruns = 0;                        ///< frames that the controller lost
@@ -101,23 +96,23 @@ struct CanTraffic {
 
 struct WalkResult {
   sim::WalkMetrics metrics;
-  EstimateErrors estimate;             ///< of the core: a controller of somebody's own makes none
+  EstimateErrors estimate;             ///< empty for a user's controller
   std::vector<sim::SeriesRow> series;  ///< from the first tick on
   std::uint64_t ticks = 0;
   std::uint64_t digest = 0;
   std::uint32_t faults = 0;          ///< safety::Fault bits at the end
-  int falls = 0, get_ups = 0;        ///< as the controller saw them
-  std::vector<RunEvent> fall_story;  ///< of each fall and of getting up; of what the plan lets it
-  double longest_step_m = 0;  ///< that the gait made: the asked one, or what limits left of it
+  int falls = 0, get_ups = 0;        ///< as the controller counts them
+  std::vector<RunEvent> fall_story;  ///< falls and recoveries
+  double longest_step_m = 0;         ///< of the gait, after its limits
   double simulated_s = 0, wall_s = 0;
-  sim::Vec2 end_m{0, 0};              ///< where its body was then, in the world
-  std::vector<double> set_upright_s;  ///< when somebody set it on its feet, simulated time
-  std::vector<AppliedIntervention> interventions;  ///< what of the plan's was done, and what else
+  sim::Vec2 end_m{0, 0};              ///< end position of the body, in the world
+  std::vector<double> set_upright_s;  ///< simulated times at which the user set it upright
+  std::vector<AppliedIntervention> interventions;  ///< the plan's and others
   bool interrupted = false;
-  std::optional<CanTraffic> can;  ///< of a walk over CAN
-  std::string trace_failure;  ///< why the trace breaks off; the walk went on. Empty: it does not
-  std::string failure;        ///< why the walk is no good, in words; empty: it is good
-  std::string remark;         ///< how a good walk is not what was asked; empty: it is
+  std::optional<CanTraffic> can;  ///< only over CAN
+  std::string trace_failure;      ///< why the trace ended early; the walk went on
+  std::string failure;            ///< why the walk failed; empty: it did not
+  std::string remark;             ///< how a good walk deviates from the order
 
   bool good() const { return failure.empty() && !interrupted; }
   double real_time_factor() const { return wall_s > 0 ? simulated_s / wall_s : 0; }

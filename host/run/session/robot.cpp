@@ -17,8 +17,8 @@
 namespace verp::session {
 namespace {
 
-constexpr double kAfterFall_s = 0.5;  // the report should show how it fell
-constexpr double kAfterStop_s = 0.3;  // and how it stands still
+constexpr double kAfterFall_s = 0.5;  // the report shows the fall
+constexpr double kAfterStop_s = 0.3;  // the report shows the stand
 
 Hooks with_own(Hooks hooks, const WalkPlan& plan) {
   if (!hooks.decide && plan.own) hooks.decide = plan.own();
@@ -152,7 +152,7 @@ void Robot::see() {
     hooks_.ticked({seen, gone_s(), &tick_, &state_, &outputs_, &world_, twin_.owner()});
 }
 
-/// One that got up walks on: what the twin holds against it is over.
+/// Clears the twin's fall verdict once a robot has got up, so that it walks on.
 void Robot::look_after_falls() {
   tell(story_.observe(state_, outputs_));
   result_.falls = story_.falls();
@@ -169,7 +169,7 @@ void Robot::tell(const std::string& news) {
 }
 
 void Robot::intervene_in_time() {
-  constexpr double kRounding_s = 1e-9;  // of seconds that are summed tick by tick
+  constexpr double kRounding_s = 1e-9;  // of a sum over all ticks
   while (!pending_.empty() && pending_.front().at_s <= gone_s() + kRounding_s) {
     intervene(pending_.front());
     pending_.pop_front();
@@ -183,7 +183,7 @@ void Robot::intervene(const Intervention& intervention) {
   note(what);
 }
 
-/// A disk that is full costs the trace, not the walk.
+/// A full disk ends the trace, not the walk.
 void Robot::note(const std::string& what) {
   try {
     if (trace_ != nullptr) trace_->note(tick_.inputs.tick, what);
@@ -218,7 +218,7 @@ void Robot::watch() {
   ++result_.ticks;
   const double up = std::clamp(seen.truth.body_world.linear()(2, 2), -1.0, 1.0);
   verdict_.see(torque, std::acos(up), twin_.fallen());
-  const bool may_get_up = plan_.get_ups > 0;  // only if it stays down it fell
+  const bool may_get_up = plan_.get_ups > 0;  // then it fell only if it stays down
   if (may_get_up && twin_.forget_fall()) verdict_.forget();
   if (twin_.fallen() && !std::exchange(lies_, true) && may_get_up) {
     const Eigen::Vector3d sky = seen.truth.body_world.linear().row(2);
@@ -271,7 +271,7 @@ void Robot::count_traffic() {
                  each_tick(can_->bare_bits_on_wire(), bare_bits_before_), can_->errors().overruns};
 }
 
-/// A disk that is full costs the trace, not the walk.
+/// A full disk ends the trace, not the walk.
 void Robot::append(const sim::Truth& truth, const std::vector<sim::Scan>& scans) {
   try {
     const record::ros::BodyPose body = pose_of(truth.body_world);
@@ -339,7 +339,7 @@ std::string Robot::failure_of_walk() const {
   if (!faults.empty()) return "stopped by fault: " + faults;
   if (hooks_.order) return "";
   const std::string failed = walker_->failed();
-  // A walk that a controller's reset cut in two starts and stops twice: nobody asked for that way.
+  // A controller's reset cuts the walk in two, with two starts and stops: its way is not judged.
   if (!failed.empty() || walked_s_ > 0) return failed;
   return shortfall(plan_.asked.value_or(plan_.velocity), result_.metrics, plan_.params.tuning.gait);
 }

@@ -17,8 +17,8 @@
 
 namespace verp::session {
 
-/// One robot of a session: its twin, bus, operator, meter and trace; the controller is somewhere
-/// else. An OperatorLink and a Recorder for it.
+/// One robot of a session: its twin, bus, operator, meter and trace, without its controller. Serves
+/// that controller as an OperatorLink and a Recorder.
 class Robot {
  public:
   using Interrupted = std::function<bool()>;
@@ -27,70 +27,70 @@ class Robot {
   Robot(sim::World& world, const WalkPlan& plan, Hooks hooks, Interrupted interrupted);
 
   const WalkPlan& plan() const { return plan_; }
-  /// Of the plan: what may be asked for by its number.
+  /// The plan's actions, which orders select by number.
   const action::Library& actions() const { return actions_; }
   std::string name() const { return plan_.name.empty() ? plan_.params.name : plan_.name; }
   sim::TwinRobot& twin() { return twin_; }
-  /// The bus that the plan's Params speak of; the other one is not there.
+  /// The bus of the plan's Params; the other bus does not exist.
   bus::VirtualBus& bus() { return *bus_; }
   can::VirtualCan& can() { return *can_; }
 
-  /// Its bus has begun to tick.
+  /// The bus has begun to tick.
   bool ticking() const { return can_ ? can_->ticking() : bus_->ticking(); }
-  /// Lets time go on by so much; what its bus brings meanwhile, nobody hears.
+  /// Advances time; discards what the bus receives meanwhile.
   void let_pass(std::uint32_t time_us);
 
-  /// What the person who gives orders wants in this tick.
+  /// The operator's order for this tick.
   app::OperatorOrder order(std::uint32_t tick);
-  /// The tick of a controller in this process.
+  /// Computes a tick of a controller in this process.
   void decide(State& state, const Inputs& inputs, Outputs& outputs);
-  /// The controller began anew, on the robot as it is: the operator has it stand up and walk for
-  /// what is left of the time. The trace ends before: a tick has no other one to follow there.
+  /// The controller restarted. The operator orders the robot to stand up and walk for the remaining
+  /// time. The trace ends here, because its ticks must follow each other.
   void begin_anew();
-  /// The walk has ended, went wrong besides, or somebody interrupts.
+  /// The walk has ended or failed, or the user interrupts.
   bool over() const;
   bool interrupted() const { return interrupted_ && interrupted_(); }
-  /// Something went wrong besides the walk, which is over: why. The first reason stands.
+  /// Ends the run for a reason outside the walk. The result keeps the first reason.
   void fail(const std::string& why);
 
-  /// A tick of the controller, wherever it ran: take() keeps it, see() has the meter, the trace and
-  /// the hooks look at it, if they have not.
+  /// take() stores a tick of the controller, local or remote. see() passes it to the meter, the
+  /// trace and the hooks, once.
   void take(const TickRecord& tick, const State& state, const Outputs& outputs);
   void see();
   void record(const TickRecord& tick, const State& state, const Outputs& outputs) {
     take(tick, state, outputs);
     see();
   }
-  /// A tick of a controller that tells nothing of itself: only what the twin did is scored. The
-  /// run begins when a servo first has torque, not when somebody looks for servos, and has
-  /// plan.walk_s from then on. It ends sooner if the robot falls and may not get up (plan.get_ups);
-  /// one that is let go may lie down (FallVerdict), and is served on.
+  /// One tick of a controller that reports nothing: scores only the twin's motion. The run lasts
+  /// plan.walk_s from the first torque on; a scan for servos does not start it. A fall ends it
+  /// early unless plan.get_ups allows recovery. A robot without torque may lie down (FallVerdict),
+  /// and the run goes on.
   void watch();
 
-  /// Who gives the world's quantities and pushes; before the first tick.
+  /// Sets the source of the world's quantities; call it before the first tick.
   void set_quantities(std::function<sim::Quantities&()> quantities) {
     quantities_ = std::move(quantities);
   }
-  /// Done now, after the last tick, and recorded. Throws std::invalid_argument if there is nothing
-  /// of that name, or the value is out of range: nothing was done then.
+  /// Applies and records an intervention now, after the last tick. Throws std::invalid_argument,
+  /// without effect, if the name is unknown or the value is out of range.
   void intervene(const Intervention& intervention);
 
-  /// Somebody sets it on its feet (sim::TwinRobot): kept in the result, with the time. False: not
-  /// now, a servo has torque.
+  /// The user sets the robot on its feet (sim::TwinRobot); the result keeps the time. False:
+  /// impossible while a servo has torque.
   bool set_upright();
 
   /// Number of the last tick of its controller.
   std::uint32_t tick() const { return tick_.inputs.tick; }
   double simulated_s() const;
-  /// Any servo of it.
+  /// Any servo has torque.
   bool has_torque();
-  /// How much of plan.walk_s has gone by.
+  /// Elapsed part of plan.walk_s.
   double gone_s() const;
   bool fallen() const { return twin_.fallen(); }
-  /// Of what was watched.
+  /// Verdict of watch().
   const FallVerdict& verdict() const { return verdict_; }
 
-  /// Once, at the end.
+  /// Call once, at the end.
   WalkResult result(double wall_s);
 
  private:
@@ -116,24 +116,24 @@ class Robot {
   std::optional<bus::VirtualBus> bus_;
   std::optional<can::VirtualCan> can_;
   std::optional<WalkOperator> walker_;
-  double walked_s_ = 0;  ///< by controllers that are no more
+  double walked_s_ = 0;  ///< by controllers before a restart
   sim::WalkMeter meter_;
   EstimateMeter estimate_meter_;
   WalkResult result_;
   std::function<sim::Quantities&()> quantities_;
-  std::deque<Intervention> pending_;  ///< the next one first
-  TickRecord tick_;                   ///< the last one taken, and what came with it
+  std::deque<Intervention> pending_;  ///< in order of time
+  TickRecord tick_;                   ///< last taken, with state_ and outputs_
   State state_;
   Outputs outputs_;
   FallStory story_;
-  bool taken_ = false;                                    ///< and not seen yet
-  std::uint64_t bits_before_ = 0, bare_bits_before_ = 0;  ///< the first tick
+  bool taken_ = false;                                    ///< take() was called, see() was not
+  std::uint64_t bits_before_ = 0, bare_bits_before_ = 0;  ///< at the first tick
   FallVerdict verdict_;
-  double begun_s_ = 0;  ///< when the first tick was over or torque was first seen, simulated time
+  double begun_s_ = 0;  ///< simulated time of the first tick or first torque
   double after_s_ = 0;
   bool over_ = false;
   bool watched_ = false;
-  bool lies_ = false;  ///< of one that is watched: it was told
+  bool lies_ = false;  ///< watch() has reported that it lies
 };
 
 }  // namespace verp::session

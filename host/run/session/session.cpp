@@ -11,8 +11,8 @@
 
 namespace verp::session {
 
-/// A robot's place in the world's time. Alone in it, its bus moves the world; among others its
-/// controller is a Flow that pauses wherever its bus asks for a time.
+/// A robot and its controller in the world's time. A single robot's bus advances the world. With
+/// several robots, each controller is a Flow that pauses where its bus requests a time.
 struct Session::Seat final : sim::TimeSource {
   Seat(Session& session, const WalkPlan& plan, Hooks hooks, const MakeController& make)
       : world(session.world_),
@@ -22,7 +22,7 @@ struct Session::Seat final : sim::TimeSource {
     robot.twin().set_time(*this);
   }
 
-  /// A user's controller is called on the stack that called tick(), be the robot alone or not.
+  /// Calls a user's controller always on the stack of tick()'s caller.
   Hooks with_decide_outside(Hooks hooks) {
     if (!hooks.decide) return hooks;
     hooks.decide = [this, decide = std::move(hooks.decide)](const Params& params, State& state,
@@ -52,10 +52,10 @@ struct Session::Seat final : sim::TimeSource {
   Robot robot;
   std::unique_ptr<Controller> controller;
   const sim::Vec3 start_m;
-  std::unique_ptr<Flow> flow;  ///< null: alone. Goes before what it runs
+  std::unique_ptr<Flow> flow;  ///< null: single robot. Destroyed before the controller
   std::uint64_t asked_us = 0;
-  bool ticked = false;    ///< and nobody has looked at it yet
-  bool finished = false;  ///< and the controller has heard that it is over
+  bool ticked = false;    ///< next_tick() has not returned it yet
+  bool finished = false;  ///< Controller::finish() was called
 };
 
 Session::Session(Options options) : options_(std::move(options)), world_(options_.world) {}
@@ -63,12 +63,12 @@ Session::Session(Options options) : options_(std::move(options)), world_(options
 Session::~Session() = default;
 
 double ground_m(const sim::World& world, const sim::Vec3& start_m) {
-  constexpr double kFootprint_m = 0.12;  // around where the robot is put down
+  constexpr double kFootprint_m = 0.12;  // around the start position
   if (world.scenery() == nullptr) return start_m.z();
   return world.height_m(start_m.x(), start_m.y(), kFootprint_m);
 }
 
-/// Robots inside each other: the solver of their contacts takes minutes for a tick.
+/// Throws NoRoom: the contact solver takes minutes for a tick of robots inside each other.
 void Session::need_room(const sim::Vec3& start_m) const {
   constexpr double kLeast_m = 0.1;
   for (std::size_t i = 0; i < seats_.size(); ++i) {
@@ -122,7 +122,7 @@ bool Session::over() const {
   return true;
 }
 
-/// The one that has asked for the earliest time; of equals the first that was added.
+/// The robot that waits for the earliest time; of equals, the first added.
 Session::Seat* Session::next() {
   Seat* first = nullptr;
   for (const auto& seat : seats_) {
@@ -132,10 +132,10 @@ Session::Seat* Session::next() {
   return first;
 }
 
-/// Up to where this robot's controller has done a tick, or its bus asks for a time. False: neither,
-/// it is over.
+/// Runs this robot until its controller has done a tick or its bus requests a time. False: it has
+/// finished.
 bool Session::go_on(Seat& seat) {
-  seat.finished = true;  // should the controller throw
+  seat.finished = true;  // in case the controller throws
   if (seat.flow) {
     world_.advance_to(seat.asked_us);
     seat.finished = !seat.flow->resume();

@@ -16,10 +16,10 @@ namespace verp::session {
 
 struct Options {
   sim::WorldOptions world = {};
-  std::function<bool()> interrupted;  ///< asked at each tick; true ends the run. Empty: nobody does
+  std::function<bool()> interrupted;  ///< polled at each tick; true ends the run
 };
 
-/// A robot was to be put down where another one stands.
+/// Two robots would start in the same place.
 class NoRoom : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
@@ -33,39 +33,39 @@ class NoRoom : public std::invalid_argument {
 ///     }
 ///     const WalkResult result = session.result(0);
 ///
-/// The world steps once for everybody in it. Each robot's bus asks for a time, and comes back when
-/// the world stands there, which it does when every other bus has asked for one at least as late:
-/// so no robot is told of, or acts in, another one's past. Deterministic: equal plans in equal
-/// order give equal bits, however the ticks are called for. Who does not call tick() has paused the
-/// run. Errors are exceptions with text, after which the robot that they are of is over.
+/// One simulation step advances all robots. Each robot's bus requests a time and waits until the
+/// world reaches it. The world advances when every other bus has requested a time at least as late,
+/// so no robot sees or acts in another robot's past. Deterministic: equal plans in equal order give
+/// equal bits, whatever the timing of the calls. The run pauses while the caller does not call
+/// tick(). Errors are exceptions with text; they end the run of the robot that caused them.
 class Session {
  public:
   explicit Session(Options options = {});
   ~Session();
 
-  /// One more robot, before the first tick. Throws NoRoom less than 0.1 m from another one, and
-  /// what TwinRobot's constructor and `make` do.
+  /// Adds a robot; only before the first tick. Throws NoRoom if another robot starts less than
+  /// 0.1 m away, and what TwinRobot's constructor and `make` throw.
   Robot& add(const WalkPlan& plan, Hooks hooks = {}, const MakeController& make = make_controller);
 
-  /// Goes on until one robot has done one more control tick, or its controller has kept us waiting
-  /// for some ms, and returns it. Null: the run is over.
+  /// Advances until one robot has done a control tick, or its controller has kept the session
+  /// waiting for some ms. Returns that robot; null: the run is over.
   Robot* tick();
-  /// Why the physics gave up, which ends the run of every robot; empty: they did not.
+  /// Why the physics diverged, which ends the run of every robot; empty: they did not diverge.
   const std::string& diverged() const { return diverged_; }
-  /// All robots are over, or somebody interrupts.
+  /// All robots have finished. An interrupt finishes them, too.
   bool over() const;
 
   std::uint64_t now_us() const { return world_.now_us(); }
-  /// Of the world and all in it, once all robots were added. Made when first asked for: a run that
-  /// nobody touches does not pay for it. To set one so that the run can be repeated is
-  /// Robot::intervene().
+  /// Quantities of the world and of all robots; call it after the last add(). Built on the first
+  /// call, so that a run without interventions does not pay for it. Set a quantity through
+  /// Robot::intervene() if the run must be repeatable.
   sim::Quantities& quantities();
-  /// What the world's file put there; null: it had none.
+  /// Objects of the world's file; null: the world has no file.
   const sim::Scenery* scenery() { return world_.scenery(); }
   std::size_t size() const { return seats_.size(); }
   Robot& robot(std::size_t index);
   std::size_t index_of(const Robot& robot) const;
-  /// Of that robot, once, at the end.
+  /// Result of a robot; call it once, at the end.
   WalkResult result(std::size_t index);
 
  private:
@@ -79,36 +79,36 @@ class Session {
   const Options options_;
   sim::World world_;
   std::deque<std::unique_ptr<Seat>> seats_;
-  std::unique_ptr<sim::Quantities> quantities_;  ///< goes before what it is of
-  double wall_s_ = 0;                            ///< in tick()
+  std::unique_ptr<sim::Quantities> quantities_;  ///< destroyed before its robots
+  double wall_s_ = 0;                            ///< spent in tick()
   std::string diverged_;
   bool begun_ = false;
 };
 
-/// At which height a robot is put down there.
+/// Height of the ground on which a robot starts.
 double ground_m(const sim::World& world, const sim::Vec3& start_m);
 
-/// Looks at a run from its beginning to its end. Nothing that it does changes a bit of the run.
+/// Observes a run from its beginning to its end, without changing a bit of it.
 class Observer {
  public:
   virtual ~Observer() = default;
-  /// A robot is about to join: what the observer wants to hear of it goes into the hooks.
+  /// A robot is about to join; the observer may set hooks.
   virtual void join(std::size_t, const WalkPlan&, Hooks&) {}
-  /// All robots have joined, and none has done a tick.
+  /// All robots have joined, before the first tick.
   virtual void begin(Session&) {}
-  /// The robot of that index has done a tick, or its controller keeps the world waiting.
+  /// The robot with this index has done a tick, or its controller keeps the world waiting.
   virtual void tick(std::size_t, Robot&) {}
   /// The run is over.
   virtual void end(Session&) {}
 };
 
-/// A run from its first tick to its last, with robot i of the session by plan i. The results are in
-/// the same order. One whose physics diverge has failed, and its results say so.
+/// Runs a session from its first tick to its last. Robot i follows plan i, and result i belongs to
+/// it. If the physics diverge, every result is a failure that says so.
 std::vector<WalkResult> run(Session& session, const std::vector<WalkPlan>& plans,
                             const std::vector<Observer*>& observers,
                             const MakeController& make = make_controller);
 
-/// One walk of one robot, from its beginning to its end.
+/// Runs one walk of one robot.
 WalkResult walk(const WalkPlan& plan, Hooks hooks = {}, Options options = {});
 
 }  // namespace verp::session
