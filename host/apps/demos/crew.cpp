@@ -13,18 +13,18 @@
 namespace verp::demos {
 namespace {
 
-/// A URG-04LX tells within 10 mm up to 1 m, 1 % beyond (Hokuyo, C-42-3389); the robots' files have
-/// lasers without noise, and nobody's legs should hang on that.
+/// A URG-04LX is accurate to 10 mm up to 1 m, and to 1 % beyond (Hokuyo, C-42-3389). The robots'
+/// files have lasers without noise, on which no behaviour may rely.
 constexpr double kLaserNoise_m = 0.01;
-constexpr double kPictures_hz = 5;       // what is drawn costs time; the file has 30
-constexpr double kPictureLate_s = 0.06;  // a sensor's readout and USB; the file has none
+constexpr double kPictures_hz = 5;       // rendering takes time; the file has 30
+constexpr double kPictureLate_s = 0.06;  // sensor readout and USB; the file has none
 
 session::WalkPlan plan_of(const Demo& demo, const Options& options, int number, int robots) {
   const brain::Pose place = demo.places(robots)[static_cast<std::size_t>(number)];
   scenario::Robot robot;
   robot.name = fmt::format("r{}", number + 1);
   robot.model = options.model;
-  robot.orders = scenario::Velocity{};  // its brain gives others
+  robot.orders = scenario::Velocity{};  // the robot's brain gives the orders
   robot.seed = options.seed + static_cast<std::uint64_t>(number);
   robot.at = {place.at_m.x, place.at_m.y, place.yaw_rad};
   model::Entity entity = model::load_robot(model::find_model(options.model));
@@ -39,7 +39,7 @@ session::WalkPlan plan_of(const Demo& demo, const Options& options, int number, 
   return plan;
 }
 
-/// At this moment, and it is neither itself nor the floor.
+/// The robot touches another robot or an object now, other than the floor.
 bool touches_something(const sim::World& world, int owner) {
   constexpr double kFloor_m = 0.01;
   return std::any_of(
@@ -108,7 +108,7 @@ void Member::watch(const sim::TwinRobot& twin, double time_s) {
   if (computer_.orders().done && !track_.done_s) track_.done_s = time_s;
 }
 
-/// A disk that is full costs the trace, not the run.
+/// A full disk ends the trace, not the run.
 void Member::guarded(const std::function<void()>& act) {
   try {
     if (trace_ != nullptr && track_.trace_failure.empty()) act();

@@ -13,7 +13,7 @@
 
 namespace verp::demos {
 
-/// One robot of a demo: its plan, its computer and what is kept of it.
+/// One robot of a demo: its plan, its computer and its records.
 class Member {
  public:
   Member(const Demo& demo, const Options& options, int number, int robots);
@@ -24,11 +24,11 @@ class Member {
   Track& track() { return track_; }
   const Track& track() const { return track_; }
   std::uint32_t tick() const { return tick_; }
-  /// What a session calls. `look`: has a picture drawn; empty: nobody looks.
+  /// The session's hooks. `look` renders a picture; empty: no pictures.
   using Look = std::function<std::optional<camera::Picture>(const sim::Exposure&)>;
   session::Hooks hooks(Look look);
 
-  /// The referee's look.
+  /// The referee observes the robot.
   void watch(const sim::TwinRobot& twin, double time_s);
   void note_radio(const char* event, std::int64_t number, int from, int to,
                   const std::string& data);

@@ -14,7 +14,7 @@
 namespace verp::tool {
 namespace {
 
-/// "u" and Enter sets the robot on its feet.
+/// The user types "u" and Enter to set the robot on its feet.
 class Keyboard final : public session::Observer {
  public:
   explicit Keyboard(session::RemoteController*& served) : served_(served) {}

@@ -14,9 +14,9 @@ struct HilResult : session::RemoteResult {
   }
 };
 
-/// The twin of plan.entity answers a controller at the other end of a link
-/// (session::RemoteController), until it or the walk is over; tells on stderr what happens. Throws
-/// what opening a link throws.
+/// Serves the twin of plan.entity to a controller at the other end of a link
+/// (session::RemoteController) until the controller or the walk ends. Reports events on stderr.
+/// Throws what opening a link throws.
 HilResult serve_controller(const WalkPlan& plan, session::ServeOptions options,
                            cli::Progress& progress, std::vector<session::Observer*> observers);
 

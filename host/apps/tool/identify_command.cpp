@@ -32,7 +32,7 @@ struct IdentifyWords {
   bool json = false;
 };
 
-/// Before the fit, which takes minutes: a place that takes a file, and has none of that name.
+/// Requires a new file in a writable folder. Call it before the fit, which takes minutes.
 void require_place(const std::string& file) {
   if (std::filesystem::exists(file))
     throw cli::ToolError(cli::kBadInput, file + ": is there already; choose another name");

@@ -20,48 +20,45 @@ class Listener;
 
 namespace verp::tool {
 
-/// What is typed of a stream.
+/// Options of a live stream.
 struct LiveOptions {
   bool on = false;
-  std::uint16_t port = 8765;  ///< that viewers offer by themselves
+  std::uint16_t port = 8765;  ///< default of the viewers
   bool waits = false;
-  std::vector<std::string> origins = {};  ///< of pages of others that may watch, too
+  std::vector<std::string> origins = {};  ///< additional web pages that may watch
 };
 
-/// --live, --live-wait and --live-origin. Once the command line is parsed, `options.on` says
-/// whether.
+/// Declares --live, --live-wait and --live-origin. --live sets `options.on`.
 void declare_live(CLI::App& app, LiveOptions& options);
 
-/// What happens, to viewers on this PC while it happens (host/trace/live). Does nothing if nobody
-/// asked for it.
+/// Streams a run to viewers on this PC (host/trace/live). Does nothing without --live.
 class LiveStream final : public session::Observer {
  public:
-  /// Tells on stderr where it is. Throws ToolError: the port is not to be had.
+  /// Prints the address on stderr. Throws ToolError if the port is not available.
   LiveStream(const std::string& command, const LiveOptions& options);
   ~LiveStream() override;
 
   void begin(session::Session&) override { wait_for_viewer(); }
   void end(session::Session&) override { finish(); }
 
-  /// Who hears what a robot's trace is given; null: nobody. `name`: among several, empty if it is
-  /// alone.
+  /// Adds a listener for a robot's trace; null without --live. `name`: empty for a single robot.
   record::mcap::Listener* robot(const std::string& name = {});
   live::Server* server();
-  /// With --live-wait: returns when somebody watches, or the run is interrupted. Its channels are
-  /// there by now.
+  /// With --live-wait, waits for a viewer's subscription or an interrupt. Call it when all channels
+  /// exist.
   void wait_for_viewer();
-  /// Before a loop in real time, whose thread sends.
+  /// Raises the server's priority to just below a real-time loop's; call it before the loop.
   void run_beside_real_time();
-  /// There is no more; viewers get what waits for them.
+  /// Sends the queued messages and ends the stream.
   void finish();
 
-  /// What became of it; empty: nobody asked.
+  /// Summary of the stream; empty without --live.
   std::string text() const;
   void add_to(cli::Json& json) const;
 
  private:
   struct Stream;
-  std::unique_ptr<Stream> stream_;  ///< null: nobody asked
+  std::unique_ptr<Stream> stream_;  ///< null without --live
 };
 
 }  // namespace verp::tool

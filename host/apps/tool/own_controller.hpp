@@ -13,18 +13,19 @@ class App;
 
 namespace verp::tool {
 
-/// --controller.
+/// Declares --controller.
 void declare_controller(CLI::App& app, std::string& folder);
 
 /// Builds the controller in that folder for this PC. The result makes one controller per run.
 /// Throws ToolError, with the compiler's messages if it does not compile.
 std::function<session::Decide()> own_controller(const std::string& folder, bool show);
 
-/// Builds a firmware target of the board with it; returns the folder of its images.
+/// Builds a firmware target of the board with the controller. Returns the folder of the images.
 std::string build_firmware_of(const std::string& folder, const std::string& board,
                               const std::string& target, cli::Progress& progress);
 
-/// Has each robot's own controller decide, for this PC or for its emulated board.
+/// Builds each robot's own controller, for this PC or its emulated board, and puts it into the
+/// plan.
 void take_controllers(const scenario::Scenario& scenario, std::vector<session::WalkPlan>& plans,
                       bool show);
 

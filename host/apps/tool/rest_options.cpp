@@ -5,7 +5,7 @@
 #include "host/apps/tool/own_controller.hpp"
 #include "host/apps/tool/walk_map.hpp"
 
-/// Options of what the program of a first walk leaves out: it knows them all the same, and their
+/// Options of features that the first-walk program leaves out. It still knows the options and their
 /// help.
 namespace verp::tool {
 

@@ -22,23 +22,23 @@
 
 namespace verp::tool {
 
-/// What an answer may take: the slowest adapter known holds what comes for 16 ms.
+/// Time limit of an answer; the slowest known adapter holds received bytes for 16 ms.
 inline constexpr std::uint32_t kAnswer_us = 100'000;
-inline constexpr int kAsked = 3;  ///< times that a silent servo is asked whether it let go
+inline constexpr int kAsked = 3;  ///< requests to a silent servo for its torque state
 
-/// What a servo says when it is asked at the end.
+/// A servo's answer at the end: its torque is off.
 enum class LetGo : std::uint8_t { kYes, kNo, kSilent };
 
-/// Throws ToolError with the remedy if a tick can't fit; warns if it only just does.
+/// Throws ToolError with the remedy if a tick cannot fit; warns if it barely fits.
 void judge_fit(const bus::LinkFit& fit, const RunPlan& plan);
-/// Throws ToolError if the robot names no IMU on its bus, or `trouble` says what is wrong with it.
+/// Throws ToolError if the robot has no IMU on its bus, or `trouble` is not empty.
 void judge_imu(const RunPlan& plan, const std::string& trouble);
 
 /// Recorder of a run: passes each tick to the robot, the operator, the trace and the result.
 template <class Robot>
 struct RunKeeper {
   void record(const TickRecord& tick, const State& state, const Outputs& outputs) {
-    robot.record(tick, state, outputs);  // before a disk that is slow
+    robot.record(tick, state, outputs);  // before a slow disk
     person.observe(state, outputs);
     ++walk.ticks;
     walk.digest = tick.digest.chain;
@@ -46,7 +46,7 @@ struct RunKeeper {
     if (trace == nullptr) return;
     try {
       trace->append(tick, state, outputs);
-    } catch (const record::TraceError& error) {  // a disk that is full costs the trace
+    } catch (const record::TraceError& error) {  // a full disk ends only the trace
       walk.trace_failure = error.what();
       trace = nullptr;
     }
@@ -57,16 +57,16 @@ struct RunKeeper {
   record::TraceWriter* trace;
 };
 
-/// One robot, driven in real time, or in a twin's. Robot is how it is reached:
-///  - Bus, bus(): what App drives it through; waits no longer than bring-up needs until
-///  set_held(us)
-///    says for how long answers may be held up;
-///  - connected(), link_errors(); let_go(joint): asks one servo, and tells it once more;
-///  - brought_up(report), record(...) as a Recorder, report(health) after each tick: for those who
-///    look on from its bus;
-///  - stopped(), of a twin in lockstep: it wants no further tick; nothing is paced then;
-///  - order(tick), where whoever is on its bus may give orders: as an OperatorLink;
-///  - where(address): at what a bring-up failed, in words.
+/// Drives one robot in real time, or in a twin's time. Robot is the access to it:
+///  - Bus, bus(): the bus for App, with the delays of bring-up until set_held(us) sets the longest
+///  delay
+///    of answers;
+///  - connected(), link_errors(); let_go(joint): asks one servo and repeats the release;
+///  - brought_up(report), record(...) as a Recorder, report(health) after each tick: for observers
+///    on the robot's bus;
+///  - stopped(), only for a twin in lockstep: it takes no further tick. Such a run has no pace;
+///  - order(tick), as an OperatorLink, only if others on the bus may give orders;
+///  - where(address): names the place at which a bring-up failed.
 template <class Robot>
 class RobotRun {
  public:
@@ -99,7 +99,7 @@ class RobotRun {
     if (report.status != app::BringUpStatus::kReady)
       throw session::not_up(report, place(), Robot::where(report.address));
     app_.limit_torque(static_cast<std::uint8_t>(plan_.torque_percent));
-    robot_.set_held(result_.fit.held_us());  // nobody waited for the bring-up
+    robot_.set_held(result_.fit.held_us());  // bring-up has its own limits
     if constexpr (!kInLockstep) result_.real_time = cli::become_real_time();
     if (!result_.real_time.advice.empty()) say(result_.real_time.advice);
     const std::uint64_t start_ns = link::monotonic_ns();
@@ -146,7 +146,7 @@ class RobotRun {
     return fmt::format("{:.1f} of {:g} s", operator_.walked_s(), plan_.walk.walk_s);
   }
 
-  /// The world that a twin is in may end sooner than its controller wants.
+  /// The twin's run may end before its controller's.
   bool twin_ended() const {
     if constexpr (kInLockstep) return robot_.stopped();
     return false;
@@ -198,11 +198,11 @@ class RobotRun {
     result_.walk.fall_story.push_back({at_s, story});
   }
 
-  // What lets go is sent to all and answered by nobody: so each servo is asked, and those that are
-  // silent again: a wire loses a frame, a busy PC looks too late. A person who presses again has no
-  // patience with that.
+  // Asks each servo whether it released torque, because the release is a broadcast without answers.
+  // Asks silent servos again: the wire may lose a frame, a busy PC may read too late. A second
+  // Ctrl-C ends the requests.
   void make_sure() {
-    if (twin_ended()) return;  // and with it all that could hold
+    if (twin_ended()) return;  // and with it all torque
     std::vector<int> silent(static_cast<std::size_t>(params_.servo_count()));
     std::iota(silent.begin(), silent.end(), 0);
     for (int round = 0; round < kAsked && !silent.empty(); ++round) {

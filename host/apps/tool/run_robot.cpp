@@ -24,7 +24,7 @@ class SerialRobot {
   hal::LinkErrors link_errors() const { return link_.errors(); }
   static std::string where(std::uint16_t address) { return fmt::format("register {}", address); }
 
-  // Nobody can ask a master on this bus.
+  // No other device can query the master on this bus.
   void brought_up(const app::BringUpReport&) {}
   void record(const TickRecord&, const State&, const Outputs&) {}
   void report(const app::LoopHealth&) {}

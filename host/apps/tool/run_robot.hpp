@@ -14,20 +14,20 @@
 
 namespace verp::tool {
 
-/// A robot at the other end of a link, and how it is to be driven.
+/// A robot at the other end of a link, and the way to drive it.
 struct RunPlan {
-  WalkPlan walk;  ///< its Params as this PC's controller takes them
+  WalkPlan walk;  ///< with the Params of this PC's controller
   link::Endpoint link;
   bool has_imu = true;  ///< false: `--imu none`
   int torque_percent = 100;
-  bool lockstep = false;      ///< of a twin: it waits for this controller, and that for it
-  int action = 0;             ///< of the library in `walk`, played instead of a walk; 0: a walk
-  bool takes_orders = false;  ///< `--take-orders`: who writes the controller's node gives them
+  bool lockstep = false;      ///< the twin and this controller wait for each other
+  int action = 0;             ///< number of the action to play instead of a walk; 0: walk
+  bool takes_orders = false;  ///< `--take-orders`: orders come through the controller's node
 };
 
 struct RunResult {
-  WalkResult walk;              ///< what needs no twin: ticks, digest, faults, failure, interrupted
-  bool device_trouble = false;  ///< walk.failure is the link's or a device's
+  WalkResult walk;              ///< only ticks, digest, faults, failure, interrupted
+  bool device_trouble = false;  ///< the link or a device caused walk.failure
   double walked_s = 0, played_s = 0;
   bus::LinkFit fit;
   cli::RealTime real_time;
@@ -35,18 +35,17 @@ struct RunResult {
   app::BusCounters bus;
   std::uint32_t crc_errors = 0;
   hal::LinkErrors link;
-  int silent_servos = 0;  ///< at the end: that could not be asked whether they let go
-  int stiff_servos = 0;   ///< at the end: that said they did not
+  int silent_servos = 0;  ///< at the end, without an answer on their torque
+  int stiff_servos = 0;   ///< at the end, with torque still on
 };
 
-/// Measures what the link makes of a read, and throws ToolError with the remedy if a tick can't
-/// fit.
+/// Measures the link's delay of a read. Throws ToolError with the remedy if a tick cannot fit.
 bus::LinkFit check_latency(link::Link& link, const RunPlan& plan);
 
-/// Throws ToolError if the robot has no IMU that answers.
+/// Throws ToolError if no IMU answers.
 void check_imu(link::Link& link, const RunPlan& plan);
 
-/// Drives the robot until the walk is over or somebody interrupts, and lets go of it. `trace` may
+/// Drives the robot until the walk ends or the user interrupts, then releases torque. `trace` may
 /// be null. Throws ToolError if the robot does not come up.
 RunResult drive(link::Link& link, const RunPlan& plan, const bus::LinkFit& fit,
                 record::TraceWriter* trace, cli::Progress& progress);

@@ -20,12 +20,12 @@ bool is_name(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), plain);
 }
 
-/// The rest of `text` behind `prefix`; empty: it does not begin so.
+/// `text` without `prefix`; empty if it does not begin so.
 std::string behind(const std::string& prefix, const std::string& text) {
   return text.compare(0, prefix.size(), prefix) == 0 ? text.substr(prefix.size()) : "";
 }
 
-/// Sets who drives it; false: `text` says nothing of that.
+/// Sets the controller; false: `text` names none.
 bool take_driver(const std::string& text, Seat& seat) {
   seat.link = behind("ext:", text);
   seat.board = behind("on:", text);

@@ -11,44 +11,43 @@ class App;
 
 namespace verp::tool {
 
-/// Several robots in one world: --robots, --robot NAME=..., and what becomes of the others when one
-/// has lost its controller.
+/// Several robots in one world: --robots, --robot NAME=..., and the effect of a lost controller on
+/// the other robots.
 struct TeamOptions {
-  int robots = 0;  ///< so many of MODEL; 0: as few as are named
-  /// NAME=MODEL, NAME=ext:LINK, NAME=on:BOARD, or with MODEL before: NAME=MODEL,ext:LINK.
+  int robots = 0;  ///< number of MODEL robots; 0: only named robots
+  /// NAME=MODEL, NAME=ext:LINK, NAME=on:BOARD, or with a model NAME=MODEL,ext:LINK.
   std::vector<std::string> seats;
-  bool go_on = false;      ///< without the one that has lost its controller
-  double patience_s = 10;  ///< with a controller outside, by the wall's clock
-  std::string of_outside;  ///< an option that was given and is of those alone; empty: none
+  bool go_on = false;      ///< a lost controller ends only its robot's run
+  double patience_s = 10;  ///< with a controller elsewhere, by the wall clock
+  std::string of_outside;  ///< given option for controllers elsewhere; empty: none
 };
 
-/// --robots alone: for commands whose robots have their controllers in this process.
+/// Declares only --robots, for commands with local controllers.
 void declare_robots(CLI::App& app, TeamOptions& options);
-/// What is said of controllers outside.
+/// Declares the options for controllers elsewhere.
 void declare_outside(CLI::App& app, TeamOptions& options);
-/// --radio, with words or without.
+/// Declares --radio, with an optional value.
 void declare_radio(CLI::App& app, std::optional<std::string>& radio);
 
-/// Of what was given to MODEL and --robot: robots with a name of their own (NAME=...) go to
-/// `seats`, the one that is left is the model. Returns whether there was one. Throws ToolError if
-/// there were two.
+/// Sorts the values of MODEL and --robot: named robots (NAME=...) go to `seats`, another value is
+/// the model. True: there is a model. Throws ToolError for two models.
 bool sort_robot_words(const std::vector<std::string>& words, std::string& model,
                       std::vector<std::string>& seats);
 
-/// One robot among others, and who drives it.
+/// One of several robots, and its controller.
 struct Seat {
   std::string name;
   std::string model;  ///< empty: MODEL
-  std::string link;   ///< its controller is at the other end; empty: it is not
+  std::string link;   ///< to a controller elsewhere; empty: none
   std::string board;  ///< emulated board that runs its controller; empty: none
 };
 
-/// Those of --robots (r1, r2, ...), of which --robot NAME=... may say who drives them, and those of
-/// --robot that bring a name of their own. Throws ToolError.
+/// The robots of --robots (r1, r2, ...) and of --robot NAME=... . The latter option may also set
+/// the controller of a robot of the former. Throws ToolError.
 std::vector<Seat> seats_of(const std::string& command, const TeamOptions& options);
 
-/// Where the robot of this number stands, if nobody says so: two abreast, looking along x, rows far
-/// enough apart for what a walk drifts (2 % of the way, and 0.4 m for arms).
+/// Default start place of a robot: two abreast, heading along x. The spacing allows for the drift
+/// of a walk (2 % of the way) and for arms (0.4 m).
 sim::Vec2 place_in_column(std::size_t index);
 
 }  // namespace verp::tool

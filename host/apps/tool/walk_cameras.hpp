@@ -9,12 +9,12 @@
 
 namespace verp::tool {
 
-/// What the cameras of the robot that walks see, into its trace: --cameras. A program beside this
-/// one draws it (host/show/camera).
+/// Records the camera pictures of the first robot in its trace (--cameras). A separate program
+/// renders them (host/show/camera).
 class WalkCameras final : public session::Observer {
  public:
-  /// Has the first robot's twin say when its cameras look. Throws ToolError: there is no camera, no
-  /// trace, or nothing that draws.
+  /// Makes the first robot's twin report its exposures. Throws ToolError if the robot has no
+  /// camera, the walk has no trace, or no renderer is available.
   WalkCameras(Walk& walk, record::TraceWriter* trace);
   ~WalkCameras() override;
 
@@ -24,7 +24,7 @@ class WalkCameras final : public session::Observer {
 
   std::string text(double run_s) const;
   cli::Json json() const;
-  /// Why there are no more pictures; empty: there are all.
+  /// Why pictures are missing; empty: none is.
   std::string failure() const;
 
  private:

@@ -103,7 +103,7 @@ struct Observers {
 /// Runs the walk, reports it and returns the exit status.
 int walk_once(WalkOptions options, Walk& walk) {
   const WalkPlan& first = walk.run.plans.front();
-  sweep_of(options);  // before the long run: a mistake in it is found now
+  sweep_of(options);  // reports its errors before the long run
   refuse_of_outside(options, first);
   check_radio(walk);
   if (options.report_folder.empty() && !options.json && first.link.empty())

@@ -7,9 +7,8 @@
 
 namespace verp::tool {
 
-/// The end of a command that walked: writes the files, answers in text or JSON, says why the walk
-/// is not good, and returns the exit status. `more` and `more_text` are what the command has to say
-/// besides.
+/// Ends a command that walked: writes the files, answers in text or JSON, reports a failure, and
+/// returns the exit status. `more` and `more_text`: further results of the command.
 int finish_walk(const WalkPlan& plan, const WalkOptions& options, const scenario::Orders& orders,
                 WalkFiles& files, const WalkResult& result, const Sweep& swept,
                 const cli::Json& more = cli::Json::object(), const std::string& more_text = "");

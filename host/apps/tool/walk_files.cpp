@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kTraceName = "run.mcap";
 
-/// The words that a process was started with, its program's without the folder.
+/// Command line of a process, without the folder of its program.
 std::string words_of(int process) {
   std::string words = files::read(fmt::format("/proc/{}/cmdline", process)).value_or("");
   if (!words.empty()) words.pop_back();
@@ -34,7 +34,7 @@ std::string words_of(int process) {
   return words.substr(words.rfind('/', words.find(' ')) + 1);
 }
 
-/// Two runs that record to one file: who ends last would have it, and the other's would be lost.
+/// Two runs must not record to one file: the last to end would overwrite the other's trace.
 void refuse_second_recorder(const std::string& command, const fs::path& file) {
   const int first = record::mcap::writer_of(file);
   if (first == 0) return;
@@ -83,7 +83,7 @@ void WalkFiles::open_trace(const WalkOptions& options, const WalkPlan& plan,
                                      "with --record, such as run.mcap",
                                      trace_path_.string()));
   }
-  std::optional<files::FolderLock> lock;  // of two that begin at once, one looks first
+  std::optional<files::FolderLock> lock;  // two runs that start together check in turn
   if (!options.record_file.empty()) {
     lock.emplace(trace_path_.has_parent_path() ? trace_path_.parent_path() : ".");
     refuse_second_recorder(options.command, trace_path_);
@@ -142,7 +142,7 @@ void WalkFiles::add_replay(report::Run& run) {
     web::Replay replay = web::replay_of(trace_path_);
     run.replay_html = std::move(replay.html);
     if (!replay.note.empty()) cli::complain(replay.note);
-  } catch (const record::TraceError&) {  // a walk without a single tick
+  } catch (const record::TraceError&) {  // a walk without ticks
   }
 }
 
@@ -152,7 +152,7 @@ void WalkFiles::write_report(report::Run run) {
   if (!trace_path_.empty() && trace_is_in_folder()) {
     run.trace_file = trace_path_.filename().string();
   } else {
-    fs::remove(folder_ / kTraceName, ignored);  // of an earlier run: not what the page tells of
+    fs::remove(folder_ / kTraceName, ignored);  // of an earlier run, not of this page
   }
   try {
     const report::Written written = report::write_report(folder_, run);

@@ -12,35 +12,35 @@
 
 namespace verp::tool {
 
-/// A folder into which a file can be put: known now, not after a long walk. Throws ToolError.
+/// Makes a writable folder; checked before a long walk, not after it. Throws ToolError.
 void make_folder(const std::filesystem::path& folder);
 
-/// What a walk leaves on the disk: a trace and a report. What the disk refuses before the walk ends
-/// the program; what it refuses later costs that file, is told, and never costs the walk's result.
+/// The trace and the report of a walk. A write error before the walk ends the program. A later
+/// error loses only that file, and the program reports it; the walk's result stays.
 class WalkFiles {
  public:
-  /// Makes the folder, opens the trace. Throws ToolError or TraceError when there is no place.
-  /// `listener` hears what the trace is given, be there a file or none.
+  /// Makes the folder and opens the trace. Throws ToolError or TraceError if it cannot. `listener`
+  /// receives the trace's records, with or without a file.
   WalkFiles(const WalkOptions& options, const WalkPlan& plan,
             const record::mcap::StringMap& metadata, record::mcap::Listener* listener = nullptr);
 
-  /// Null when none is wanted, and nobody listens.
+  /// Null without a trace file and a listener.
   record::TraceWriter* trace() { return trace_.get(); }
   bool wants_report() const { return !folder_.empty(); }
 
-  /// Something that was wanted is not there, and why.
+  /// Adds a line to lost().
   void lose(const std::string& why) { lost_.push_back(why); }
 
-  /// Ends the trace and writes the report, if they are wanted, in one go: of two runs into one
-  /// folder, the files of one stand there, not some of each.
+  /// Ends the trace and writes the report, if the user wants them. It locks the folder, so that two
+  /// runs do not mix their files there.
   void finish(const WalkResult& result, report::Run run);
 
-  /// The trace, if it is whole; empty: there is none.
+  /// Path of the complete trace; empty: none.
   const std::filesystem::path& trace_path() const { return trace_path_; }
   void add_to(cli::Json& json) const;
   std::string text() const;
 
-  /// One line for each thing that was wanted and is not there: what, where, how to get it back.
+  /// One line for each missing file: what, where, and the remedy.
   const std::vector<std::string>& lost() const { return lost_; }
 
  private:

@@ -5,10 +5,10 @@
 #include "host/apps/tool/walk_run.hpp"
 #include "host/study/report/run_data.hpp"
 
-/// What a walk asked of the servos and of the supply.
+/// Reports the load of a walk on the servos and the supply.
 namespace verp::tool {
 
-/// The joint whose motor is used most, on average.
+/// The joint with the highest average motor load.
 std::string hardest_used(const WalkPlan& plan, const sim::WalkMetrics& metrics);
 std::string transport_text(const sim::WalkMetrics& metrics);
 report::Fact transport_fact(const sim::WalkMetrics& metrics);

@@ -22,7 +22,7 @@ std::string robot_of(const Params& params) {
   return {params.name, ::strnlen(params.name, kNameLength)};
 }
 
-/// What both maps are told with.
+/// The part that both kinds of map share.
 MapReport begun(const WalkOptions& options, const WalkPlan& plan, const std::string& title,
                 const std::string& verdict, bool interrupted) {
   MapReport told;

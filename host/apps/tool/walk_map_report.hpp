@@ -8,7 +8,7 @@
 #include "host/study/survey/push_map.hpp"
 #include "host/study/survey/stability_map.hpp"
 
-/// A map, told three ways: as a page, as text for a terminal, as JSON.
+/// Reports a map as a page, as text for a terminal, and as JSON.
 namespace verp::tool {
 
 struct MapReport {

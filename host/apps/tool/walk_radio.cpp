@@ -15,7 +15,7 @@
 namespace verp::tool {
 namespace {
 
-/// Something on the robot's bus has the modem's id.
+/// A device on the robot's bus has the modem's id.
 bool has_its_id(const Params& params) {
   for (int j = 0; j < params.servo_count(); ++j) {
     if (params.joint[j].servo_id == bus::modem::kId) return true;
@@ -53,7 +53,7 @@ void check_radio(const Walk& walk) {
         "NAME=MODEL for each");
   }
   for (const session::WalkPlan& each : plans) check_modem(each);
-  // Those driven from outside stand last.
+  // Robots with a controller elsewhere come last.
   if (!plans.back().link.empty()) return;
   throw cli::ToolError(
       cli::kBadInput,
@@ -62,7 +62,7 @@ void check_radio(const Walk& walk) {
 }
 
 struct WalkRadio::Air {
-  /// One robot's antenna, and the trace that has what it says and hears.
+  /// One robot's antenna, and the trace of its messages.
   struct Station final : bus::Aerial {
     Station(Air& all, int number) : air(all), index(number) {}
     std::uint8_t number() const override { return static_cast<std::uint8_t>(index); }
@@ -79,7 +79,7 @@ struct WalkRadio::Air {
     const int index;
     std::string name;
     session::Robot* robot = nullptr;
-    bus::ModemDevice* modem = nullptr;  ///< its robot's bus has it; null: nobody would ask it
+    bus::ModemDevice* modem = nullptr;  ///< on the robot's bus; null: its controller is local
     record::TraceWriter* trace = nullptr;
     std::uint64_t period_us = 0;
     std::uint32_t tick = 0;
@@ -134,7 +134,7 @@ struct WalkRadio::Air {
       ++fates[static_cast<std::size_t>(each.fate)];
   }
 
-  /// A disk that is full costs the trace, not the walk; the walk tells of it with its next tick.
+  /// A full disk ends the trace, not the walk. The robot reports it at its next tick.
   void note(const Station& of, record::ros::Radio what) {
     const Station& keeper = of.trace == nullptr && first != nullptr ? *first : of;
     if (keeper.trace == nullptr || broken) return;

@@ -9,13 +9,13 @@
 
 namespace verp::tool {
 
-/// Throws ToolError unless the robots have a use for radios, or have none.
+/// Throws ToolError if the scenario has a radio that its robots cannot use.
 void check_radio(const Walk& walk);
 
-/// `verp walk --radio`: the air between the robots of a walk (host/twin/radio), and a modem on the
-/// bus of each robot whose controller is outside. Robots have numbers in the order of the scenario.
-/// A robot's trace has what it said and heard, and the first one's also what robots without a trace
-/// did.
+/// `verp walk --radio`: the radio between the robots (host/twin/radio), and a modem on the bus of
+/// each robot with a controller elsewhere. Stations have the numbers of the scenario's robots. A
+/// robot's trace records the messages that it sent and received. The first robot's trace also
+/// records the messages of robots without a trace.
 class WalkRadio final : public session::Observer {
  public:
   explicit WalkRadio(const scenario::Scenario& scenario);

@@ -38,7 +38,7 @@ double asked_turn_deg(const WalkPlan& plan, const sim::WalkMetrics& m) {
   return session::asked_way(plan.velocity, m.walk_s).turn_rad * 180 / std::numbers::pi;
 }
 
-/// A commanded curve or sideways walk is no drift.
+/// A commanded curve or sideways walk is not drift.
 std::string way_text(const WalkPlan& plan, const sim::WalkMetrics& m) {
   const std::string aside = fmt::format("{:+.3f} m to the left, ", m.lateral_drift_m);
   const std::string turn = fmt::format("{:+.1f} degrees", m.yaw_drift_deg);
@@ -50,15 +50,14 @@ double asked_m_s(const WalkPlan& plan) {
   return 1e-4 * std::hypot(plan.velocity.vx_tenth_mm_s, plan.velocity.vy_tenth_mm_s);
 }
 
-/// The steady speed as a part of the one that was asked; nothing where it was told to turn, or
-/// nothing was steady.
+/// Steady speed as a share of the ordered speed. Empty if the order has a turn, or no cycle was
+/// steady.
 std::optional<double> share_of_asked(const WalkPlan& plan, const sim::WalkMetrics& m) {
   if (!m.speed_steady_m_s || asked_m_s(plan) <= 0 || plan.velocity.wz_mrad_s != 0) return {};
   return *m.speed_steady_m_s / asked_m_s(plan);
 }
 
-/// By how much the robot is faster than it was told to be, and why; empty where it was told to
-/// turn, or nothing was steady.
+/// How much the speed exceeds the order, and why. Empty without share_of_asked().
 std::string beyond_asked(const WalkPlan& plan, const sim::WalkMetrics& m) {
   const std::optional<double> share = share_of_asked(plan, m);
   if (!share || !m.slip_steady_m_s) return {};
@@ -109,7 +108,7 @@ std::string falls_text(const WalkResult& result) {
 }
 
 std::string verdict(const WalkPlan& plan, const WalkResult& result, const Sweep& sweep) {
-  constexpr double kAsAsked = 0.15;  // what is further off stands in the first line
+  constexpr double kAsAsked = 0.15;  // the first line reports larger deviations
   const double gait_s = result.metrics.walk_s;
   if (result.interrupted) return fmt::format("Interrupted after {:.1f} s of gait", gait_s);
   if (!result.failure.empty()) return "Failed: " + result.failure;
@@ -161,7 +160,7 @@ std::string title(const WalkPlan& plan, const scenario::Orders& orders) {
                      cycle_s);
 }
 
-/// The way that was asked, from where the body was and looked when the gait began.
+/// The ordered way, from the body's pose at the start of the gait.
 std::vector<report::Point2> asked_points(const WalkPlan& plan, const report::Sample& start,
                                          double walk_s) {
   std::vector<report::Point2> points;

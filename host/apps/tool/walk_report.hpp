@@ -7,7 +7,7 @@
 #include "host/apps/tool/walk_sweep.hpp"
 #include "host/study/report/run_data.hpp"
 
-/// One walk, told three ways: as a page's data, as text for a terminal, as JSON.
+/// Reports a walk as the data of a page, as text for a terminal, and as JSON.
 namespace verp::tool {
 
 report::Run to_report(const WalkPlan& plan, const WalkOptions& options,
@@ -16,7 +16,7 @@ report::Run to_report(const WalkPlan& plan, const WalkOptions& options,
 std::string to_text(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
                     const Sweep& sweep);
 
-/// What became of it when it fell: when, and in words.
+/// Times and texts of falls and recoveries.
 cli::Json fall_story_json(const WalkResult& result);
 
 cli::Json to_json(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,

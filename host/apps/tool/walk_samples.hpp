@@ -5,7 +5,7 @@
 
 namespace verp::tool {
 
-/// What a report draws of a tick: ankles, soles and ZMP, in the world's axes; its time counts from
+/// A tick as a report draws it: ankles, soles and ZMP in the world's axes. Its time counts from
 /// `start_s`.
 report::Sample to_sample(const Params& params, const sim::SeriesRow& row, double start_s);
 

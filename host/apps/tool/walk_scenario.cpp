@@ -44,12 +44,12 @@ scenario::Robot robot_of(const WalkOptions& options) {
 
 namespace {
 
-/// Throws ToolError, with the boards there are, for one that is none of them.
+/// Throws ToolError with the known boards if `board` is not one of them.
 void check_board(const std::string& board) {
   if (board.empty()) return;
   std::string names;
   for (const flash::Recipe& each : flash::recipes()) {
-    if (each.chip != nullptr) continue;  // its loop speaks to a twin by a port, not by semihosting
+    if (each.chip != nullptr) continue;  // it reaches its twin by a port, not by semihosting
     if (board == each.board) return;
     names += (names.empty() ? "" : ", ") + std::string(each.board);
   }
@@ -60,7 +60,7 @@ void check_board(const std::string& board) {
                   board, names));
 }
 
-/// The names that a disturbance could have meant.
+/// Names that the disturbance's wrong name may stand for.
 std::string hint(const scenario::ScenarioError& error, const session::Intervention& what) {
   if (error.known.empty()) return "; raise --for";
   if (std::find(error.known.begin(), error.known.end(), what.name) != error.known.end()) return "";
@@ -68,7 +68,7 @@ std::string hint(const scenario::ScenarioError& error, const session::Interventi
   return meant.empty() ? "; `verp walk --list-quantities` lists them" : meant;
 }
 
-/// The option that gave the value, and what to do.
+/// The option of the wrong value, and the remedy.
 std::string in_words(const WalkOptions& options, const Scenario& scenario,
                      const scenario::ScenarioError& error) {
   const std::string& command = options.command;
@@ -95,8 +95,7 @@ void require_alone(const WalkOptions& options) {
                                    options.command, options.board));
 }
 
-/// Of the robots that the world has of its own, who drives them; those that are not named have it
-/// as it is.
+/// The world's robots. The options may set the controllers of those that they name.
 std::vector<Seat> seats_of_world(const WalkOptions& options, const model::World& world) {
   std::vector<Seat> seats;
   for (const model::WorldRobot& robot : world.robots)
@@ -116,7 +115,7 @@ std::vector<Seat> seats_of_world(const WalkOptions& options, const model::World&
   return seats;
 }
 
-/// MODEL has a use.
+/// Throws ToolError if no robot uses MODEL.
 void check_model(const WalkOptions& options, const std::vector<Seat>& seats,
                  const model::World* world) {
   if (!options.model_given) return;

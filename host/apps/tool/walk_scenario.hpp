@@ -15,30 +15,30 @@ scenario::Robot robot_of(const WalkOptions& options);
 scenario::World world_of(const WalkOptions& options);
 sim::Lies lies_of(const WalkOptions& options);
 
-/// A run, and what its files hold.
+/// A run, and the plans from its files.
 struct Walk {
   scenario::Scenario scenario;
   scenario::Expanded run;
 };
 
-/// The run that the options mean: that robot alone, or those of --robots, --robot NAME=... and the
-/// world, each with a seed of its own (the next one's is one more); or the run of --scenario.
-/// Throws ToolError and LoadError.
+/// The run of the options or of --scenario. The options give one robot, or the robots of --robots,
+/// of --robot NAME=... and of the world. Each next robot's seed is one more. Throws ToolError and
+/// LoadError.
 Walk walk_of(const WalkOptions& options);
 scenario::Scenario scenario_of(const WalkOptions& options, const sim::WorldOptions& world);
 
-/// scenario::expand() of what the options gave.
+/// scenario::expand(); its errors name the options.
 scenario::Expanded expand(const WalkOptions& options, const scenario::Scenario& scenario,
                           const sim::WorldOptions& world);
 
-/// What --vary drew, for people and for --json.
+/// Values that --vary drew, as text and for --json.
 struct Drawn {
   cli::Json json = cli::Json::object();
   std::string text;
 };
 Drawn drawn_of(const Walk& walk);
 
-/// Metadata of that robot's trace, with the options that were given.
+/// Metadata of a robot's trace, with the options.
 record::mcap::StringMap metadata_of(const WalkOptions& options, const session::WalkPlan& plan,
                                     const scenario::Scenario& scenario);
 

@@ -22,7 +22,7 @@
 namespace verp::tool {
 namespace {
 
-/// The words of one of them: those of them all, and its seed.
+/// The command line of one walk: the common options and its seed.
 std::vector<std::string> words_of(const WalkOptions& options, std::uint64_t seed) {
   std::vector<std::string> words = {"/proc/self/exe", "walk", "--json",
                                     fmt::format("--seed={}", seed)};
@@ -82,12 +82,12 @@ class Seeds {
     const std::size_t from = std::min(said.find('{'), said.size()), to = said.rfind('}');
     const cli::Json json = cli::Json::parse(
         said.substr(from, to == std::string::npos ? 0 : to + 1 - from), nullptr, false);
-    if (status == cli::kBadInput || status == cli::kNoDevice) {  // and so will all others say
+    if (status == cli::kBadInput || status == cli::kNoDevice) {  // all walks fail so
       if (status_ == cli::kGood) cli::complain(said);
       status_ = status_ == cli::kGood ? status : status_;
       return;
     }
-    if (cli::interrupted()) return;  // it was, too
+    if (cli::interrupted()) return;  // so was this walk
     const bool good = status == cli::kGood && json.is_object();
     survived_ += good ? 1 : 0;
     cli::Json row = {{"seed", walking.seed}, {"survived", good}};
@@ -151,7 +151,7 @@ class Seeds {
     if (row.contains(key) && row[key].is_number()) values.push_back(row[key].get<double>());
   }
 
-  /// Least, middle and largest of those that walked.
+  /// Minimum, median and maximum over the walks.
   static std::string range(const char* name, std::vector<double>& values, int digits) {
     if (values.empty()) return {};
     std::sort(values.begin(), values.end());
@@ -159,7 +159,7 @@ class Seeds {
                        values.back(), digits, values[values.size() / 2], digits);
   }
 
-  /// What the same walks were asked for, which is a little less of one that ended sooner.
+  /// Adds the median order of the same walks; a walk that ended early counts a smaller order.
   static std::string of_asked(std::string line, std::vector<double> asked, int digits) {
     if (line.empty() || asked.empty()) return line;
     std::sort(asked.begin(), asked.end());

@@ -3,9 +3,9 @@
 
 namespace verp::tool {
 
-/// The walks of --seeds: this program again for each of them, as many at a time as there are cores,
-/// and who survived. A robot that falls is a result. Exit status 1 if somebody interrupted, else
-/// that of the first walk that could not be tried.
+/// Runs the walks of --seeds and reports how many robots survived. Each walk is a process of this
+/// program; as many run at a time as the PC has cores. A fall is a result, not an error. Returns 1
+/// after an interrupt, else the exit status of the first walk that could not start.
 int walk_seeds(const WalkOptions& options);
 
 }  // namespace verp::tool

@@ -18,7 +18,7 @@
 namespace verp::tool {
 namespace {
 
-/// The trace of the robot of that name, beside the first one's.
+/// Path of the named robot's trace, beside the first robot's.
 std::string file_of(const std::filesystem::path& first, const std::string& robot) {
   std::string name = robot;
   for (char& c : name) {
@@ -69,7 +69,7 @@ class Drivers {
                     }});
   }
 
-  /// Ends what is to end with a robot that lost its controller.
+  /// Ends the whole run if a lost controller must end it.
   void lose(const session::Robot& lost) {
     if (scenario_.if_lost_go_on) return;
     for (std::size_t i = 0; i < session_.size(); ++i) {
@@ -96,7 +96,7 @@ RunFiles::RunFiles(const WalkOptions& options, const Walk& walk, LiveStream& liv
       const std::filesystem::path& beside = first().trace_path();
       if (beside.empty() && !options.live.on) return;
       own.report_folder.clear();
-      // Of a controller outside only what the robot did is known; what it was told, it may record.
+      // Only a local controller's orders are known; a controller elsewhere may record its own.
       own.record_file = ours && !beside.empty() ? file_of(beside, plan.name) : "";
     }
     const std::string name = plan.name.empty() ? plan.params.name : plan.name;

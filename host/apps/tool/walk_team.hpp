@@ -52,10 +52,9 @@ class RealTimePace final : public session::Observer {
 };
 
 struct Walks {
-  std::vector<WalkResult> results;  ///< of each plan
-  double took_s = 0;                ///< wall time, with waiting
-  cli::Json objects =
-      cli::Json::array();  ///< of the world that can be pushed or move, where they ended
+  std::vector<WalkResult> results;         ///< of each plan
+  double took_s = 0;                       ///< wall time, with waiting
+  cli::Json objects = cli::Json::array();  ///< the world's movable objects, end positions
 };
 
 /// Runs all robots. If a plan names a link, a controller there drives the robot in lockstep: the

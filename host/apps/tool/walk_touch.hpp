@@ -12,7 +12,7 @@ class App;
 
 namespace verp::tool {
 
-/// Options for what a person does to the twin during a walk: --push, --at, --list-quantities.
+/// Options for the user's interventions in a walk: --push, --at, --list-quantities.
 struct TouchOptions {
   std::vector<std::string> pushes, settings;
   bool list = false;
@@ -20,21 +20,21 @@ struct TouchOptions {
 };
 
 void declare(CLI::App& app, TouchOptions& options);
-/// Of these, --push alone.
+/// Declares only --push.
 void declare_push(CLI::App& app, TouchOptions& options);
 
-/// What they ask for: pushes first. Throws ToolError.
+/// The interventions of the options, pushes first. Throws ToolError.
 std::vector<session::Intervention> disturbances_of(const TouchOptions& options);
-/// The words that gave the one of that index: "--push '1: body 0,30,0 N for 0.1'".
+/// The option of the intervention with this index: "--push '1: body 0,30,0 N for 0.1'".
 std::string option_of(const TouchOptions& options, std::size_t index);
 
-/// All quantities of a run: for people one line for each kind.
+/// Prints the quantities of a run: all as JSON, or one line per kind as text.
 int list_quantities(const scenario::Expanded& run, bool json);
 
-/// What was done when; empty if nothing was.
+/// Interventions and their times; empty without any.
 cli::Json touch_json(const WalkResult& result);
 std::string touch_text(const WalkResult& result);
-/// One line for each intervention that the run was too short for.
+/// One line for each intervention after the end of the run.
 std::vector<std::string> never_done(const WalkPlan& plan, const WalkResult& result);
 
 }  // namespace verp::tool

@@ -5,11 +5,12 @@
 
 namespace verp::action {
 
-/// Gives a plan that may get up the robot's actions for it, from how it lies. Throws LoadError.
+/// Loads the robot's actions into a plan that may get up. Throws LoadError if the action for a pose
+/// in which the robot may lie is missing.
 void take_get_up_actions(session::WalkPlan& plan);
 
-/// The same for a robot that nobody lets get up yet, if it has such actions. Returns why it has
-/// none; empty if there is nothing to say.
+/// Loads the actions also into a plan without get-ups, if the robot can get up from both sides.
+/// Returns the error of its action files; empty: none.
 std::string offer_get_up_actions(session::WalkPlan& plan);
 
 }  // namespace verp::action

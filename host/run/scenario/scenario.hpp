@@ -41,7 +41,7 @@ struct Velocity {
 struct Stand {
   bool operator==(const Stand&) const = default;
 };
-/// What the operator asks of a robot.
+/// The operator's order to a robot.
 using Orders = std::variant<Ahead, Velocity, Stand>;
 
 /// Computes the robot's ticks. All empty: the core, in this process.

@@ -138,7 +138,7 @@ class Reader {
   std::set<std::string> known_;
 };
 
-// One list of fields for both ways. What differs is in an `if constexpr`.
+// One list of fields for reading and printing. An `if constexpr` covers each difference.
 
 template <class Io>
 void fields(Io& io, World& world) {

@@ -55,7 +55,7 @@ struct Session::Seat final : sim::TimeSource {
   std::unique_ptr<Flow> flow;  ///< null: single robot. Destroyed before the controller
   std::uint64_t asked_us = 0;
   bool ticked = false;    ///< next_tick() has not returned it yet
-  bool finished = false;  ///< Controller::finish() was called
+  bool finished = false;  ///< its run is over
 };
 
 Session::Session(Options options) : options_(std::move(options)), world_(options_.world) {}
