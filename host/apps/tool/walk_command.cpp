@@ -59,6 +59,19 @@ void require_one_robot(const WalkOptions& options, const std::vector<WalkPlan>& 
                                    option));
 }
 
+/// A scenario file holds one run.
+void refuse_many_runs_in_a_scenario(const WalkOptions& options) {
+  const char* option = !options.seeds_text.empty()   ? "--seeds"
+                       : !options.map.kind.empty()   ? "--map"
+                       : !options.sweep_text.empty() ? "--sweep-step"
+                                                     : nullptr;
+  if (!options.print_scenario || option == nullptr) return;
+  throw cli::ToolError(
+      cli::kBadInput,
+      fmt::format("verp walk: a scenario file holds one run, and {} asks for many; leave it out",
+                  option));
+}
+
 /// The observers of a walk.
 struct Observers {
   Observers(const WalkOptions& options, Walk& walk, RunFiles& files, LiveStream& live,
@@ -146,6 +159,7 @@ int run_walk(WalkOptions options) {
   }
   Walk walk = walk_of(options);
   require_outside(options, walk.run.plans);
+  refuse_many_runs_in_a_scenario(options);
   if (options.print_scenario) return cli::answer(scenario::print(walk.scenario)), cli::kGood;
   if (options.touch.list) return list_quantities(walk.run, options.json);
   take_controllers(walk.scenario, walk.run.plans, !options.json);
@@ -166,6 +180,7 @@ cli::Subcommand add_walk(CLI::App& root) {
   declare(*app, *options);
   return {app, [app, options] {
             cli::catch_interrupts();
+            options->typed = typed_options(*app);
             options->changed = changed_options(*app);
             options->map.length_given = app->get_option("--for")->count() > 0;
             return run_walk(*options);

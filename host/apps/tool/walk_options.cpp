@@ -143,13 +143,21 @@ const std::set<std::string> kBesideScenario = {"--scenario", "--print-scenario",
 
 }  // namespace
 
+std::vector<std::string> typed_options(const CLI::App& app) {
+  std::vector<std::string> typed;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->count() > 0 && !option->get_positional() &&
+        !kOfNoEffect.contains(option->get_name())) {
+      typed.push_back(option->get_name());
+    }
+  }
+  return typed;
+}
+
 std::vector<std::pair<std::string, std::string>> changed_options(const CLI::App& app) {
   std::vector<std::pair<std::string, std::string>> changed;
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->count() == 0 || option->get_positional() ||
-        kOfNoEffect.contains(option->get_name())) {
-      continue;
-    }
+  for (const std::string& name : typed_options(app)) {
+    const CLI::Option* option = app.get_option(name);
     for (const std::string& value : option->results()) {
       if (value == option->get_default_str()) continue;
       const bool flag = option->get_items_expected_max() == 0;
@@ -234,7 +242,7 @@ void refuse_beside_scenario(const WalkOptions& options) {
   };
   if (options.scenario_file.empty()) return;
   if (options.model_given) refuse(options.model);
-  for (const auto& [name, value] : options.changed) {
+  for (const std::string& name : options.typed) {
     if (!kBesideScenario.contains(name)) refuse(name);
   }
 }

@@ -44,6 +44,7 @@ struct WalkOptions {
   std::string start = "standing";  ///< or lying:SIDE
   bool vary = false;               ///< domain randomization (host/twin/sim/vary.hpp)
   std::vector<std::pair<std::string, std::string>> changed;  ///< changed_options()
+  std::vector<std::string> typed;                            ///< typed_options()
   std::string seeds_text;      ///< A-B: one walk for each of these seeds
   double physics_step_ms = 1;  ///< 2 halves the wall time
   TouchOptions touch;
@@ -67,6 +68,8 @@ void declare(CLI::App& app, WalkOptions& options);
 
 /// Name and value of each option that changes the run and differs from its default.
 std::vector<std::pair<std::string, std::string>> changed_options(const CLI::App& app);
+/// Names of all options on the command line that describe the run, also those with their default.
+std::vector<std::string> typed_options(const CLI::App& app);
 
 /// Declares the options for the robot and the length of its walk.
 void declare_gait(CLI::App& app, WalkOptions& options);

@@ -106,6 +106,7 @@ std::vector<cli::Subcommand> commands(CLI::App& root) {
   auto options = std::make_shared<tool::ViewOptions>();
   CLI::App* app = tool::declare_view(root, *options);
   return {{app, [app, options] {
+             options->walk.typed = tool::typed_options(*app);
              options->walk.changed = tool::changed_options(*app);
              return run_view_and_leave(*options);
            }}};

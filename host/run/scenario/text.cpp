@@ -314,10 +314,10 @@ Json parsed(const std::string& text, const std::string& file) {
   };
   try {
     return Json::parse(text, watch);
-  } catch (const Json::parse_error& error) {
+  } catch (const Json::exception& error) {  // no JSON, or a number that no double holds
     const std::string what = error.what();
     throw model::LoadError(file, 0, "no JSON: " + what.substr(what.find("] ") + 2),
-                           "`verp walk --print-scenario` prints what is");
+                           "`verp walk --print-scenario` prints a valid file");
   }
 }
 

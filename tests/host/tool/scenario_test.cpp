@@ -49,7 +49,15 @@ TEST_F(Scenarios, AreRefusedWhereTheyAreWrong) {
   expect_refused("walk --scenario wrong.json", "wrong.json: robots[0].disturbances[0]: ");
   expect_refused("walk --scenario wrong.json --seed 3",
                  "--seed says how the run is, and so does --scenario");
+  expect_refused("walk --scenario wrong.json --seed 1", "--seed says how the run is");
   expect_refused("walk generic21 --scenario wrong.json", "generic21 says how the run is");
+  write(R"({"length_s": 1e400})");
+  expect_refused("walk --scenario wrong.json", "wrong.json: no JSON: number overflow");
+}
+
+TEST_F(Scenarios, AreRefusedOfManyRuns) {
+  for (const char* many : {"--seeds 1-3", "--map push", "--sweep-step 0.01:0.03:0.01"})
+    expect_refused(std::string("walk --print-scenario ") + many, "a scenario file holds one run");
 }
 
 }  // namespace
