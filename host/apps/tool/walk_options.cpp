@@ -289,15 +289,15 @@ void read_robot_words(WalkOptions& options) {
 }
 
 std::pair<std::uint64_t, std::uint64_t> seeds_of(const WalkOptions& options) {
-  constexpr double kMost = 4294967295;
+  constexpr double kLargestSeed = 4294967295;
   const std::vector<std::string> parts = split(options.seeds_text, '-');
   const std::string& command = options.command;
   if (parts.size() != 2) {
     throw cli::ToolError(cli::kBadInput, fmt::format("{}: --seeds '{}' is not A-B; example: 1-20",
                                                      command, options.seeds_text));
   }
-  const double first = number(command, "--seeds A", parts[0], 0, kMost, "");
-  const double last = number(command, "--seeds B", parts[1], 0, kMost, "");
+  const double first = number(command, "--seeds A", parts[0], 0, kLargestSeed, "");
+  const double last = number(command, "--seeds B", parts[1], 0, kLargestSeed, "");
   if (last < first) {
     throw cli::ToolError(
         cli::kBadInput, fmt::format("{}: --seeds '{}' goes down; the smaller one is first", command,
