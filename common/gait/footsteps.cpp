@@ -7,17 +7,15 @@
 namespace verp::gait {
 namespace {
 
-// Least room between passing soles. Joints are off by half a degree each, turned feet slip, a swing
-// bends inwards: 5 mm. At 3 mm one of ten fast curves touched (tuning seeds 1001-1026).
+// Between passing soles. Joint errors, slip and the swing's bend take up to 5 mm. At 3 mm one of
+// ten fast curves touched (tuning seeds 1001-1026).
 constexpr float kSoleClearance_m = 0.005F;
-// Most outward shift of a turning foot: generic21 needs it for 0.4 rad a step.
+// Outward shift of a turning foot: generic21 needs it for 0.4 rad a step.
 constexpr float kMostWider_m = 0.045F;
-// Mean swing speed, in hip heights over the ankles per second, above which servos lag (generic21:
-// 0.4 m/s).
+// Mean swing speed, in hip heights per second, above which servos lag (generic21: 0.4 m/s).
 constexpr float kUnhurried_per_s = 2.7F;
-// A hurried foot that lands late jolts the robot, so haste lowers its target: by a share kComesDown
-// per unit, kMostDown at most. Tuning seeds 1001-1030 of random robots, 0.25 m/s: CoM velocity
-// error 9 % less, and none of 30 above 0.03 m/s (one was).
+// A hurried foot that lands late jolts the robot, so haste lowers its target. Random robots, seeds
+// 1001-1030, 0.25 m/s: CoM velocity error 9 % less.
 constexpr float kComesDown = 0.45F, kMostDown = 0.25F;
 constexpr float kMostHaste = 2.0F;  // 1.2 m/s: beyond any known servo
 
@@ -34,21 +32,19 @@ Xy middle(const Params& params, const Step& step) {
                  sole_center(params, kRight, step.after(kRight)));
 }
 
-// Sets a duration of about `duration_s` in whole key points.
+// Rounds to whole key points.
 void set_times(const GaitTuning& tuning, float duration_s, Step& step) {
   step.key_us = math::to_int32(tuning.cycle_s * 1e6F) / (2 * kKeyPointsPerStep);
   step.key_us = step.key_us < 1 ? 1 : step.key_us;
   const float points = duration_s * 1e6F / static_cast<float>(step.key_us);
-  // At least a walking step: the queue covers the head's horizon only with those.
+  // Shorter steps would not cover the head's horizon.
   step.key_points =
       math::to_uint8(math::clamp(points, static_cast<float>(kKeyPointsPerStep), 250.0F));
 }
 
-// A gyro read once a control period, as on a bus, sees the same instant of every landing's jolt if
-// all soles land at the same moment of a period. That adds up to a false turn: 3 degrees a minute
-// in a cycle of 45 periods. So every fourth step is half a period longer, then shorter, and the
-// next four steps show the other instant, of opposite sign. The ZMP is also 0.2 mm nearer its plan
-// at 4 cm, with any gyro. Without steering by heading all steps are equal.
+// If all soles landed at the same moment of a control period, the gyro's samples of the jolts would
+// add up to a false turn: 3 degrees a minute in a cycle of 45 periods. So every fourth step is half
+// a period longer, then shorter. Without steering by heading all steps are equal.
 void shift_in_period(const Params& params, const GaitTuning& tuning, FootstepState& state,
                      Step& step) {
   if (!(tuning.heading_gain > 0.0F)) return;
@@ -71,12 +67,12 @@ float toward(float from, float to, float most) {
   return from + math::clamp(to - from, -most, most);
 }
 
-// In sideways or turning cycles the leading foot takes the whole way, the other closes up.
+// Sideways or turning, the leading foot takes the whole way, the other closes up.
 bool leads(int swing, float value) {
   return (swing == kLeft) == (value > 0.0F);
 }
 
-// The longer step of a cycle: sideways, the leading foot takes both.
+// Sideways, the leading foot takes both steps.
 float length_of(const Stride& stride) {
   return math::hypot(stride.by_m.x, 2.0F * stride.by_m.y);
 }
@@ -105,7 +101,7 @@ Stride wanted_stride(const GaitTuning& tuning, const VelocityIn& wanted, float r
   return shortened(stride, reach_m);
 }
 
-// Longest step that the leg still reaches beside or behind the body (Pythagoras).
+// Longest step within the leg's reach (Pythagoras).
 float reach_limit_m(const Params& params, const GaitTuning& tuning) {
   const LegParams& leg = params.leg[kLeft];
   const float usable_m = kinematics::usable_reach_m(leg);
@@ -122,14 +118,14 @@ Foothold landing_of(const GaitTuning& tuning, int swing, const Stride& stride,
   return {state.body.at_m + turned(side_m, state.body.yaw_rad), state.body.yaw_rad};
 }
 
-// From the sole frame's origin to the edge in a direction.
+// From the sole frame's origin to the edge.
 float extent_m(const LegParams& leg, float yaw_rad, Xy direction) {
   const Xy in_sole = turned(direction, -yaw_rad);
   return in_sole.x * (in_sole.x > 0.0F ? leg.sole_front_m : -leg.sole_back_m) +
          in_sole.y * (in_sole.y > 0.0F ? leg.sole_left_m : -leg.sole_right_m);
 }
 
-// Room between the soles across a line whose left is `leftward`.
+// Between the soles, across a line whose left is `leftward`.
 float room_m(const Params& params, const Foothold& left, const Foothold& right, Xy leftward) {
   return dot(left.at_m - right.at_m, leftward) -
          extent_m(params.leg[kLeft], left.yaw_rad, -1.0F * leftward) -
@@ -140,14 +136,14 @@ Xy leftward_of(const Foothold& foot) {
   return turned({0.0F, 1.0F}, foot.yaw_rad);
 }
 
-// Least room between the soles: not more than in standing.
+// At most the room in standing.
 float clearance_m(const Params& params, const GaitTuning& tuning) {
   const float standing_m =
       2.0F * tuning.half_stance_m - params.leg[kLeft].sole_right_m - params.leg[kRight].sole_left_m;
   return math::min(kSoleClearance_m, standing_m);
 }
 
-// How much further out the swing foot must land to clear the stance sole.
+// How much further out the swing foot must land.
 float short_of_m(const Params& params, const GaitTuning& tuning, const Step& step, float yaw_rad) {
   const Foothold left = step.after(kLeft), right = step.after(kRight);
   const float wanted_m = clearance_m(params, tuning);
@@ -162,7 +158,7 @@ float short_of_m(const Params& params, const GaitTuning& tuning, const Step& ste
   return short_m;
 }
 
-// Lands the swing foot, further out where soles come too near; false if too far out.
+// Lands the swing foot, further out if soles come too near; false if too far.
 bool land(const Params& params, const GaitTuning& tuning, const Stride& stride,
           FootstepState& state, Step& step) {
   step.landing = landing_of(tuning, step.swing, stride, state);
@@ -174,7 +170,7 @@ bool land(const Params& params, const GaitTuning& tuning, const Stride& stride,
   return short_m <= kMostWider_m;
 }
 
-// Turns less where wider steps do not suffice. Without a turn there is room.
+// Turns less where wider steps do not suffice.
 void land_beside(const Params& params, const GaitTuning& tuning, Stride& stride,
                  FootstepState& state, Step& step) {
   constexpr int kHalvings = 5;
@@ -192,7 +188,7 @@ void land_beside(const Params& params, const GaitTuning& tuning, Stride& stride,
   state.notes |= kTurnShortened;
 }
 
-// True if the feet are as before a walk, neither further out.
+// True if the feet are as before a walk.
 bool side_by_side(const GaitTuning& tuning, const Step& last) {
   const Foothold left = last.after(kLeft), right = last.after(kRight);
   const float apart_m = dot(left.at_m - right.at_m, leftward_of(left));
@@ -203,7 +199,7 @@ bool still(const Stride& stride) {
   return stride.by_m.x == 0.0F && stride.by_m.y == 0.0F && stride.turn_rad == 0.0F;
 }
 
-// Both feet carry throughout, as `last` leaves them.
+// Both feet carry throughout.
 Step standing_step(const GaitTuning& tuning, const Step& last, Phase phase) {
   Step step;
   set_times(tuning, tuning.start_s, step);

@@ -2,11 +2,11 @@
 #include "common/gait/types.hpp"
 #include "common/model/params.hpp"
 
-/// Foot placement, extremes and ends first, as in the paper: one step at a time, from the end of
-/// the previous one and the present velocity order.
+/// Foot placement, extremes and ends first (paper): one step at a time, from the end of the
+/// previous one and the present velocity order.
 namespace verp::gait {
 
-/// Body displacement of one step, in its own frame.
+/// One step, in the body's frame.
 struct Stride {
   Xy by_m;
   float turn_rad = 0;
@@ -14,22 +14,22 @@ struct Stride {
 };
 VERP_PACKED(Stride);
 
-/// Compromises of the plan (FootstepState::notes). Not fatal.
+/// Compromises (FootstepState::notes).
 enum PlanNote : std::uint16_t {
   kStrideLimited = 1 << 0,   ///< velocity needs more than max_step_m or max_turn_rad
   kReachShortened = 1 << 1,  ///< step shortened: leg too short at touch-down
   kZmpShortened = 1 << 2,    ///< step shortened: planned ZMP too near the sole's edge
   kPlanRefused = 1 << 3,     ///< no walk: a step on the spot leaves the soles, or soles overlap
   kStepWidened = 1 << 4,     ///< foot lands further out, beside the other sole
-  kTurnShortened = 1 << 5,   ///< turns less: soles would overlap at any width
+  kTurnShortened = 1 << 5,   ///< soles would overlap at any width
 };
 
 struct FootstepState {
-  Stride stride;            ///< of the last planned step
-  Foothold body;            ///< midpoint and heading of the feet after it
-  float scale = 1;          ///< 0.1 to 1: factor on strides to keep the ZMP in the sole
+  Stride stride;            ///< last planned
+  Foothold body;            ///< midpoint and heading of the feet
+  float scale = 1;          ///< 0.1 to 1: shortens strides, to keep the ZMP in the sole
   std::uint8_t calm = 0;    ///< key points in a row with room for longer strides
-  std::uint8_t made = 0;    ///< planned steps, modulo 8
+  std::uint8_t made = 0;    ///< planned, modulo 8
   std::uint16_t notes = 0;  ///< PlanNote
   VERP_FIELDS(stride, body, scale, calm, made, notes)
 };
@@ -43,37 +43,35 @@ struct VelocityIn {
   bool stop = false;
 };
 
-/// Room between two soles across the better of two lines along a sole; up to 0 they may overlap.
-/// `left` and `right` are the soles' frames.
+/// Room across the better of two lines along a sole; up to 0 they may overlap. Arguments are sole
+/// frames.
 float soles_apart_m(const Params& params, const Foothold& left, const Foothold& right);
 
 Xy sole_center(const Params& params, int side, const Foothold& foot);
 
-/// Wanted ZMP under a stance sole: centroid plus tuned offset, support_margin_m inside the edges.
+/// Sole's centroid plus tuned offset, support_margin_m inside the edges.
 Xy zmp_under(const Params& params, const GaitTuning& tuning, int side, const Foothold& foot);
 
-/// Feet side by side about the origin, ZMP between them: before and after a walk.
+/// Side by side about the origin, ZMP between them.
 Step standing_feet(const Params& params, const GaitTuning& tuning);
 
-/// First step: both feet stand, and the ZMP moves from the middle under the first stance foot.
+/// Both feet stand; the ZMP moves from the middle under the first stance foot.
 Step first_step(const Params& params, const GaitTuning& tuning, FootstepState& state);
 
-/// First step when the robot must step at once: so short that the ZMP rests. gait.cpp sets place
-/// and duration from the following steps.
+/// First step of an immediate start: the ZMP rests. gait.cpp sets its place and duration.
 Step hurried_step(const Params& params, const GaitTuning& tuning, FootstepState& state);
 constexpr bool hurried(const Step& step) {
   return step.phase == Phase::kStart && step.swing == kBoth && step.double_support_s == 0.0F;
 }
 
-/// A step after `last` without motion.
 Step rest_step(const GaitTuning& tuning, const Step& last);
 
-/// The step after `last`. With `stop` strides shrink; once the feet are level, a final step
-/// (Phase::kFinal, swing kBoth) returns the ZMP to the middle.
+/// With `stop` strides shrink; once the feet are level, a final step (Phase::kFinal, swing kBoth)
+/// returns the ZMP to the middle.
 Step next_step(const Params& params, const GaitTuning& tuning, const VelocityIn& wanted,
                const Step& last, FootstepState& state);
 
-/// The same without checking the swing's path, for the ZMP only.
+/// For the ZMP only: does not check the swing's path.
 Step next_footholds(const Params& params, const GaitTuning& tuning, const VelocityIn& wanted,
                     const Step& last, FootstepState& state);
 

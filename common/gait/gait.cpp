@@ -7,12 +7,12 @@
 namespace verp::gait {
 namespace {
 
-// Least time in which a landed foot takes the weight. If goals jump between two ticks, their lead
-// depends on where in a period the step ends, and differs between the feet. Tuning seeds 1001-1010,
-// 4 cm in 450 ms: heading error 1.3 degrees rms without, 0.9 with it.
+// Least time for a landed foot to take the weight. A jump of goals between two ticks steers the
+// feet differently. Tuning seeds 1001-1010, 4 cm in 450 ms: heading error 1.3 degrees rms without,
+// 0.9 with it.
 constexpr float kTaken_s = 0.008F;
 
-// A moment in the known steps, at most one step back and within stored key points.
+// At most one step back and within stored key points.
 struct Moment {
   const Step* step;
   std::int32_t time_us;    // since the step's beginning
@@ -53,7 +53,7 @@ Posture posture_at(const Params& params, const Tuning& tuning, const GaitState& 
                     foot_at(*moment.step, kLeft, time_s), foot_at(*moment.step, kRight, time_s));
 }
 
-// Ends the plan at the DCM of walking on or standing, and carries it back to the head's step.
+// Ends the plan at the DCM of walking on or standing; carries it back to the head's step.
 void set_dcm_ends(const Params& params, const Tuning& tuning, const VelocityIn& wanted,
                   GaitState& state) {
   Step& last = state.queue[state.queued - 1];
@@ -75,11 +75,11 @@ void set_dcm_ends(const Params& params, const Tuning& tuning, const VelocityIn& 
   }
 }
 
-// Key points laid before a hurried walk begins: two must lie ahead of the clock.
+// Key points laid before a hurried walk begins.
 constexpr int kHurry = 2;
 
-// In a hurried start the ZMP throws the resting pendulum to the DCM at the step's end. It is
-// further out for shorter steps, but within the soles.
+// In a hurried start the ZMP throws the resting pendulum to the DCM at the step's end: further out
+// in shorter steps, but within the soles.
 void throw_body(const Params& params, const GaitTuning& tuning, GaitState& state) {
   constexpr std::uint8_t kShortest = 3;
   Step& step = state.queue[0];
@@ -108,7 +108,7 @@ void extend_queue(const Params& params, const Tuning& tuning, const GaitIn& in, 
   }
 }
 
-// A joint at its limit leaves the sole near its target; other flags do not.
+// A joint at its limit leaves the sole near its target.
 bool reaches(std::uint8_t leg_flags) {
   return (leg_flags & (kinematics::kOutOfReach | kinematics::kNotConverged)) == 0;
 }
@@ -121,9 +121,8 @@ void shorten(std::uint16_t note, FootstepState& footsteps) {
   footsteps.notes |= note;
 }
 
-// Shortens strides while the ZMP would leave the sole, and lengthens them after a cycle with more
-// room than the next longer step needs. The multibody correction is linear in misses, so it is
-// trusted with half a sole.
+// Shortens strides while the ZMP would leave the sole; lengthens them after a cycle with room. The
+// correction is linear in misses, so it is trusted with half a sole.
 void watch_zmp(const Params& params, const Tuning& tuning, const Step& step, Xy miss_m,
                GaitState& state) {
   if (step.swing == kBoth) return;
@@ -166,7 +165,7 @@ void lay_key_points(const Params& params, const Tuning& tuning, const GaitIn& in
   }
 }
 
-// Moves the walk frame's origin once a step, so that roundings do not add up.
+// Once a step, so that roundings do not add up.
 void rebase_walk(Xy origin_m, GaitState& state) {
   const auto move_step = [&](Step& step) {
     for (Foothold& foot : step.foot) foot.at_m = foot.at_m - origin_m;
@@ -193,7 +192,7 @@ void next_in_queue(GaitState& state) {
   if (step.swing != kBoth) rebase_walk(step.foot[step.carrying()].at_m, state);
 }
 
-// Fixes key points until two lie ahead of the clock, then moves the head.
+// Fixes key points until two lie ahead of the clock.
 void plan_ahead(const Params& params, const Tuning& tuning, const GaitIn& in, GaitState& state) {
   const Step& step = state.queue[0];
   const auto wanted = static_cast<std::uint8_t>(state.first_key + state.clock_us / step.key_us + 2);
@@ -217,8 +216,8 @@ Settled digest_stand(const Params& params, const Tuning& tuning, const GaitIn& i
   return {digest_load(params, in.goal_rad), stand.value()};
 }
 
-// Standing: moves the body until the CoM is over the soles' middle. Weighs it again only when arms,
-// head or tuning change. A walk may begin from there.
+// Moves the body until the CoM is over the soles' middle. Weighs it only when arms, head or tuning
+// change.
 void stand(const Params& params, const Tuning& tuning, const Step& feet, const GaitIn& in,
            GaitState& state) {
   constexpr float kGlideMS = 0.02F;
@@ -277,7 +276,6 @@ void walk(const Params& params, const Tuning& tuning, const GaitIn& in, GaitStat
   plan_ahead(params, tuning, in, state);
 }
 
-// Left foot's share of the weight from the ZMP.
 float left_share(const Params& params, const Step& step, Xy zmp_m) {
   const Xy right_m = sole_center(params, kRight, step.foot[kRight]);
   const Xy across_m = sole_center(params, kLeft, step.foot[kLeft]) - right_m;

@@ -6,17 +6,17 @@
 namespace verp::gait {
 namespace {
 
-// The swing has kLooks - 1 samples, densest in its fast middle; between two a sole approaches by at
-// most half the clearance.
+// Samples are densest in the fast middle; between two a sole approaches by at most half the
+// clearance.
 constexpr int kLooks = 10;
 
-// Share of the swing at sample `i`.
+// In the swing.
 constexpr float time_of(int i) {
   const float w = 2.0F * static_cast<float>(i) / static_cast<float>(kLooks) - 1.0F;
   return 0.5F + 0.25F * w * (1.0F + w * w);
 }
 
-// From the sole frame's origin to the edge in a direction of that frame.
+// From the sole frame's origin to the edge.
 float reach_m(const LegParams& leg, Xy direction) {
   return direction.x * (direction.x > 0.0F ? leg.sole_front_m : -leg.sole_back_m) +
          direction.y * (direction.y > 0.0F ? leg.sole_left_m : -leg.sole_right_m);

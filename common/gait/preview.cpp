@@ -28,7 +28,7 @@ Momentum momentum_between(const Params& params, const PreviewState& state, const
   return {per_s * sum.linear, per_s * sum.angular};
 }
 
-// Where the ground's reaction balances gravity and inertia of all links.
+// Where the ground balances gravity and inertia of all links.
 Xy multibody_zmp(const PreviewState& state, const Momentum& next, float mass_kg, float key_s) {
   const float weight_n = mass_kg * math::kGravityMS2;
   const float force_n = weight_n + (next.linear.z() - state.momentum_kg_m_s.z) / key_s;
@@ -76,8 +76,7 @@ Laid lay_key_point(const Params& params, const Tuning& tuning, const Step* queue
   const float key_s = step.key_s();
   const float time_s = key_s * static_cast<float>(state.head_key + 1);
   state.com_m = com_after(step, state.omega, state.com_m, time_s - key_s, time_s);
-  // The offset changes slowly: extrapolate. The error shows in the links' positions, hence in the
-  // multibody ZMP, and is corrected.
+  // The offset changes slowly: extrapolate. The multibody ZMP corrects the error.
   const Xy offset_m = 2.0F * state.offset_m[0] - state.offset_m[1];
   const Xy body_m = state.com_m - offset_m;
   const Posture posture = posture_of(params, tuning.gait, body_m, foot_at(step, kLeft, time_s),
@@ -104,7 +103,7 @@ Laid lay_key_point(const Params& params, const Tuning& tuning, const Step* queue
 void fix_key_point(const Step& step, PreviewState& state) {
   ++state.fixed;
   const float keep = math::exp(-state.omega * step.key_s());
-  Xy dcm_m{};  // of the correction, backwards from the horizon
+  Xy dcm_m{};  // of the correction, backwards
   for (std::uint8_t i = static_cast<std::uint8_t>(state.head - 1);
        i != static_cast<std::uint8_t>(state.fixed - 1); --i) {
     const Xy miss_m = state.ring[i % kRing].zmp_miss_m;

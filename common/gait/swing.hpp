@@ -3,7 +3,7 @@
 #include "common/math/spline.hpp"
 #include "common/math/xyz.hpp"
 
-/// The feet during a step: splines between the plan's ends and extreme.
+/// Splines between the plan's ends and extreme.
 namespace verp::gait {
 
 struct FootPose {
@@ -12,10 +12,10 @@ struct FootPose {
   Xyz accel_m_s2;  ///< of the sole
 };
 
-/// A swing foot's progress from 0 to 1: a quintic at rest at both ends, without jerks. Haste mixes
-/// in a cubic, which needs less servo speed.
+/// Progress 0 to 1: a quintic at rest at both ends. Haste mixes in a cubic, which needs less servo
+/// speed.
 inline math::CurvePoint swing_along(float u, float haste) {
-  constexpr float kBrisk = 0.24F;  // share of the cubic per unit of haste
+  constexpr float kBrisk = 0.24F;  // of the cubic, per haste
   const math::CurvePoint gentle = math::minimum_jerk(u);
   if (haste == 0.0F) return gentle;
   const math::CurvePoint brisk = math::smooth_step(u);
@@ -25,9 +25,8 @@ inline math::CurvePoint swing_along(float u, float haste) {
           gentle.second + share * (brisk.second - gentle.second)};
 }
 
-/// Foot `side` at `time_s` of the step. The swing foot moves from the end of double support to
-/// landing. Its height is the rise to touchdown_m plus a quartic through lift-off, apex and
-/// landing. The same quartic bends it around the other foot, early in its way.
+/// The swing foot moves from the end of double support to landing: the rise to touchdown_m plus a
+/// quartic through lift-off, apex and landing. The same quartic bends it around the other foot.
 inline FootPose foot_at(const Step& step, int side, float time_s) {
   if (side != step.swing) {
     const float settle_s = 2.0F * step.key_s();

@@ -6,9 +6,9 @@
 #include "common/math/elementary.hpp"
 #include "common/math/scalar.hpp"
 
-/// The gait's data. Lengths are in the *walk frame*: z up, ground at 0, x and y the body's at the
-/// walk's start. Its origin moves with the robot once a step, to keep coordinates small: float32
-/// resolves 1e-8 m at arm's length, and the multibody correction takes second differences.
+/// Lengths are in the *walk frame*: z up, ground at 0, x and y the body's at the walk's start. Its
+/// origin moves on once a step to keep coordinates small: the multibody correction takes second
+/// differences.
 namespace verp::gait {
 
 struct Xy {
@@ -31,7 +31,7 @@ inline Xy turned(Xy v, float yaw_rad) {
   return turned(v, math::sincos(yaw_rad));
 }
 
-/// A sole frame's origin on the ground, and heading.
+/// Sole frame's origin on the ground, and heading.
 struct Foothold {
   Xy at_m;
   float yaw_rad = 0;
@@ -48,29 +48,28 @@ inline constexpr std::uint8_t kBoth = 2;
 
 inline constexpr int kIntervalsPerCycle =
     15;  ///< 16 states joined by 15 intervals (paper, section 4.1)
-/// Key points lie at half intervals, so both steps of a cycle have the same 15 and left mirrors
-/// right. Whole intervals are 7.5 to a step.
+/// Key points lie at half intervals, so both steps of a cycle have the same number.
 inline constexpr int kKeyPointsPerStep = 15;
 
-/// A planned step: stance foot, swing path and ZMP, which moves straight from zmp_begin to zmp_end
-/// in double support, then rests.
+/// Stance foot, swing path and ZMP, which moves straight from zmp_begin to zmp_end in double
+/// support, then rests.
 struct Step {
   std::int32_t key_us = 0;      ///< time between key points
   std::uint8_t key_points = 0;  ///< duration is key_points * key_us
-  std::uint8_t swing = kBoth;   ///< kLeft, kRight, or kBoth: no foot leaves the ground
+  std::uint8_t swing = kBoth;   ///< kBoth: none
   Phase phase = Phase::kIdle;
-  std::uint8_t landed = kBoth;  ///< the previous step's swing foot; kBoth: none
-  float double_support_s = 0;   ///< from the step's beginning
+  std::uint8_t landed = kBoth;  ///< previous step's swing foot; kBoth: none
+  float double_support_s = 0;   ///< from the step's start
   float lift_m = 0;
-  float touchdown_m = 0;  ///< swing sole's height at the end
+  float touchdown_m = 0;  ///< swing sole, at the end
   float haste = 0;        ///< mean swing speed over an unhurried one, minus 1; 0 to 2
-  float settle_m = 0;     ///< height of `landed` at the start, down in two key times
+  float settle_m = 0;     ///< height of `landed` at the start, gone in two key times
   Foothold foot[kFeet];   ///< at the step's start
-  Foothold landing;       ///< of the swing foot
-  Xy bend_m;              ///< off the straight way at mid-swing, around the other foot
+  Foothold landing;       ///< swing foot's
+  Xy bend_m;              ///< off the straight way at mid-swing
   Xy zmp_begin_m;
   Xy zmp_end_m;
-  Xy dcm_end_m;  ///< divergent component of motion at the step's end
+  Xy dcm_end_m;  ///< divergent component of motion at the end
   VERP_FIELDS(key_us, key_points, swing, phase, landed, double_support_s, lift_m, touchdown_m,
               haste, settle_m, foot, landing, bend_m, zmp_begin_m, zmp_end_m, dcm_end_m)
 
@@ -78,13 +77,12 @@ struct Step {
   constexpr float duration_s() const { return static_cast<float>(duration_us()) * 1e-6F; }
   constexpr float key_s() const { return static_cast<float>(key_us) * 1e-6F; }
   constexpr int carrying() const { return swing == kBoth ? kBoth : 1 - swing; }
-  /// Final and later steps: both feet carry, the ZMP comes to rest.
+  /// Both feet carry, the ZMP comes to rest.
   constexpr bool ends_walk() const { return swing == kBoth && phase != Phase::kStart; }
-  /// Foothold at the step's end.
   constexpr Foothold after(int side) const { return side == swing ? landing : foot[side]; }
 };
 VERP_PACKED(Step);
 
-inline constexpr int kQueue = 4;  ///< present and at most three future steps
+inline constexpr int kQueue = 4;  ///< the present step and three more
 
 }  // namespace verp::gait

@@ -19,7 +19,7 @@ std::uint32_t leg_joints(const Params& params) {
 
 Lump lump_of(const Params& params, const float* angle_rad) {
   const std::uint32_t legs = leg_joints(params);
-  union Nodes {  // uninitialised: 33 identities would cost more than the arms
+  union Nodes {  // uninitialised: 33 identities cost more than the arms
     Nodes() {}
     Pose at[kMaxNodes];
   } node;

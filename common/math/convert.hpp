@@ -5,8 +5,8 @@
 
 #include "common/math/scalar.hpp"
 
-/// Conversions between float and integers: nearest, ties to even, saturating, NaN gives 0. x86, ARM
-/// and RISC-V disagree on out-of-range casts, so only this file casts float to integer.
+/// Float to integer and back: nearest, ties to even, saturating, NaN gives 0. Processors disagree
+/// on out-of-range casts, so only this file casts float to integer.
 namespace verp::math {
 
 /// Nearest integral float. NaN gives 0; infinities and the sign of zero stay.
@@ -16,13 +16,12 @@ constexpr float round_even(float x) {
   return copysign((size + 8388608.0F) - 8388608.0F, x);
 }
 
-/// For integers of at most 64 bits. Monotonic.
+/// At most 64 bits. Monotonic.
 template <class Integer>
 constexpr Integer round_to(float x) {
   using Limits = std::numeric_limits<Integer>;
   static_assert(Limits::is_integer && sizeof(Integer) <= 8);
-  // Fast path for most servo counts: below 2^22, adding 1.5 * 2^23 leaves the integer in the last
-  // bits.
+  // Below 2^22, adding 1.5 * 2^23 leaves the integer in the last bits.
   if (sizeof(Integer) == 4 && Limits::is_signed && abs(x) < 4194304.0F) {
     constexpr float kShift = 12582912.0F;
     return static_cast<Integer>(std::bit_cast<std::int32_t>(x + kShift) -
@@ -56,8 +55,7 @@ constexpr std::uint8_t to_uint8(float x) {
   return round_to<std::uint8_t>(x);
 }
 
-/// Saturating. For durations only: beyond 16.7 s the product is a multiple of 2 us or more. Clocks
-/// are integers.
+/// Saturating. For durations only: beyond 16.7 s the product is a multiple of 2 us or more.
 constexpr std::int64_t to_microseconds(float duration_s) {
   return to_int64(duration_s * 1e6F);
 }
@@ -77,7 +75,7 @@ constexpr float to_float(std::int64_t x) {
   const int excess = 40 - std::countl_zero(size | 1U);  // bits beyond float's 24
   std::int32_t exponent = 0;
   if (excess > 0) {
-    // 30 bits and a sticky one, so that the rounding below is correct.
+    // 30 bits and a sticky one, for one correct rounding below.
     const int shift = excess > 6 ? excess - 6 : 0;
     const bool sticky = (size & ((std::uint64_t{1} << shift) - 1U)) != 0;
     size = (size >> shift) | (sticky ? 1U : 0U);

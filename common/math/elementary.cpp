@@ -9,8 +9,7 @@ namespace verp::math {
 namespace {
 
 constexpr std::uint32_t kInfinityBits = 0x7F800000U;
-constexpr float kRoundingShift =
-    12582912.0F;  // 1.5 * 2^23: adding it rounds to an integer, ties to even
+constexpr float kRoundingShift = 12582912.0F;  // 1.5 * 2^23: adding it rounds to an integer
 
 constexpr std::uint32_t bits_of(float x) {
   return std::bit_cast<std::uint32_t>(x);
@@ -49,8 +48,8 @@ Reduced reduce_large(float angle_rad) {
   // 2 / pi = 0.A2F9836E..., after one word of zeros for angles below 2^25.
   constexpr std::uint32_t kTwoOverPi[] = {0x00000000U, 0xA2F9836EU, 0x4E441529U, 0xFC2757D1U,
                                           0xF534DDC0U, 0xDB629599U, 0x3C439041U, 0xFE5163ABU};
-  // |angle| = mantissa * 2^exponent. Multiples of 4 quadrants drop out, so start at the bit of 2
-  // quadrants. Keep 96 bits; the mantissa uses 24.
+  // |angle| = mantissa * 2^exponent. Multiples of 4 quadrants drop out: start at the bit of 2
+  // quadrants, keep 96 bits.
   const std::uint32_t bits = magnitude_bits(angle_rad);
   const std::uint32_t mantissa = (bits & 0x007FFFFFU) | 0x00800000U;
   const std::uint32_t first_bit = (bits >> 23) - 150U - 2U + 32U;
@@ -228,7 +227,7 @@ float exp(float x) {
   p = 0x1.fffffcp-2F + high * p;
   const float fraction = 1.0F + (high + (low + (high * high) * p));
   const auto exponent = static_cast<std::int32_t>(bits_of(shifted) - bits_of(kRoundingShift));
-  // Two factors: 2^128 and 2^-150 are not normal floats. Only the second product can round.
+  // 2^128 and 2^-150 are not normal floats. Only the second product can round.
   const int half = exponent >> 1;
   const float result = (fraction * power_of_two(half)) * power_of_two(exponent - half);
   return result <= kMaxFloat ? result : kMaxFloat;

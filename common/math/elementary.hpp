@@ -1,16 +1,15 @@
 #pragma once
 
-/// Elementary functions in float32 from IEEE basic operations and square root only: the same bits
-/// on every compiler, optimisation level and core (with toolchains/floating_point.cmake). Total: no
-/// result is NaN or infinite. Angles are radians.
+/// float32 functions from IEEE basic operations and square root only: the same bits on every
+/// compiler, optimisation level and core (toolchains/floating_point.cmake). Total: no result is NaN
+/// or infinite. Angles are radians.
 ///
-/// Worst errors in ulp, measured by `verp_exhaustive` over every float (atan2: 10^9 stratified
-/// pairs); `--function NAME` repeats one:
+/// Worst errors in ulp over every float (atan2: 10^9 stratified pairs), by `verp_exhaustive
+/// --function NAME`:
 ///
 ///     sin  0.917    cos  0.912    asin 0.871    acos 0.789    exp  0.906    atan2 1.646
 ///
-/// The tests enforce 1 ulp, and 2 for atan2. Cost: atan2 one division; asin and acos beyond 1/2 one
-/// division and one square root; sincos less than sin and cos; angles beyond 64 rad are slow.
+/// The tests enforce 1 ulp, and 2 for atan2. Angles beyond 64 rad are slow.
 namespace verp::math {
 
 struct SinCos {
@@ -19,13 +18,13 @@ struct SinCos {
 };
 
 /// In [-1, 1] for any finite angle. NaN and infinities: sin 0, cos 1. sin(-0) is -0. sin is odd,
-/// cos even, bit for bit; sincos has the same bits.
+/// cos even; sincos has the same bits.
 SinCos sincos(float angle_rad);
 float sin(float angle_rad);
 float cos(float angle_rad);
 
-/// Direction of (x, y) in [-kPi, kPi], with IEEE 754's quadrants, infinities and signed zeros:
-/// atan2(0, 0) is 0, atan2(0, -0) is kPi. Scale does not matter. NaN gives 0.
+/// In [-kPi, kPi], with IEEE 754's quadrants, infinities and signed zeros: atan2(0, 0) is 0,
+/// atan2(0, -0) is kPi. NaN gives 0.
 float atan2(float y, float x);
 
 /// Arguments are clamped to [-1, 1]; NaN gives 0; asin(-0) is -0.

@@ -46,11 +46,11 @@ Vec3 rotation_vector(const Mat3& rotation) {
   const float angle = atan2(twice_sin, twice_cos);
   if (!is_finite(twice_sin) || !is_finite(twice_cos)) return Vec3::Zero();
   if (twice_cos > -1.9F) {
-    // angle / (2 sin angle) tends to 1/2; below 1e-3 rad this is exact in float.
+    // angle / (2 sin angle) tends to 1/2.
     const float scale = twice_sin > 2e-3F ? angle / twice_sin : 0.5F;
     return twice_axis_sin * scale;
   }
-  // Near half a turn the sine is too small: R + R^T + (1 - trace) I = 2 (1 - cos) axis axis^T.
+  // Near half a turn: R + R^T + (1 - trace) I = 2 (1 - cos) axis axis^T.
   int column = 0;
   for (int i = 1; i < 3; ++i) {
     if (rotation(i, i) > rotation(column, column)) column = i;
@@ -62,7 +62,7 @@ Vec3 rotation_vector(const Mat3& rotation) {
 }
 
 bool solve_spd(const Mat6& a, const Vec6& b, Vec6& x) {
-  Mat6 l = a;  // becomes L of A = L L^T, with reciprocals on the diagonal
+  Mat6 l = a;  // becomes L of A = L L^T; diagonal: reciprocals
   x.setZero();
   for (int j = 0; j < 6; ++j) {
     for (int i = j; i < 6; ++i) {

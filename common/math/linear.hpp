@@ -5,12 +5,11 @@
 #include "common/math/scalar.hpp"
 #include "common/math/xyz.hpp"
 
-/// Fixed-size vectors and matrices: the only file of common/ that includes Eigen.
+/// The only file of common/ that includes Eigen.
 ///
 /// Eigen sums in a documented order only without vectorisation, in every translation unit
-/// (toolchains/floating_point.cmake). Its norm() is fine. Not allowed in the core: AngleAxis,
-/// eulerAngles, slerp, 6x6 inverse() and products of 8 or more dimensions, which reach libm, malloc
-/// or a blocked product.
+/// (toolchains/floating_point.cmake). Not allowed in the core: AngleAxis, eulerAngles, slerp, 6x6
+/// inverse() and products of 8 or more dimensions: they reach libm, malloc or a blocked product.
 #ifndef EIGEN_DONT_VECTORIZE
 #error \
     "build with EIGEN_DONT_VECTORIZE (toolchains/floating_point.cmake): vectorised sums have other bits"
@@ -22,7 +21,7 @@
 #define EIGEN_NO_IO
 #endif
 #ifndef EIGEN_NO_DEBUG
-#define EIGEN_NO_DEBUG  // no assert, abort and message strings in the firmware
+#define EIGEN_NO_DEBUG  // no message strings in the firmware
 #endif
 #include <Eigen/Core>
 
@@ -95,7 +94,7 @@ inline Mat3 rot_z(float angle_rad) {
   return rot_z(sincos(angle_rad));
 }
 
-/// Rotation about a unit axis (Rodrigues). The caller normalises it.
+/// Rodrigues. The caller normalises the axis.
 Mat3 rotation(const Vec3& unit_axis, const SinCos& angle);
 inline Mat3 rotation(const Vec3& unit_axis, float angle_rad) {
   return rotation(unit_axis, sincos(angle_rad));
@@ -104,8 +103,7 @@ inline Mat3 rotation(const Vec3& unit_axis, float angle_rad) {
 /// Rz(yaw) Ry(pitch) Rx(roll): fixed-axis roll, pitch, yaw, as in URDF and SDF.
 Mat3 rotation_rpy(float roll_rad, float pitch_rad, float yaw_rad);
 
-/// Inverse of rotation_rpy: (roll, pitch, yaw), pitch in [-kHalfPi, kHalfPi]. Total. At pitch =
-/// +-kHalfPi, roll is 0 and yaw the whole turn.
+/// Inverse of rotation_rpy, pitch in [-kHalfPi, kHalfPi]. Total. At pitch +-kHalfPi, roll is 0.
 Vec3 roll_pitch_yaw(const Mat3& rotation);
 
 /// Unit axis times angle in [0, kPi]. Total.
@@ -144,8 +142,8 @@ inline Vec3 apply(const Pose& a_b, const Vec3& point_b_m) {
   return a_b.position_m + a_b.rotation * point_b_m;
 }
 
-/// Solves A x = b by Cholesky; reads only A's lower triangle. False with x = 0 if A is not
-/// numerically positive definite or x not finite.
+/// Cholesky of A x = b; reads A's lower triangle. False with x = 0 if A is not numerically positive
+/// definite or x not finite.
 bool solve_spd(const Mat6& a, const Vec6& b, Vec6& x);
 
 }  // namespace verp::math

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <limits>
 
-/// Small total scalar functions: no input, not even NaN, is undefined behaviour. Angles are
-/// radians. IEEE float32 basic operations only, so the bits are the same everywhere.
+/// Total scalar functions: no input, not even NaN, is undefined behaviour. Angles are radians. IEEE
+/// float32 basic operations only: the same bits everywhere.
 namespace verp::math {
 
 inline constexpr float kPi = 0x1.921fb6p+1F;         ///< nearest float, 8.7e-8 above pi
@@ -41,8 +41,8 @@ constexpr float sign(float x) {
   return x > 0.0F ? 1.0F : (x < 0.0F ? -1.0F : 0.0F);
 }
 
-/// The second argument if either is NaN or both are equal (min(0, -0) is -0), on every core. So
-/// min(untrusted, limit) gives the limit for NaN.
+/// The second argument if either is NaN or both are equal, on every core. So min(untrusted, limit)
+/// gives the limit for NaN.
 constexpr float min(float a, float b) {
   return a < b ? a : b;
 }
@@ -74,7 +74,7 @@ inline float sqrt(float x) {
   return x > 0.0F ? __builtin_sqrtf(x) : 0.0F;
 }
 
-/// For lengths of robot size: not guarded against overflow beyond 1e19.
+/// Not guarded against overflow beyond 1e19.
 inline float hypot(float a, float b) {
   return sqrt(a * a + b * b);
 }
@@ -91,10 +91,10 @@ constexpr std::int32_t floor_to_int(float x) {
   return static_cast<float>(truncated) > x ? truncated - 1 : truncated;
 }
 
-/// The same angle in (-kPi, kPi]. Within one rounding for |angle| <= 3 kPi, a sum of two angles;
-/// beyond that the argument's own error. 0 from 1e7 rad on, for NaN and infinities.
+/// The same angle in (-kPi, kPi], within one rounding for |angle| <= 3 kPi. 0 from 1e7 rad on, for
+/// NaN and infinities.
 constexpr float wrap_angle(float angle_rad) {
-  // 2 pi in three parts. The first two have 11 bits: products with a 13-bit count are exact.
+  // 2 pi in three parts. The first two have 11 bits: their products with a 13-bit count are exact.
   constexpr float kHigh = 0x1.92p+2F;
   constexpr float kMiddle = 0x1.fb4p-10F;
   constexpr float kLow = 0x1.44442ep-22F;

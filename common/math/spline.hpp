@@ -1,7 +1,7 @@
 #pragma once
 
-/// Curves through key points: value and derivative by the parameter u in [0, 1]. In a segment of
-/// duration T, u = t / T and the speed is derivative / T. The caller limits u.
+/// Curves by the parameter u in [0, 1]. In a segment of duration T, u = t / T and the speed is
+/// derivative / T. The caller limits u.
 namespace verp::math {
 
 struct CurvePoint {
@@ -10,7 +10,7 @@ struct CurvePoint {
   float second = 0;  ///< d^2 value / d u^2, if computed
 };
 
-/// Cubic Hermite through (0, p0) and (1, p1) with slopes m0 and m1. Both ends are exact.
+/// Cubic from (0, p0) to (1, p1) with slopes m0 and m1. Both ends are exact.
 constexpr CurvePoint hermite(float p0, float m0, float p1, float m1, float u) {
   const float rise = p1 - p0;
   const float a = m0 - rise;  // u (1-u) [a (1-u) - b u] is added to the chord
@@ -29,8 +29,8 @@ constexpr CurvePoint minimum_jerk(float u) {
           (60.0F * u) * (v * (v - u))};
 }
 
-/// Cubic from 0 to 1, velocity zero at both ends: 3 u^2 - 2 u^3. Peak speed 1.5 times the mean;
-/// minimum jerk has 1.875.
+/// 3 u^2 - 2 u^3: velocity zero at both ends. Peak speed 1.5 times the mean; minimum jerk has
+/// 1.875.
 constexpr CurvePoint smooth_step(float u) {
   const float v = 1.0F - u;
   return {(u * u) * (3.0F - 2.0F * u), 6.0F * (u * v), 6.0F * (v - u)};
@@ -42,8 +42,7 @@ constexpr CurvePoint minimum_jerk(float p0, float p1, float u) {
   return {p0 + (p1 - p0) * unit.value, (p1 - p0) * unit.derivative};
 }
 
-/// Quintic from p0 to p1 with slopes m0, m1 and zero second derivatives at the ends, which are
-/// exact.
+/// Quintic with slopes m0, m1 and zero second derivatives at the ends, which are exact.
 constexpr CurvePoint quintic(float p0, float m0, float p1, float m1, float u) {
   const float rise = p1 - p0;
   const float a = m0 - rise;  // slopes relative to the chord
@@ -57,8 +56,7 @@ constexpr CurvePoint quintic(float p0, float m0, float p1, float m1, float u) {
   return {chord + (a * fa + b * fb), rise + (a * ga + b * gb)};
 }
 
-/// Height of a swing foot: 16 u^2 (1 - u)^2, 0 with zero velocity at lift-off and landing, 1 at the
-/// apex (u = 1/2).
+/// Height of a swing foot: 16 u^2 (1 - u)^2; velocity zero at both ends, 1 at u = 1/2.
 constexpr CurvePoint swing_lift(float u) {
   const float v = 1.0F - u;
   const float uv = 4.0F * (u * v);

@@ -3,8 +3,8 @@
 
 namespace verp::math {
 
-/// A vector as stored, hashed and put into images. Keeps Eigen out of plain data; arithmetic is
-/// Vec3's (common/math/linear.hpp).
+/// A vector as stored, hashed and put into images, without Eigen. For arithmetic see
+/// common/math/linear.hpp.
 struct Xyz {
   float x = 0;
   float y = 0;

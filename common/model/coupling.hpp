@@ -6,10 +6,10 @@
 #include "common/model/params.hpp"
 
 /// One motor for two joints (URDF's mimic): a follower's angle is its driver's times a ratio, plus
-/// an offset. Both come from the driver's counts, by their own scales and zeros.
+/// an offset. Both come from the driver's counts.
 namespace verp::model {
 
-/// The joint whose servo moves `joint`: itself unless a follower.
+/// The joint whose servo moves `joint`.
 inline int driver_of(const Params& params, int joint) {
   const std::uint8_t id = params.joint[joint].servo_id;
   for (int j = 0; joint >= params.servo_count() && j < params.servo_count(); ++j) {
@@ -33,7 +33,6 @@ inline void share_counts(const Params& params, Inputs& inputs) {
   }
 }
 
-/// Sets followers' angles from their drivers'.
 inline void lead(const Params& params, float* angle_rad) {
   for (int j = params.servo_count(); j < params.joint_count; ++j) {
     const int driver = driver_of(params, j);
@@ -41,7 +40,7 @@ inline void lead(const Params& params, float* angle_rad) {
   }
 }
 
-/// Adds followers' corrections (sag, gravity) to their drivers' angles: one motor bears both loads.
+/// Adds followers' corrections (sag, gravity) to their drivers' angles.
 inline void share_corrections(const Params& params, const float* plain_rad, float* angle_rad) {
   for (int j = params.servo_count(); j < params.joint_count; ++j) {
     const int driver = driver_of(params, j);

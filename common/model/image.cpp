@@ -16,7 +16,7 @@ bool well_formed_leg(const Params& params, const LegParams& leg) {
   return true;
 }
 
-// Parents precede children. Followers come last: each needs a driver and a path to the body.
+// Followers come last: each needs a driver and a path to the body.
 bool well_formed_place(const Params& params, int joint) {
   const int servos = params.servo_count(), parent = params.joint[joint].parent;
   if (parent > params.joint_count) return false;

@@ -7,13 +7,13 @@
 #include "common/model/numbers.hpp"
 #include "common/model/params.hpp"
 
-/// The Params image: a robot as bytes, in flash, trace or file. It has exactly one byte form, so
-/// its CRC names it in every link handshake. It carries the results that every core must reproduce.
+/// The Params image: a robot as bytes, in flash, trace or file. Its CRC names it in every link
+/// handshake. It carries the results that every core must reproduce.
 namespace verp {
 
 /// Raise when the layout of ParamsImage or a member changes.
 inline constexpr std::uint32_t kImageVersion = 5;
-/// Raise when the same Params and Inputs give other Outputs: the golden results depend on it.
+/// Raise when the same Params and Inputs give other Outputs.
 inline constexpr std::uint32_t kCoreVersion = 25;
 
 inline constexpr char kImageMagic[8] = {'V', 'E', 'R', 'P', 'P', 'A', 'R', '1'};
@@ -28,13 +28,13 @@ struct ImageHeader {
 };
 VERP_PACKED(ImageHeader);
 
-/// Forward and inverse kinematics of one whole-body posture (control/golden.hpp).
+/// Kinematics of one whole-body posture (control/golden.hpp).
 struct GoldenVector {
-  std::uint32_t seed = 0;          ///< draws the joint angles within their limits
+  std::uint32_t seed = 0;          ///< draws the joint angles
   std::uint32_t poses_digest = 0;  ///< of the poses of all nodes
-  std::uint32_t legs_digest = 0;   ///< of both legs' angles and flags for the soles' poses
-  Xyz com_m;                       ///< centre of mass, body frame
-  Xyz sole_m[kFeet];               ///< positions of the soles, body frame
+  std::uint32_t legs_digest = 0;   ///< of both legs' angles and flags
+  Xyz com_m;                       ///< body frame
+  Xyz sole_m[kFeet];               ///< body frame
   VERP_FIELDS(seed, poses_digest, legs_digest, com_m, sole_m)
 };
 VERP_PACKED(GoldenVector);
@@ -54,24 +54,23 @@ enum class ImageFault : std::uint8_t {
   kNone = 0,
   kTruncated = 1,
   kNotAnImage = 2,
-  kOtherLayout = 3,  ///< written for another kImageVersion
-  kOtherCore = 4,    ///< golden answers of another kCoreVersion
+  kOtherLayout = 3,  ///< another kImageVersion
+  kOtherCore = 4,    ///< another kCoreVersion
   kDamaged = 5,      ///< CRC mismatch
   kOutOfBounds = 6,  ///< an index outside its table
-  kOutOfRange = 7,   ///< a number not finite or implausible; numbers_fit() names it
+  kOutOfRange = 7,   ///< not finite or implausible; numbers_fit() names it
 };
 
-/// Names the robot: equal only for equal bytes, up to 2^-32.
+/// Equal only for equal bytes, up to 2^-32.
 std::uint32_t params_crc(const Params& params);
 
 /// Fills in the header.
 void seal_image(ParamsImage& image);
 
-/// Checks an image. `size` may exceed it (a flash section).
+/// `size` may exceed the image (a flash section).
 ImageFault check_image(const void* bytes, std::size_t size);
 
-/// True if indices are inside their tables and parents precede children, so that no loop leaves its
-/// arrays.
+/// True if indices are inside their tables and parents precede children.
 bool is_well_formed(const Params& params);
 
 }  // namespace verp

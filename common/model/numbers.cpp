@@ -5,7 +5,7 @@
 namespace verp {
 namespace {
 
-// Limits of machines among people, ten times wider than any known robot's.
+// Ten times wider than any known robot's.
 constexpr Range kPlace_m{-10, 10};
 constexpr Range kLength_m{0, 10};
 constexpr Range kMass_kg{0, 1000};
@@ -22,7 +22,7 @@ constexpr Range kArmature_kg_m2{0, 1000};
 constexpr Range kTorque_n_m{0, 1e4F};
 constexpr Range kFrictionSpeed_rad_s{1e-3F, 1000};
 constexpr Range kAngle_rad_m{-100, 100};
-constexpr std::uint32_t kShortest_us = 4000, kLongest_us = 20000;  // as Params::period_us says
+constexpr std::uint32_t kShortest_us = 4000, kLongest_us = 20000;  // Params::period_us
 
 class Search {
  public:

@@ -9,9 +9,8 @@ struct FieldName {
   char text[kFieldNameLength] = {};
 };
 
-/// True if every number of a well-formed Params is finite and inside the generous bounds of
-/// numbers.cpp, beyond which goals or thresholds are meaningless. Else `bad` names the first
-/// that is not.
+/// True if every number of a well-formed Params is finite and inside the bounds of numbers.cpp.
+/// Else `bad` names the first that is not.
 bool numbers_fit(const Params& params, FieldName& bad);
 
 }  // namespace verp

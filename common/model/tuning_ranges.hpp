@@ -2,8 +2,8 @@
 #include "common/math/scalar.hpp"
 #include "common/model/tuning.hpp"
 
-/// Ranges of Tuning, in field order. Inside them plans are finite and bounded in time; the robot
-/// may still fall.
+/// In field order. Inside these ranges plans are finite and bounded in time; the robot may still
+/// fall.
 namespace verp {
 
 struct Range {
@@ -70,7 +70,7 @@ constexpr bool in_range(int id, float value) {
          value <= kTuningRanges[id].high;
 }
 
-/// A Tuning as an array, indexed by parameter id.
+/// Indexed by parameter id.
 inline float tuning_value(const Tuning& tuning, int id) {
   float value;
   __builtin_memcpy(&value, reinterpret_cast<const unsigned char*>(&tuning) + 4 * id, 4);
