@@ -6,12 +6,12 @@
 #include "common/base/fields.hpp"
 #include "common/model/params.hpp"
 
-/// A robot's actions in a board's flash: a library image (library.hpp) and a mark that names the
-/// robot. Joints in it are numbers, so another robot would move the wrong ones.
+/// Actions in a board's flash: a library image (library.hpp) and its robot's mark. Joints are
+/// numbers, so another robot would move the wrong ones.
 namespace verp::action {
 
 struct KeptMark {
-  std::uint32_t robot = 0;  ///< robot_mark() of their robot
+  std::uint32_t robot = 0;  ///< robot_mark()
   std::uint32_t crc32 = 0;  ///< of the library's header and `robot`
   VERP_FIELDS(robot, crc32)
 };
@@ -23,7 +23,7 @@ enum class KeptFault : std::uint8_t {
   kTruncated = 1,
   kNotALibrary = 2,
   kOtherLayout = 3,
-  kDamaged = 4,  ///< the image or its mark
+  kDamaged = 4,  ///< image or mark
   kOutOfBounds = 5,
   kOtherRobot = 6,
 };
@@ -31,26 +31,26 @@ inline constexpr const char* kKeptFaultNames[] = {
     "none",    "truncated",     "no action library", "of another version",
     "damaged", "out of bounds", "for another robot"};
 
-/// Covers what actions depend on: the robot's name, each joint's name, place, axis and limits. Not
-/// gains, friction, zeros, tuning or bus.
+/// The robot's name, each joint's name, place, axis and limits. Not gains, friction, zeros, tuning
+/// or bus.
 std::uint32_t robot_mark(const Params& params);
 
 KeptMark make_mark(const LibraryHeader& library, const Params& params);
 
-/// Checks bytes, aligned to 4, as this robot's actions. `size` may exceed them (a flash section).
+/// `bytes` aligned to 4; `size` may exceed the actions (a flash section).
 KeptFault check_kept(const void* bytes, std::size_t size, const Params& params);
 
-/// The same for whichever robot the mark names.
+/// For any robot.
 KeptFault check_any_kept(const void* bytes, std::size_t size);
 
-/// Size of a sound library and its mark, for any robot; 0: none.
+/// Library and mark, for any robot; 0: not sound.
 std::size_t kept_size(const void* bytes, std::size_t size);
 
 struct KeptLibrary {
   KeptLibrary() = default;
   KeptLibrary(const void* bytes, std::size_t size, const Params& params);
 
-  Library library;  ///< empty if there is a fault
+  Library library;  ///< empty on a fault
   KeptFault fault = KeptFault::kNone;
 };
 

@@ -7,7 +7,7 @@
 namespace verp::action {
 namespace {
 
-constexpr float kLies_up = 0.5F;     // cosine of the tilt: more than 60 degrees
+constexpr float kLies_up = 0.5F;     // more than 60 degrees of tilt
 constexpr float kUpright_up = 0.9F;  // less than 26 degrees
 constexpr float kAtStand_rad = 0.005F;
 constexpr float kLeastReturn_s = 0.4F, kMostReturn_s = 10.0F;
@@ -73,7 +73,7 @@ Now now_of(const PlayerState& state, int joint, const Goal& goal, float share, f
   const float m1 = whole_s * goal.rate_rad_s;
   const math::CurvePoint point = smooth ? math::quintic(from, m0, goal.at_rad, m1, share)
                                         : math::hermite(from, m0, goal.at_rad, m1, share);
-  // After arrival a joint holds its goal, whatever its speed there.
+  // After arrival a joint holds its goal.
   return {point.value, share < 1.0F ? point.derivative / whole_s : goal.rate_rad_s};
 }
 
@@ -106,7 +106,7 @@ PlayerOut look(const Params& params, const Library& library, const PlayerState& 
   return out;
 }
 
-// Starts a motion from the present angles and rates.
+// From the present angles and rates.
 void set_out(const Params& params, const Library& library, const PlayerIn& in, PlayerState& state) {
   float rate_rad_s[kMaxJoints] = {};
   const PlayerOut here = look(params, library, state, in, rate_rad_s);
@@ -126,7 +126,7 @@ void go_back(const Params& params, const Library& library, const PlayerIn& in, P
     const float way_rad = math::abs(in.stand_rad[j] - state.from_rad[j]);
     if ((state.moved >> j & 1U) == 0 || way_rad < kAtStand_rad) continue;
     const float limit_rad_s = math::max(params.joint[j].velocity_limit_rad_s, 0.1F);
-    // Peak speed is twice the mean, and half the limit is enough for a return.
+    // Peak speed is twice the mean.
     longest_s = math::max(longest_s, math::max(4.0F * way_rad / limit_rad_s, kLeastReturn_s));
   }
   state.part = Part::kReturn;
@@ -134,8 +134,8 @@ void go_back(const Params& params, const Library& library, const PlayerIn& in, P
   state.return_us = static_cast<std::int32_t>(1e6F * math::min(longest_s, kMostReturn_s));
 }
 
-// `late_us`: time since the previous motion ended. Without it a joint would rest for a tick at a
-// key frame that it passes.
+// `late_us`: since the previous motion ended. Without it a joint would rest for a tick at each key
+// frame.
 void go_to(const Params& params, const Library& library, const PlayerIn& in, std::uint16_t frame,
            std::int32_t late_us, PlayerState& state) {
   if (frame == kToStand) return go_back(params, library, in, state);
@@ -153,7 +153,6 @@ void begin(const Params& params, const Library& library, const PlayerIn& in, Pla
   for (int j = 0; j < params.joint_count; ++j) state.from_rad[j] = in.stand_rad[j];
 }
 
-// Goes to the next frame once this one is over.
 void leave_frame(const Params& params, const Library& library, const PlayerIn& in,
                  PlayerState& state) {
   const Frame& frame = library.frame(state.frame);
@@ -182,7 +181,7 @@ bool is_there(const Library& library, std::uint8_t number) {
   return number > 0 && number <= library.count();
 }
 
-// From any pose. Joints that no frame names go to their stand.
+// Joints that no frame names go to their stand.
 void begin_anywhere(const Params& params, const Library& library, const PlayerIn& in,
                     PlayerState& state) {
   state = PlayerState{};

@@ -4,19 +4,18 @@ namespace verp::balance {
 namespace {
 
 constexpr float kLeastLevel2 = 0.01F;  // x axis nearly vertical: no heading
-// After a rise the body still settles, joint by joint, by 0.3 degrees, which would look like a bias
-// of 0.15 degrees a second. Tuning seeds 1001-1010, 60 s at 4 cm: heading error 0.6 degrees rms,
-// 0.9 with 0.35 s.
+// After a rise the joints still settle by 0.3 degrees, which would look like a bias. Tuning seeds
+// 1001-1010, 60 s at 4 cm: heading error 0.6 degrees rms, 0.9 with 0.35 s.
 constexpr float kSettle_s = 1.2F;
-// Per axis: above a MEMS gyro's bias (ICM-20648 data sheet: 5 deg/s), below real motion.
+// Above a MEMS gyro's bias (ICM-20648 data sheet: 5 deg/s), below real motion.
 constexpr float kStillRate_rad_s = 0.12F;
-// Clamps readings, so that a wrong one cannot end the calibration.
+// So that a wrong reading cannot end the calibration.
 constexpr float kMostOfOne_rad_s = 2.0F * kStillRate_rad_s;
-// Longer than the trembling of servos that hunt for their goal (5 Hz and above), shorter than a
-// person's turn of the robot.
+// Longer than the trembling of hunting servos (5 Hz and above), shorter than a person's turn of the
+// robot.
 constexpr float kTremble_s = 0.25F;
 
-// More than this is shaking: mean square over all axes of the clamped readings.
+// Shaking: mean square over all axes of the clamped readings.
 constexpr float kMostShake_rad2_s2 = 0.045F;
 
 Vec3 clamped(const Vec3& rate_rad_s) {
@@ -39,7 +38,7 @@ void learn_bias(AttitudeState& state, const AttitudeIn& in) {
   const Vec3 slow = before + fade * (rate - before);
   state.slow_rad_s = math::to_xyz(slow);
   state.shake_rad2_s2 += fade * ((rate - slow).squaredNorm() - state.shake_rad2_s2);
-  // Tests the raw rate: a wrong bias must not hide stillness.
+  // The raw rate: a wrong bias must not hide stillness.
   const bool calibrated = state.still_s >= kCalibrated_s;
   if (!in.standing || !within(slow, kStillRate_rad_s) || state.shake_rad2_s2 > kMostShake_rad2_s2) {
     if (calibrated) return;
@@ -57,8 +56,8 @@ void learn_bias(AttitudeState& state, const AttitudeIn& in) {
   state.still_s = math::min(state.still_s + in.period_s, kBestKnown_s);
 }
 
-// The gyro turns "up", the accelerometer pulls it to the vertical. The pull is linear in the
-// acceleration, because over a step its motion part averages to zero and its direction does not.
+// Linear in the acceleration: over a step its motion part averages to zero and its direction does
+// not.
 Vec3 follow(Xyz& up_body, const Vec3& rate_rad_s, const Vec3& accel_m_s2, float period_s,
             float mean_s) {
   Vec3 up = math::to_vec(up_body);
@@ -84,9 +83,9 @@ AttitudeOut update(AttitudeState& state, const AttitudeIn& in) {
     const Vec3 before = math::to_vec(state.slow_up_body);
     const Vec3 after =
         follow(state.slow_up_body, rate, in.accel_body_m_s2, in.period_s, state.mean_s);
-    const Vec3 slow = 0.5F * (before + after);  // at the time of the gyro reading
-    // Turn of the body's x axis on the ground. The rate about the vertical would add a false turn
-    // when the body sways about two axes (coning).
+    const Vec3 slow = 0.5F * (before + after);  // at the gyro reading
+    // Turn of the body's x axis on the ground. The rate about the vertical would turn falsely while
+    // the body sways about two axes (coning).
     const float level2 = math::max(slow.y() * slow.y() + slow.z() * slow.z(), kLeastLevel2);
     const float turn_rad_s = (rate.y() * slow.y() + rate.z() * slow.z()) / level2;
     state.heading_rad = math::wrap_angle(state.heading_rad + in.period_s * turn_rad_s);

@@ -6,24 +6,24 @@
 namespace verp::balance {
 namespace {
 
-// How fast the estimate follows the legs (critically damped). Higher values turn encoder counts
-// into velocity noise, lower values the accelerometer's offset into velocity. From tuning seeds
-// 1001-1030 of random robots; the leads below from 1001-1006.
+// How fast the estimate follows the legs (critically damped): higher, encoder counts become
+// velocity noise; lower, the accelerometer's offset does. Tuning seeds 1001-1030 of random robots;
+// leads below 1001-1006.
 constexpr float kBelief_per_s = 22.0F;
 // Age of the IMU's data: filters and bus.
 constexpr float kTiltLead_s = 0.005F;
 constexpr float kAccelLead_s = 0.003F;
-constexpr float kGroundTime_s = 0.5F;        // time constant for forgetting steps up and down
-constexpr float kExchange_s = 0.015F;        // time of load transfer to a foot without cells
-constexpr float kLeastShareOfWeight = 0.2F;  // least load on both soles of a standing robot
-constexpr float kLeastShare = 0.2F;          // least share of the load on legs that reported
+constexpr float kGroundTime_s = 0.5F;        // forgetting steps up and down
+constexpr float kExchange_s = 0.015F;        // load transfer to a foot without cells
+constexpr float kLeastShareOfWeight = 0.2F;  // load on both soles, standing
+constexpr float kLeastShare = 0.2F;          // of the load on legs that reported
 constexpr std::uint8_t kPatience = 10;       // ticks of silence bridged
-constexpr float kStanding_s = 0.1F;          // time constant to standstill after a longer silence
+constexpr float kStanding_s = 0.1F;          // to standstill after a longer silence
 constexpr float kMostVelocity_m_s = 10.0F, kMostAhead_m = 0.05F;
 
-// Under a standing robot the ground is level to a degree or so, and the accelerometer's mean is off
-// by its offset. The mean of both errs less, weighted by squared errors: 0.3 degrees (an offset of
-// 5 mg) and 0.5 (floors, joint zeros). More lean than this is the ground's: a ramp or an edge.
+// Standing, the mean of ground and accelerometer errs less than either, weighted by squared errors:
+// 0.3 degrees (an offset of 5 mg) and 0.5 (floors, joint zeros). More lean is the ground's: a ramp
+// or an edge.
 constexpr float kOffset_rad = 0.005F, kGround_rad = 0.009F;
 constexpr float kShareOfGround =
     kOffset_rad * kOffset_rad / (kOffset_rad * kOffset_rad + kGround_rad * kGround_rad);
@@ -31,11 +31,11 @@ constexpr float kMostUneven_rad = 0.035F;
 
 struct Leg {
   Vec3 sole_body_m;
-  Vec3 up_body;       ///< of the sole
-  bool fresh = true;  ///< all its joints reported this tick
+  Vec3 up_body;
+  bool fresh = true;  ///< all joints reported this tick
 };
 
-// The leg's pose by its encoders. Adds its mass and moment.
+// By encoders. Adds the leg's mass and moment.
 Leg look(const Params& params, const LegParams& leg, const Inputs& inputs, Vec3& moment_kg_m,
          float& mass_kg) {
   Leg seen;
@@ -72,7 +72,7 @@ Mat3 odometry_axes(const Vec3& up, const math::SinCos& heading) {
   return body;
 }
 
-// While the robot stands, averages the soles' up relative to the attitude's.
+// Averages the soles' up relative to the attitude's.
 void stand_on_ground(const EstimatorIn& in, const Leg* leg, float period_s, EstimatorState& state) {
   if (!in.standing || !in.imu_fresh || !leg[0].fresh || !leg[1].fresh) return;
   const Vec3 now = 0.5F * (leg[0].up_body + leg[1].up_body) - math::to_vec(in.attitude->up_body);
@@ -81,17 +81,15 @@ void stand_on_ground(const EstimatorIn& in, const Leg* leg, float period_s, Esti
   state.uneven = math::to_xyz(before + (period_s / state.stood_s) * (now - before));
 }
 
-// Tilt that the accelerometer's offset causes, judged by the ground. The ground's weight falls
-// smoothly as it leans.
+// Tilt by the accelerometer's offset. The ground counts less as it leans.
 Vec3 offset_of(const EstimatorState& state) {
   const Vec3 uneven = math::to_vec(state.uneven);
   const float part2 = uneven.squaredNorm() / (kMostUneven_rad * kMostUneven_rad);
   return (kShareOfGround * math::max(1.0F - part2, 0.0F)) * uneven;
 }
 
-// The attitude takes the accelerometer's mean as up. A velocity change leans it by velocity /
-// (gravity * averaging time): half a degree in each step's sway. The legs know the velocity, so
-// this removes the lean.
+// The attitude takes the accelerometer's mean as up: a velocity change leans it by velocity /
+// (gravity * averaging time). The legs know the velocity, so this removes the lean.
 Mat3 learn_up(const EstimatorIn& in, float period_s, EstimatorState& state) {
   Vec3 up = math::to_vec(in.attitude->up_body);
   if (in.imu_fresh) {
@@ -111,7 +109,7 @@ Mat3 learn_up(const EstimatorIn& in, float period_s, EstimatorState& state) {
   return odometry_axes(up, heading);
 }
 
-// True if the soles bear the robot. Gets each sole's share from force cells, else from the plan.
+// True if the soles bear the robot; shares come from force cells, else from the plan.
 bool feel(const Params& params, const EstimatorIn& in, float weight_n, float period_s,
           EstimatorState& state) {
   const bool cells = params.feet.device_id[0] * params.feet.device_id[1] != 0;  // on both
@@ -135,7 +133,7 @@ bool feel(const Params& params, const EstimatorIn& in, float weight_n, float per
   return in.on_feet;
 }
 
-// Motion over the soles since the last tick; false if no loaded leg reported.
+// Since the last tick; false if no loaded leg reported.
 bool moved_over_soles(const EstimatorState& state, const Leg* leg, const Vec3* sole_m,
                       Vec3& moved_m, float& height_m) {
   float share[kFeet] = {state.left, 1.0F - state.left};
@@ -159,7 +157,7 @@ Vec3 limited(const Vec3& v, float most) {
           math::clamp(v.z(), -most, most)};
 }
 
-// Moves the body by legs and accelerometer; returns its step.
+// By legs and accelerometer; returns the step.
 Vec3 follow_body(bool carried, const Vec3& moved_m, float height_m, const Vec3& accel_m_s2,
                  float period_s, EstimatorState& state) {
   Vec3 velocity = math::to_vec(state.body_velocity_m_s);
@@ -219,7 +217,7 @@ void update(const Params& params, EstimatorState& state, const EstimatorIn& in) 
   }
   const Vec3 step_m = follow_body(carried, moved_m, height_m, accel_m_s2, period_s, state);
   for (int side = 0; side < kFeet; ++side) {
-    // A silent leg's sole is assumed to stand.
+    // A silent leg's sole stands.
     Xyz& from_body_m = state.sole_from_body_m[side];
     from_body_m = math::to_xyz(leg[side].fresh ? sole_m[side] : math::to_vec(from_body_m) - step_m);
   }

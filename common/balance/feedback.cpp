@@ -12,7 +12,7 @@ FeedbackOut feedback(const BalanceTuning& tuning, const AttitudeOut& attitude,
   FeedbackOut out;
   if (!(tuning.feedback_enable > 0.5F)) return out;
   const float pitch_rad = attitude.pitch_rad - planned_pitch_rad;
-  // Less with two legs: otherwise a stiff robot trembles as it stands.
+  // Less with two legs: a stiff robot would tremble.
   const float share = swing == gait::kBoth ? kShareOfTwo : 1.0F;
   const auto law = [&](float tilt_gain, float rate_gain_s, float tilt_rad, float rate_rad_s) {
     return math::clamp(share * (tilt_gain * tilt_rad + rate_gain_s * rate_rad_s),

@@ -31,8 +31,7 @@ LegMotion follow(const Params& params, int side, const float* leg_rad, DriveStat
 
 namespace {
 
-// Torque for rotor and gears. Friction changes sign smoothly: a joint near rest may turn either
-// way.
+// Rotor and gears. Friction changes sign smoothly: a joint near rest may turn either way.
 float taken_nm(const BalanceTuning& tuning, const JointParams& joint, float load_nm, float rate,
                float accel) {
   constexpr float kSure_rad_s = 0.1F;
@@ -49,7 +48,7 @@ float taken_nm(const BalanceTuning& tuning, const JointParams& joint, float load
 void add_sag(const Params& params, const BalanceTuning& tuning, const LegParams& leg,
              const kinematics::LegChain& chain, const LegLoad& load, const LegMotion& motion,
              float* leg_rad) {
-  // Force beyond the joint and its moment about the origin, summed upwards.
+  // Summed upwards.
   Vec3 force_n = load.push_n;
   Vec3 moment_nm = math::cross(load.ground_m, load.push_n);
   const float hip_m = chain.link[0].position_m.z();

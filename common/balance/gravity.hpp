@@ -2,26 +2,26 @@
 #include "common/gait/gait.hpp"
 #include "common/kinematics/forward.hpp"
 
-/// Gravity feed-forward: a position servo sags by torque times compliance, so its goal goes that
-/// much further. The load is gravity and the inertia of the planned sway, together a leaning
-/// gravity: the ground pushes from the ZMP to the centre of mass.
+/// A position servo sags by torque times compliance, so its goal goes that much further. The load
+/// is gravity and the inertia of the planned sway: the ground pushes from the ZMP to the centre of
+/// mass.
 namespace verp::balance {
 
-/// Load of one leg. A link's acceleration is interpolated between body and foot by its height.
+/// A link's acceleration is interpolated between body and foot by height.
 struct LegLoad {
   Vec3 ground_m;        ///< where the ground pushes
   Vec3 push_n;          ///< its force
-  Vec3 body_lift_m_s2;  ///< of the body, plus gravity upwards
-  Vec3 foot_lift_m_s2;  ///< the same for the foot
+  Vec3 body_lift_m_s2;  ///< body's, plus gravity upwards
+  Vec3 foot_lift_m_s2;  ///< likewise
 };
 
-/// Planned motion of a leg's joints, for rotor inertia and gear friction.
+/// For rotor inertia and gear friction.
 struct LegMotion {
   float rate_rad_s[kLegJoints] = {};
   float accel_rad_s2[kLegJoints] = {};
 };
 
-/// Both legs' plan in the previous tick.
+/// The previous tick's plan.
 struct DriveState {
   float angle_rad[kFeet * kLegJoints] = {};
   float rate_rad_s[kFeet * kLegJoints] = {};
@@ -29,15 +29,15 @@ struct DriveState {
 };
 VERP_PACKED(DriveState);
 
-/// Takes one leg's planned angles. A jump, as at a plan's start, is no motion.
+/// A jump, as at a plan's start, is no motion.
 LegMotion follow(const Params& params, int side, const float* leg_rad, DriveState& state);
 
-/// Adds the servos' sag to one leg's angles (hip to ankle).
+/// Adds the servos' sag to one leg's angles, hip to ankle.
 void add_sag(const Params& params, const BalanceTuning& tuning, const LegParams& leg,
              const kinematics::LegChain& chain, const LegLoad& load, const LegMotion& motion,
              float* leg_rad);
 
-/// Where the ground pushes: the planned sole's point nearest to the ZMP.
+/// The planned sole's point nearest to the ZMP.
 Vec3 ground_point(const LegParams& leg, const gait::FootPose& foot, gait::Xy zmp_m);
 
 }  // namespace verp::balance

@@ -5,7 +5,7 @@
 namespace verp::balance {
 namespace {
 
-constexpr float kLearning = 0.2F;     // share of one landing's error that is learnt
+constexpr float kLearning = 0.2F;     // share of one landing's error
 constexpr float kLeastWay_m = 0.02F;  // shorter ways show noise
 constexpr float kLeast = -0.1F, kMost = 0.3F;
 constexpr float kSettling = 0.15F;  // share of a step until a landed leg rests
@@ -29,7 +29,7 @@ void learn_landing(const Params& params, const gait::GaitState& gait, const gait
                    const Inputs& inputs, bool as_planned, LandingState& state) {
   const bool exchanged = plan.carrying != state.carrying;
   state.carrying = plan.carrying;
-  // Goals lead the robot by less than a step: it lands the one that begins now.
+  // Goals lead the robot: it lands the step that begins now.
   const gait::Step& step = gait.queue[0];
   if (!exchanged || !as_planned || plan.carrying == gait::kBoth || step.landed != plan.carrying)
     return;

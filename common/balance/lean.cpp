@@ -5,11 +5,11 @@ namespace {
 
 constexpr float kMeanTilt_s = 1.0F;    // a few steps
 constexpr float kLeans_s = 1.5F;       // slower than the mean, to avoid oscillation
-constexpr float kMostLean_rad = 0.1F;  // 5 degrees of ground plus accelerometer offset
+constexpr float kMostLean_rad = 0.1F;  // 5 degrees of ground, and accelerometer offset
 
 void learn_about(float now_rad, float left_rad, float period_s, float& tilt_rad, float& lean_rad) {
   tilt_rad += period_s / kMeanTilt_s * (now_rad - tilt_rad);
-  const float slope_rad = tilt_rad - lean_rad;  // the tilt without the lean
+  const float slope_rad = tilt_rad - lean_rad;  // tilt without the lean
   const float wanted_rad = math::clamp(slope_rad, -left_rad, left_rad) - slope_rad;
   lean_rad += period_s / kLeans_s * (wanted_rad - lean_rad);
   lean_rad = math::clamp(lean_rad, -kMostLean_rad, kMostLean_rad);

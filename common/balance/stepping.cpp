@@ -7,23 +7,21 @@ namespace {
 
 using gait::Xy;
 
-// DCM errors left to the ankles, in half soles. Each step is off by millimetres, by a centimetre if
-// the robot differs from its Params. generic21 at 4 cm in 450 ms, tuning seed 1001, pushed at 16
-// phases from four sides.
+// DCM errors left to the ankles, in half soles. generic21 at 4 cm in 450 ms, tuning seed 1001,
+// pushed at 16 phases from four sides.
 constexpr float kAnkles_x = 0.29F, kAnkles_y = 0.36F;
-// Hurried servos lag, and stepping after the lag hurries them more: at 8 cm in 400 ms the DCM ends
-// each step 2 cm off. This many hip heights over the ankles, per unit of haste, are left to the
-// ankles too.
+// Hurried servos lag, and stepping after the lag hurries them more. Hip heights over the ankles,
+// per unit of haste, also left to the ankles.
 constexpr float kHurry = 0.135F;
-// Limits on a foot's offset and its speed, in hip heights over the ankles: 5 cm and 0.6 m/s for
-// generic21, the same servo travel as the longest steps.
+// Limits on a foot's offset and its speed, in hip heights over the ankles: generic21's 5 cm and 0.6
+// m/s.
 constexpr float kFarthest = 0.333F, kPace_per_s = 4.0F;
-// Share of the swing at each end with less offset speed: near the ground feet do not move sideways.
+// Near the ground feet do not move sideways: share of the swing.
 constexpr float kBegins = 1.0F / 6.0F;
 constexpr float kOver_m = 1e-5F;
-// A standing robot steps when the DCM is this far from the soles' middle, in half soles. Ankles
-// would hold up to the edge, but a step from there is too late. It takes kSteps steps, and as many
-// after each that moved off its plan by more than kStillOff_m.
+// A standing robot steps when the DCM is this far from the soles' middle, in half soles; at the
+// edge a step is too late. It takes kSteps steps, and as many after each that moved off its plan by
+// more than kStillOff_m.
 constexpr float kHeld = 0.8F;
 constexpr std::uint32_t kSteps = 4;
 constexpr float kStillOff_m = 0.01F;
@@ -36,14 +34,14 @@ float beyond(float value, float free) {
   return value - math::clamp(value, -free, free);
 }
 
-// Distance of the soles if the swing foot lands `by_m` off.
+// Room between the soles if the swing foot lands `by_m` off.
 float apart_m(const Params& params, const gait::Step& step, Xy by_m) {
   gait::Foothold foot[kFeet] = {step.after(gait::kLeft), step.after(gait::kRight)};
   foot[step.swing].at_m = foot[step.swing].at_m + by_m;
   return gait::soles_apart_m(params, foot[gait::kLeft], foot[gait::kRight]);
 }
 
-// DCM error over the stance foot, in the body's axes.
+// Over the stance foot, body's axes.
 Xy error_of(const Params& params, const SteppingIn& in, const gait::Step& step, float now_s,
             float yaw_rad) {
   const int side = step.carrying();
@@ -55,7 +53,7 @@ Xy error_of(const Params& params, const SteppingIn& in, const gait::Step& step, 
          gait::turned(planned_m, -yaw_rad);
 }
 
-// The swing foot's landing offset. The soles stay as far apart as in standing.
+// The soles stay as far apart as in standing.
 Xy landing_off(const Params& params, const Tuning& tuning, const SteppingIn& in,
                const gait::Step& step, float now_s, float yaw_rad) {
   const LegParams& leg = params.leg[step.swing];
@@ -74,7 +72,7 @@ Xy landing_off(const Params& params, const Tuning& tuning, const SteppingIn& in,
   return gait::turned(off_m, yaw_rad);
 }
 
-// Moves the swing foot's offset as fast as this phase allows.
+// As fast as this phase allows.
 void move_foot(const Tuning& tuning, const gait::Step& step, float time_s, float period_s,
                Xy wanted_m, SteppingState& state) {
   const float swing_s = step.duration_s() - step.double_support_s;
@@ -86,7 +84,7 @@ void move_foot(const Tuning& tuning, const gait::Step& step, float time_s, float
   state.foot_m = length_m > most_m ? state.foot_m + (most_m / length_m) * way_m : wanted_m;
 }
 
-// The landed foot becomes the stance foot, on its plan by definition; the rest is off by the
+// The landed foot becomes the stance foot, on its plan by definition; the rest moves by the
 // opposite.
 void exchange(const gait::Step& step, SteppingState& state) {
   state.body_m = state.body_m - state.foot_m;
@@ -95,20 +93,18 @@ void exchange(const gait::Step& step, SteppingState& state) {
   state.swing = step.swing;
 }
 
-// The plan's pendulum needs the multibody correction. Delayed joints are planned at other moments,
-// which are not shifted.
+// The plan's pendulum needs the multibody correction. Delayed joints are not shifted.
 bool may_step(const Tuning& tuning) {
   return tuning.balance.feedback_enable > 0.5F && tuning.balance.multibody_enable > 0.5F &&
          tuning.gait.joint_delay_s == 0.0F;
 }
 
-// The last step brings the feet together. queue[1] is always known.
+// The last step brings the feet together.
 bool answers(const Tuning& tuning, const SteppingIn& in) {
   return may_step(tuning) && in.gait->queue[1].swing != gait::kBoth;
 }
 
-// True if a standing robot's DCM leaves the soles ahead or behind. Sideways two soles reach as far
-// as a step could help.
+// Ahead or behind. Sideways two soles reach as far as a step could help.
 bool leaves_soles(const Params& params, const SteppingIn& in) {
   if (in.estimator->blind != 0) return false;
   const LegParams& leg = params.leg[gait::kLeft];
@@ -125,7 +121,7 @@ void swing_aside(const Params& params, const Tuning& tuning, const SteppingIn& i
   const float now_s = time_s - tuning.gait.look_ahead_s;
   Xy wanted_m{};
   if (answers(tuning, in)) {
-    // Still in the previous step, or position unknown: keep the offset.
+    // Still in the previous step, or position unknown.
     if (now_s < 0.0F || in.estimator->blind != 0) return;
     wanted_m = landing_off(params, tuning, in, step, now_s, math::atan2(body(1, 0), body(0, 0)));
   }

@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/// One CAN frame, classic or FD. Limits from ISO 11898-1 (identifiers, data length codes).
+/// Classic or FD. Limits from ISO 11898-1.
 namespace verp {
 
 inline constexpr std::uint8_t kMaxCanData = 8;
@@ -10,7 +10,7 @@ inline constexpr std::uint8_t kMaxCanFdData = 64;
 
 inline constexpr std::uint8_t kCanFdSizes[] = {12, 16, 20, 24, 32, 48, 64};  ///< beyond 8 bytes
 
-/// Smallest FD data size that holds `size` bytes; at most 64.
+/// At most 64.
 constexpr std::uint8_t can_fd_size(std::size_t size) {
   if (size <= kMaxCanData) return static_cast<std::uint8_t>(size);
   for (const std::uint8_t each : kCanFdSizes) {
@@ -32,11 +32,11 @@ constexpr std::uint8_t can_length_code(std::uint8_t size) {
 
 struct CanFrame {
   std::uint32_t id = 0;   ///< 11 bits, or 29 if `extended`
-  std::uint8_t size = 0;  ///< bytes of data in use
+  std::uint8_t size = 0;  ///< bytes in use
   bool extended = false;
-  bool remote = false;           ///< classic remote request, without data
+  bool remote = false;           ///< classic, without data
   bool fd = false;               ///< CAN FD format
-  bool bit_rate_switch = false;  ///< FD only: faster data phase
+  bool bit_rate_switch = false;  ///< FD: faster data phase
   std::uint8_t data[kMaxCanFdData] = {};
 
   constexpr bool operator==(const CanFrame& other) const {
@@ -50,16 +50,14 @@ struct CanFrame {
   }
 };
 
-/// Arbitration rank: the smaller one wins the bus. Bits in wire order: 11 identifier bits, RTR
-/// (SRR), IDE, the rest of an extended identifier (ISO 11898-1: a dominant 0 overwrites a recessive
-/// 1).
+/// The smaller one wins the bus. Bits in wire order: 11 identifier bits, RTR (SRR), IDE, the rest
+/// of an extended identifier (ISO 11898-1: a dominant 0 overwrites a recessive 1).
 constexpr std::uint32_t can_rank(const CanFrame& frame) {
   const std::uint32_t remote = frame.remote ? 1 : 0;
   if (!frame.extended) return (frame.id & 0x7FFu) << 21 | remote << 20;
   return (frame.id >> 18 & 0x7FFu) << 21 | 3u << 19 | (frame.id & 0x3FFFFu) << 1 | remote;
 }
 
-/// True if the format allows identifier, size and flags.
 constexpr bool is_sound(const CanFrame& frame) {
   if (frame.id > (frame.extended ? 0x1FFFFFFFu : 0x7FFu)) return false;
   if (frame.fd) return !frame.remote && frame.size == can_fd_size(frame.size);

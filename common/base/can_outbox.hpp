@@ -6,8 +6,7 @@
 
 namespace verp {
 
-/// CAN frames waiting for the wire, in order of arbitration; frames of one identifier keep their
-/// order.
+/// Frames that wait for the wire, in order of arbitration; first in, first out for one identifier.
 template <std::size_t kCapacity>
 class CanOutbox {
  public:
@@ -30,7 +29,7 @@ class CanOutbox {
     // Keeps the oldest of equal frames first.
     for (std::size_t i = gone; i < size_; ++i) frames_[i] = frames_[i + 1];
   }
-  /// Returns a frame that could not be sent, ahead of others of its identifier. False if full.
+  /// A frame that could not be sent goes ahead of others of its identifier. False if full.
   bool put_back(const CanFrame& frame) {
     if (full()) return false;
     for (std::size_t i = size_; i > 0; --i) frames_[i] = frames_[i - 1];

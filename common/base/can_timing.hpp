@@ -1,15 +1,15 @@
 #pragma once
 #include <cstdint>
 
-/// Bit timing of a classic CAN controller: 1 + before + after time quanta, sampled before `after`
-/// (ISO 11898-1, 11.3). Evaluated at compile time, so an impossible rate fails the build.
+/// Classic CAN: 1 + before + after time quanta, sampled before `after` (ISO 11898-1, 11.3). An
+/// impossible rate fails the build.
 namespace verp {
 
 struct CanTiming {
-  std::uint32_t prescaler = 0;  ///< of the controller's clock; 0: rate impossible
-  std::uint32_t before = 0;     ///< quanta of propagation and phase segment 1
-  std::uint32_t after = 0;      ///< quanta of phase segment 2
-  std::uint32_t jump = 0;       ///< quanta that a resynchronisation may move
+  std::uint32_t prescaler = 0;  ///< of the controller's clock; 0: impossible
+  std::uint32_t before = 0;     ///< propagation and phase segment 1
+  std::uint32_t after = 0;      ///< phase segment 2
+  std::uint32_t jump = 0;       ///< most quanta of a resynchronisation
 
   constexpr bool possible() const { return prescaler != 0; }
   constexpr std::uint32_t quanta() const { return 1 + before + after; }
@@ -21,8 +21,8 @@ struct CanSampling {
 };
 
 /// The exact rate, sampled as close to `sampling.best` as possible, then with the most quanta of 8
-/// to 25. Limits from the registers of SJA1000, bxCAN and ZynqMP: at most 16 quanta before and 8
-/// after; at least 2 after, which an SJA1000 needs to read a bit.
+/// to 25. SJA1000, bxCAN and ZynqMP: at most 16 quanta before and 8 after; at least 2 after, which
+/// an SJA1000 needs to read a bit.
 constexpr CanTiming can_timing(std::uint32_t clock_hz, std::uint32_t bit_rate_hz,
                                std::uint32_t most_prescaler, CanSampling sampling = {}) {
   CanTiming timing;

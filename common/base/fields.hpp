@@ -9,7 +9,7 @@
 ///     VERP_PACKED(Tilt);
 ///
 /// Digest, trace, print, diff and the Params image use that list. VERP_PACKED rejects a missing
-/// field or padding, so the struct's memory *is* its canonical little-endian byte image.
+/// field or padding: the memory *is* the canonical little-endian image.
 #define VERP_FIELDS(...)                                    \
   template <class Self, class Visit>                        \
   static constexpr void fields(Self& self, Visit&& visit) { \
@@ -37,7 +37,6 @@ concept HasFields = requires(T& t) {
   T::fields(t, [](const char*, auto&) {});
 };
 
-/// Sum of the sizes of T's leaves.
 template <class T>
 consteval std::size_t packed_size() {
   if constexpr (std::is_array_v<T>) {
@@ -53,7 +52,7 @@ consteval std::size_t packed_size() {
   }
 }
 
-/// Calls leaf(value) for every scalar in `value`, in field order.
+/// Every scalar, in field order.
 template <class T, class Leaf>
 constexpr void for_each_leaf(T& value, Leaf&& leaf) {
   using Plain = std::remove_const_t<T>;

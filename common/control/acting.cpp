@@ -11,13 +11,13 @@ namespace {
 
 using safety::Mode;
 
-constexpr float kPressed_n = 2.0F;  // more than an unloaded cell reports
+constexpr float kPressed_n = 2.0F;  // more than an unloaded cell
 
 bool plays(Mode mode) {
   return mode == Mode::kActing || mode == Mode::kFalling || mode == Mode::kGettingUp;
 }
 
-// A stop leaves by the exit. A fall's action cannot be stopped.
+// By the exit. A fall's action cannot be stopped.
 bool shall_stop(const State& state, const Inputs& inputs, const AdmitOut& admitted) {
   constexpr std::uint32_t kNoMore = safety::kAskRelax | safety::kOperatorQuiet | safety::kPowerBad;
   if (state.machine.mode == Mode::kFalling) return false;
@@ -26,7 +26,7 @@ bool shall_stop(const State& state, const Inputs& inputs, const AdmitOut& admitt
          (state.machine.faults & safety::kPowerFaults) != 0;
 }
 
-// A foot without sensors is assumed to be where the action wants it.
+// Without sensors, a foot is where the action wants it.
 bool is_pressed(const Params& params, const Inputs& inputs, int side) {
   if (params.feet.device_id[side] == 0) return true;
   std::int32_t sum = 0;
@@ -53,11 +53,11 @@ action::PlayerOut play(const Params& params, const action::Library& actions, Sta
   return action::update(params, actions, state.action, in);
 }
 
-// Both legs of the action's pose, body frame.
+// Body frame.
 struct Legs {
   kinematics::LegChain chain[kFeet];
   Vec3 up[kFeet];      ///< of each sole
-  Vec3 sole_m[kFeet];  ///< middle of each sole
+  Vec3 sole_m[kFeet];  ///< middle of each
 };
 
 Legs legs_of(const Params& params, const float* angle_rad) {
@@ -76,7 +76,7 @@ Legs legs_of(const Params& params, const float* angle_rad) {
   return legs;
 }
 
-// The action leans the body against its stance soles; only the rest is an error.
+// Only the lean beyond the action's is an error.
 balance::FeedbackOut keep_up(const BalanceTuning& tuning, const Vec3& up,
                              const action::PlayerOut& played,
                              const balance::AttitudeOut& attitude) {
@@ -89,8 +89,7 @@ balance::FeedbackOut keep_up(const BalanceTuning& tuning, const Vec3& up,
   return balance::feedback(tuning, rest, pitch_rad, swing);
 }
 
-// Adds sag, balance feedback and zeros to the legs. Separate to save stack: the centre of mass
-// takes 1.6 KB, before these chains exist.
+// Separate to save stack: the centre of mass takes 1.6 KB before these chains exist.
 [[gnu::noinline]] void balance_legs(const Params& params, const action::PlayerOut& played,
                                     const balance::AttitudeOut& attitude, const Vec3& com_m,
                                     State& state, float* goal_rad) {
@@ -102,7 +101,7 @@ balance::FeedbackOut keep_up(const BalanceTuning& tuning, const Vec3& up,
   const Vec3 lift = math::kGravityMS2 * up;
   for (int side = 0; side < kFeet; ++side) {
     const LegParams& leg = params.leg[side];
-    // Under the centre of mass, as far as this sole reaches.
+    // As far as this sole reaches.
     const Vec3 below_m = com_m - (com_m - legs.sole_m[side]).dot(up) * up;
     const Vec3 off_m = below_m - legs.sole_m[side];
     const float most_m = 0.5F * (leg.sole_left_m + leg.sole_right_m);

@@ -5,12 +5,12 @@
 /// Actions in the tick.
 namespace verp::control {
 
-/// Sets a requested action's condition, and drops a walk request meanwhile: the walk ends first.
+/// Drops a walk request meanwhile: the walk ends first.
 void ask_action(const action::Library& actions, const State& state, const Inputs& inputs,
                 AdmitOut& admitted);
 
-/// While the safety table plays an action, replaces `wanted` by its angles with balance and gravity
-/// on the legs. The ground is assumed level.
+/// While the safety table plays an action, `wanted` gets its angles, with balance and gravity on
+/// the legs. The ground is assumed level.
 void act(const Params& params, const action::Library& actions, State& state, const Inputs& inputs,
          const AdmitOut& admitted, const balance::AttitudeOut& attitude, Wanted& wanted);
 

@@ -28,22 +28,20 @@ Vec3 in_body(const ImuParams& imu, const std::int16_t* count, float scale) {
   return scale * (body_imu * raw);
 }
 
-// At least one, so that ages grow even if the tick stands still. A tick that runs backwards counts
-// as a long silence.
+// At least one, so that ages grow. A tick that runs backwards counts as a long silence.
 std::uint32_t count_periods(const Inputs& inputs, AdmitState& state) {
   const std::uint32_t periods = inputs.tick - state.tick;
   state.tick = inputs.tick;
   return periods > 0 ? periods : 1;
 }
 
-// Periods until a silence is stale. At least one: a servo read every tick is never stale.
+// At least one: a servo read every tick is never stale.
 int ticks(const Params& params, float duration_s) {
   const float period_s = static_cast<float>(params.period_us) * 1e-6F;
   const std::int32_t whole = math::to_int32(duration_s / period_s);
   return whole > 1 ? whole : 1;
 }
 
-// Counts consecutive equal IMU readings.
 bool is_frozen(const Inputs& inputs, AdmitState& state) {
   std::uint32_t changed = 0;
   for (int i = 0; i < 3; ++i) {
@@ -60,7 +58,7 @@ bool is_frozen(const Inputs& inputs, AdmitState& state) {
   return state.imu_alike == kFrozenReadings;
 }
 
-// After `lost` periods the last tilt means nothing: the robot may have fallen.
+// After `lost` periods the robot may have fallen.
 void read_imu(const Params& params, const Inputs& inputs, int lost, std::uint32_t periods,
               AdmitState& state, AdmitOut& out) {
   state.imu_age = older(state.imu_age, periods);
@@ -72,11 +70,11 @@ void read_imu(const Params& params, const Inputs& inputs, int lost, std::uint32_
   out.accel_body_m_s2 = in_body(params.imu, inputs.accel_count, params.imu.accel_m_s2_per_count);
 }
 
-// Returns the age of the oldest servo.
+// Returns the oldest servo's age.
 std::uint8_t count_ages(const Params& params, std::uint32_t fresh, std::uint32_t periods,
                         AdmitState& state) {
   const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << params.joint_count) - 1U);
-  // Fast path for nearly every tick; the loop would be most of this stage's cost.
+  // Fast path: the loop would be most of this stage's cost.
   if ((fresh & all) == all) {
     for (std::uint8_t& age : state.servo_age) age = 0;
     return 0;
@@ -90,8 +88,8 @@ std::uint8_t count_ages(const Params& params, std::uint32_t fresh, std::uint32_t
   return oldest;
 }
 
-// The oldest servo decides: one silent knee is enough to fall. Skipped periods were silent for all
-// devices, even if they report afterwards.
+// The oldest servo decides: one silent knee is enough to fall. In skipped periods all devices were
+// silent.
 void watch_silence(const Params& params, const Tuning& tuning, const Inputs& inputs, int lost,
                    std::uint32_t periods, AdmitState& state, AdmitOut& out) {
   const std::uint8_t oldest = count_ages(params, inputs.fresh, periods, state);
@@ -106,7 +104,6 @@ void watch_silence(const Params& params, const Tuning& tuning, const Inputs& inp
   if (oldest < hold) out.conditions |= kServosKnown;
 }
 
-// Counts a reading of servo `bit`.
 void count_alarm(std::uint32_t bit, bool bad, AdmitState& state) {
   static_assert(kAlarmReadings == 3, "two bits count to three");
   const std::uint32_t before = state.alarm_low;

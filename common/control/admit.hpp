@@ -4,50 +4,47 @@
 #include "common/math/linear.hpp"
 #include "common/model/params.hpp"
 
-/// First stage: converts raw counts to physical values, ages silent devices, checks a parameter
-/// write.
+/// First stage: converts raw counts, ages silent devices, checks a parameter write.
 namespace verp {
 
-/// Bad readings in a row that alarm a servo; one may be noise. Each of 21 servos is read every 0.2
-/// s: in half a second no glitch lasts and no hot servo cools.
+/// In a row, to alarm a servo. Each of 21 servos is read every 0.2 s: in half a second no glitch
+/// lasts and no hot servo cools.
 inline constexpr int kAlarmReadings = 3;
-/// Low readings in a row, of any servos, that mean a low supply, because they share it. 0.2 s at 10
-/// ms outlasts a step's current peak. A single low servo has a bad cable and reports a hardware
-/// error.
+/// In a row, of any servos, because they share the supply. 0.2 s at 10 ms outlasts a step's current
+/// peak. A single low servo has a bad cable and reports a hardware error.
 inline constexpr std::uint8_t kSupplyReadings = 21;
 
-/// Equal fresh readings in a row that mean a frozen, hence silent IMU. Noise moves an ICM-20648's
-/// counts by 1.5 (gyro) and 9 (accelerometer) one sigma: two readings are equal once in five
-/// million. This many are once in 1e15, even with all sigmas a third of a count; at 10 ms an IMU
-/// may update at 5 Hz.
+/// Equal fresh readings in a row that mean a frozen IMU. Noise moves an ICM-20648's counts by 1.5
+/// (gyro) and 9 (accelerometer) one sigma: this many are equal once in 1e15, even with all sigmas a
+/// third of a count. At 10 ms an IMU may update at 5 Hz.
 inline constexpr std::uint8_t kFrozenReadings = 20;
-/// Age of a device that was never heard: beyond every limit.
+/// Beyond every limit.
 inline constexpr std::uint8_t kNeverHeard = 255;
 
-/// Ages count all control periods, also those without a tick: a stalled controller hears nothing.
+/// Ages count all control periods, also those without a tick.
 struct AdmitState {
-  std::uint8_t servo_age[kMaxJoints] = {};  ///< since the servo last reported, up to 255
+  std::uint8_t servo_age[kMaxJoints] = {};  ///< up to 255
   std::uint32_t tick = 0;                   ///< Inputs::tick of the last tick
-  std::uint32_t operator_age = 0;           ///< since the last order, saturating
-  /// Bit j of both: readings in a row of servo j with heat or an error. Gray code (high, low): 00,
-  /// 01, 11, 10 for 0 to kAlarmReadings.
+  std::uint32_t operator_age = 0;           ///< since the last order
+  /// Bit j: readings in a row of servo j with heat or an error. Gray code (high, low): 00, 01, 11,
+  /// 10 for 0 to kAlarmReadings.
   std::uint32_t alarm_low = 0;
   std::uint32_t alarm_high = 0;
-  std::int16_t imu_count[6] = {};  ///< last fresh gyro and accelerometer
+  std::int16_t imu_count[6] = {};  ///< gyro, accelerometer
   std::uint8_t imu_age = 0;        ///< up to 255
-  std::uint8_t voltage_low = 0;    ///< low readings in a row, of any servo, up to 255
+  std::uint8_t voltage_low = 0;    ///< readings in a row, up to 255
   std::uint8_t started = 0;        ///< 0 until start()
-  std::uint8_t imu_alike = 0;      ///< fresh readings without a change, up to kFrozenReadings
+  std::uint8_t imu_alike = 0;      ///< unchanged readings, up to kFrozenReadings
   VERP_FIELDS(servo_age, tick, operator_age, alarm_low, alarm_high, imu_count, imu_age, voltage_low,
               started, imu_alike)
 };
 VERP_PACKED(AdmitState);
 
 struct AdmitOut {
-  std::uint32_t conditions = 0;  ///< safety::Condition bits from the inputs alone
-  std::uint32_t faults = 0;      ///< safety::Fault bits raised this tick
+  std::uint32_t conditions = 0;  ///< safety::Condition, from the inputs alone
+  std::uint32_t faults = 0;      ///< safety::Fault, of this tick
   bool imu_fresh = false;
-  /// The IMU is fresh after stale_release_s: forget earlier readings.
+  /// After a silence of stale_release_s: forget earlier readings.
   bool imu_anew = false;
   Vec3 gyro_body_rad_s{0, 0, 0};
   Vec3 accel_body_m_s2{0, 0, 0};
@@ -58,10 +55,10 @@ struct AdmitOut {
   float head_tilt_rad = 0;
 };
 
-/// Call before the first tick, with its inputs: marks every device as never heard.
+/// Before the first tick, with its inputs: no device was heard yet.
 void start(const Params& params, const Inputs& inputs, AdmitState& state);
 
-/// Also applies a parameter write to `tuning`.
+/// Applies a parameter write to `tuning`.
 AdmitOut admit(const Params& params, AdmitState& state, Tuning& tuning, const Inputs& inputs);
 
 }  // namespace verp

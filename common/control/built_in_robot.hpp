@@ -3,7 +3,7 @@
 
 namespace verp::control {
 
-/// An invented pair of legs, for the boot check before it trusts Params. Overwrites `params`.
+/// Invented legs, for the boot check before it trusts Params.
 void make_built_in_robot(Params& params);
 
 }  // namespace verp::control

@@ -20,7 +20,7 @@ void digest_state(const Inputs& inputs, const Outputs& outputs, State& state) {
   };
   set(Stage::kAdmit, digest_of(Stage::kAdmit, inputs, state.tuning, state.admit));
   set(Stage::kEstimate, digest_of(Stage::kEstimate, state.attitude, state.estimator, state.steer));
-  // All zero and skipped while no action plays or is requested.
+  // Skipped while all zero.
   const bool acts = state.action.number != 0 || state.action.asked != 0;
   set(Stage::kPlan, acts ? digest_of(Stage::kPlan, state.gait, state.action)
                          : digest_of(Stage::kPlan, state.gait));

@@ -3,8 +3,7 @@
 
 namespace verp {
 
-/// Digests a finished tick's stages, each its state and output, and extends the chain. Not inlined,
-/// to measure its cost.
+/// Digests each stage's state and output and extends the chain. Not inlined, to measure its cost.
 [[gnu::noinline]] void digest_state(const Inputs& inputs, const Outputs& outputs, State& state);
 
 }  // namespace verp

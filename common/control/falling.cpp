@@ -5,17 +5,16 @@ namespace {
 
 using safety::Mode;
 
-// Capture point of an inverted pendulum, as an angle: tilt plus rate times sqrt(height / g). A CoM
-// 0.25 m high, usual for this size, gives 0.16 s; a taller robot's fall is seen slightly late.
+// Capture point as an angle: tilt plus rate times sqrt(height / g). A CoM 0.25 m high gives 0.16 s;
+// a taller robot's fall is seen slightly late.
 constexpr float kLookAhead_s = 0.16F;
-// No step catches the body beyond it.
+// No step helps beyond it.
 constexpr float kNoReturn_rad = 0.7F;
 // A knock turns a body fast, not far.
 constexpr float kLeastTilt_rad = 0.25F;
 constexpr int kConfirm_ms = 20;
 constexpr float kLeastLevel = 0.05F;  // too upright for a fall direction
 
-// How fast the body's up turns away from the world's.
 float tilt_rate_rad_s(const Vec3& up, float level, const balance::AttitudeOut& attitude) {
   if (level < kLeastLevel) return 0.0F;
   return (attitude.roll_rate_rad_s * up.y() - attitude.pitch_rate_rad_s * up.x()) / level;
@@ -29,7 +28,7 @@ bool will_meet_ground(const State& state, const balance::AttitudeOut& attitude) 
          tilt_rad + kLookAhead_s * tilt_rate_rad_s(up, level, attitude) > kNoReturn_rad;
 }
 
-// By the lower side; a sitting or kneeling robot by the side it leans to.
+// By the lower side, else the side it leans to.
 std::uint8_t get_up_action(const action::Library& actions, const State& state) {
   const Xyz& up = state.attitude.up_body;
   const std::uint8_t aside =

@@ -3,22 +3,21 @@
 #include "common/balance/attitude.hpp"
 #include "common/control/state.hpp"
 
-/// Falls in the tick: detection before impact, and getting up.
+/// Detection before impact, and getting up.
 namespace verp::control {
 
-/// Duration of a fall. An inverted pendulum of 0.25 m takes 0.4 s from detection (a third of a
-/// radian) to the ground; the rest is bouncing.
+/// An inverted pendulum of 0.25 m takes 0.4 s from detection (a third of a radian) to the ground;
+/// the rest is bouncing.
 inline constexpr std::int32_t kFallLasts_us = 700'000;
-/// The robot gets up after being limp this long: it lies still, and the accelerometer gives its
-/// tilt.
+/// Then it lies still, and the accelerometer gives its tilt.
 inline constexpr std::int32_t kLieStill_us = 1'000'000;
 
-/// Sets the conditions of a fall and of getting up, if the robot has those actions (common/action).
-/// Without them it falls limp and stays down.
+/// Conditions of a fall and of getting up. Without the actions (common/action) it falls limp and
+/// stays down.
 void watch_fall(const Params& params, const action::Library& actions, State& state,
                 const Inputs& inputs, const balance::AttitudeOut& attitude, AdmitOut& admitted);
 
-/// The action that the mode starts itself; 0: none.
+/// 0: none.
 std::uint8_t own_action(const action::Library& actions, const State& state);
 
 }  // namespace verp::control

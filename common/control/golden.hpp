@@ -3,13 +3,13 @@
 
 namespace verp::control {
 
-/// Posture number `seed`, angles spread over each joint's range. `angle_rad` holds kMaxJoints.
+/// Angles spread over each joint's range. `angle_rad` holds kMaxJoints.
 void golden_posture(const Params& params, std::uint32_t seed, float* angle_rad);
 
-/// Forward and inverse kinematics of that posture: the same bits on every core.
+/// The same bits on every core.
 GoldenVector golden_vector(const Params& params, std::uint32_t seed);
 
-/// Number of the image's golden vectors that this core reproduces; kGoldenVectors if all is well.
+/// That this core reproduces; kGoldenVectors if all is well.
 int count_golden_matches(const ParamsImage& image);
 
 }  // namespace verp::control

@@ -40,7 +40,7 @@ void sense(const Params& params, std::uint32_t tick, std::uint32_t& random, cons
   const float up_count = scale > 0.0F && scale < 1.0F ? kGravity / scale : 0.0F;
   for (int i = 0; i < 3; ++i) {
     in.gyro_count[i] = noise(random);
-    // Row 2 of the mounting: the body's up in the IMU frame.
+    // The body's up in the IMU frame.
     const float rest = params.imu.body_imu[6 + i] * up_count;
     const auto count = static_cast<std::int32_t>(rest > -30000.0F && rest < 30000.0F ? rest : 0.0F);
     in.accel_count[i] = static_cast<std::int16_t>(count + noise(random));
@@ -51,7 +51,7 @@ void sense(const Params& params, std::uint32_t tick, std::uint32_t& random, cons
 
 std::uint64_t self_test_digest(const Params& params, State& scratch) {
   scratch = State{};
-  // A known gyro bias, so that the walk begins in these ticks.
+  // A known gyro bias: the walk begins in these ticks.
   scratch.attitude.still_s = balance::kCalibrated_s;
   Inputs inputs;
   Outputs outputs;
@@ -61,7 +61,7 @@ std::uint64_t self_test_digest(const Params& params, State& scratch) {
     const bool walks = tick >= kStandUntil && tick < kWalkUntil;
     inputs.command.request = walks ? Request::kWalk : Request::kStand;
     inputs.command.vx_tenth_mm_s = 1000;
-    inputs.parameter_id = kRiseId;  // a short rise leaves more ticks for steps
+    inputs.parameter_id = kRiseId;  // leaves more ticks for steps
     inputs.parameter_bits = std::bit_cast<std::uint32_t>(kRise_s);
     if (tick == 0) inputs.flags |= kParameterWrite;
     inputs.command.sequence = static_cast<std::uint8_t>(tick);

@@ -10,7 +10,7 @@
 namespace verp::control {
 namespace {
 
-// One leg's angles for the planned sole, each joint with its own delay, if any.
+// Each joint with its own delay, if any.
 kinematics::LegAngles leg_angles(const Params& params, const State& state,
                                  const gait::Posture& posture, int side, const float* previous) {
   const LegParams& leg = params.leg[side];
@@ -28,14 +28,14 @@ kinematics::LegAngles leg_angles(const Params& params, const State& state,
   return angles;
 }
 
-// Third to sixth state after an exchange: landed, and the next not begun.
+// Third to sixth state after an exchange.
 bool in_mid_step(const gait::GaitOut& plan) {
   const int state = plan.cycle_state & 7;
   return state >= 3 && state <= 6;
 }
 
-// True if one foot is in the air and the other's pressure is well inside its sole, with exact,
-// undelayed angles. Without sensors a foot is assumed flat in mid-step.
+// One foot in the air, the other's pressure well inside its sole, exact undelayed angles. Without
+// sensors, mid-step.
 bool carries_flat(const Params& params, const State& state, const gait::GaitOut& plan,
                   const Inputs& inputs, int side, const kinematics::LegAngles& angles) {
   if (plan.swing == gait::kBoth || plan.swing == side || angles.flags != 0 ||
@@ -45,7 +45,7 @@ bool carries_flat(const Params& params, const State& state, const gait::GaitOut&
   return (inputs.flags & kFeetFresh) != 0 && balance::stands_flat(inputs.foot_count[side]);
 }
 
-// Delayed joints are planned at other moments than the aim.
+// Delayed joints are planned at other moments.
 bool aims(const Tuning& tuning) {
   return tuning.balance.zeros_enable > 0.5F && tuning.gait.joint_delay_s == 0.0F;
 }
@@ -59,8 +59,8 @@ balance::LegLoad load_of(const Params& params, const gait::GaitOut& plan, int si
           gravity + math::to_vec(foot.accel_m_s2)};
 }
 
-// Start of each leg's search. A robot that does not walk may be in any pose: take the angles of its
-// last weighing.
+// Start of each leg's search. A robot that does not walk may be in any pose: take its last
+// weighing.
 struct Before {
   float leg_rad[kFeet][kLegJoints];
 };
@@ -77,7 +77,6 @@ Before angles_before(const Params& params, const State& state) {
   return before;
 }
 
-// All joints except the legs'.
 void rest_joints(const Params& params, const State& state, const AdmitOut& admitted,
                  const gait::GaitOut& plan, Wanted& wanted) {
   for (int j = 0; j < params.joint_count; ++j) wanted.angle_rad[j] = params.joint[j].stand_rad;
@@ -87,7 +86,7 @@ void rest_joints(const Params& params, const State& state, const AdmitOut& admit
   for (int j = 0; j < params.joint_count; ++j) wanted.plain_rad[j] = wanted.angle_rad[j];
 }
 
-// The plan with feet aimed by the learnt landings.
+// Feet aimed by the learnt landings.
 gait::Posture aim_feet(const Params& params, State& state, const Inputs& inputs,
                        const gait::GaitOut& plan) {
   gait::Posture aimed = plan.posture;
@@ -103,7 +102,6 @@ gait::Posture aim_feet(const Params& params, State& state, const Inputs& inputs,
   return aimed;
 }
 
-// Adds sag, zeros and balance to a leg.
 void correct_leg(const Params& params, State& state, const Inputs& inputs,
                  const balance::AttitudeOut& attitude, const gait::GaitOut& plan, float mass_kg,
                  int side, kinematics::LegAngles& angles) {

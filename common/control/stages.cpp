@@ -11,14 +11,14 @@ namespace {
 using safety::Mode;
 
 constexpr std::int32_t kLongest_us = 1'000'000'000;  // durations saturate here
-constexpr float kMaxHeadingError_rad = 0.5F;  // so that a robot turned by hand corrects gently
+constexpr float kMaxHeadingError_rad = 0.5F;         // a robot turned by hand corrects gently
 
-// In a cycle of whole ticks the gyro is read at the same moments of every step. The motion of
-// hurried feet between them adds up to a false turn: 4 degrees a minute (generic21, 0.42 m/s; 2
-// with the sway). So the gait's clock gains a tick in this many, then loses one. Calm steps need
-// none: 4 cm in 450 ms are off by 1.7, and the sway adds 0.5 mm of ZMP bias.
+// In a cycle of whole ticks the gyro is read at the same moments of every step, and hurried feet
+// add up to a false turn: 4 degrees a minute (generic21, 0.42 m/s; 2 with the sway). So the gait's
+// clock gains a tick in this many, then loses one. Not in calm steps: the sway adds 0.5 mm of ZMP
+// bias.
 constexpr std::uint32_t kSway_ticks = 256;
-constexpr float kHurried = 0.5F;  // Step::haste from which the clock sways: 0.31 m/s for generic21
+constexpr float kHurried = 0.5F;  // the clock sways from here: 0.31 m/s for generic21
 
 std::int32_t gait_period_us(const Params& params, const State& state) {
   const auto period_us = static_cast<std::int32_t>(params.period_us);
@@ -31,7 +31,7 @@ float period_s(const Params& params) {
   return static_cast<float>(params.period_us) * 1e-6F;
 }
 
-// Power trouble is latched with its fault: a supply that sags under load stays bad without it.
+// Latched with its fault: a supply that sags under load recovers without it.
 bool power_bad(const State& state, const AdmitOut& admitted) {
   return (admitted.conditions & safety::kPowerBad) != 0 ||
          (state.machine.faults & safety::kPowerFaults) != 0;
@@ -52,11 +52,10 @@ bool walks(const State& state, const AdmitOut& admitted) {
          (admitted.conditions & kNoMore) == 0 && !power_bad(state, admitted);
 }
 
-// Heading error for one step: the error and its integral, to meet a slip in every step before it
-// happens.
+// The error and its integral, to meet a slip in every step before it happens.
 float heading_error(const Params& params, const State& state, const AdmitOut& admitted,
                     const balance::AttitudeOut& attitude, SteerState& steer) {
-  constexpr float kSumming_per_s = 0.15F;  // far slower than the plan's lead of up to four steps
+  constexpr float kSumming_per_s = 0.15F;  // far slower than the plan's lead of four steps
   if (state.machine.mode != Mode::kWalking) {
     steer.heading_rad = attitude.heading_rad;
     steer.slip_rad = 0;
@@ -65,7 +64,7 @@ float heading_error(const Params& params, const State& state, const AdmitOut& ad
   steer.heading_rad = math::wrap_angle(steer.heading_rad + period_s(params) * admitted.wz_rad_s);
   const float error_rad = math::clamp(math::wrap_angle(steer.heading_rad - attitude.heading_rad),
                                       -kMaxHeadingError_rad, kMaxHeadingError_rad);
-  // A larger error is an order beyond what steps can turn, not slip.
+  // A larger error is an order beyond what steps can turn.
   if (math::abs(error_rad) < kMaxHeadingError_rad) {
     steer.slip_rad = math::clamp(steer.slip_rad + kSumming_per_s * period_s(params) * error_rad,
                                  -kMaxHeadingError_rad, kMaxHeadingError_rad);
@@ -91,7 +90,7 @@ std::uint32_t conditions_of(const State& state, const AdmitOut& admitted,
   const SafetyTuning& tuning = state.tuning.safety;
   std::uint32_t conditions = admitted.conditions;
   const auto microseconds = [](float duration_s) { return math::to_int32(duration_s * 1e6F); };
-  // A lying robot must not begin to rise: without torque a fall needs no confirmation.
+  // A lying robot must not begin to rise.
   const bool limp = !safety::has_torque(state.machine.mode);
   const std::int32_t confirm_us = limp ? 0 : microseconds(tuning.fall_confirm_s);
   if (state.steer.fallen_us > confirm_us) conditions |= safety::kFell;
@@ -167,7 +166,7 @@ void watch_push(const Params& params, State& state, AdmitOut& admitted) {
   if (mode != Mode::kStanding && mode != Mode::kWalking) return;
   if (!balance::pushed(params, state.tuning, stepping_in(params, state), state.stepping)) return;
   admitted.conditions |= safety::kPushed;
-  // The operator did not ask for a walk: step on the spot.
+  // A push: step on the spot.
   if ((admitted.conditions & safety::kAskWalk) == 0) {
     admitted.vx_m_s = admitted.vy_m_s = admitted.wz_rad_s = 0.0F;
   }
@@ -175,7 +174,7 @@ void watch_push(const Params& params, State& state, AdmitOut& admitted) {
 
 gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& admitted,
                           const balance::AttitudeOut& attitude) {
-  // A fall ends the walk; nothing is learnt from it.
+  // A fall ends the walk; nothing is learnt.
   if (lies(state.machine.mode) && state.gait.queued > 0) {
     state.gait = gait::GaitState{};
     state.stepping = balance::SteppingState{};
@@ -202,7 +201,7 @@ void lean(const Params& params, State& state, const AdmitOut& admitted,
   const Mode mode = state.machine.mode;
   const bool off = !(state.tuning.balance.feedback_enable > 0.5F);
   if (off || lies(mode) || !safety::has_torque(mode)) state.lean = balance::LeanState{};
-  // A standing robot learns the gyro's bias and must not turn.
+  // A standing robot learns the gyro's bias.
   if (!off && mode == Mode::kWalking && admitted.imu_fresh) {
     const float planned_rad = state.tuning.gait.trunk_pitch_rad;
     balance::learn_lean(attitude, planned_rad, period_s(params), state.lean);
@@ -245,11 +244,10 @@ void gate(const Params& params, State& state, const AdmitOut& admitted,
         machine);
   if (machine.mode == Mode::kFallen) faults |= safety::kFaultFall;
   if (is_refused(before, conditions)) faults |= safety::kFaultJointBeyond;
-  // It stands: the fall is over.
   if (before == Mode::kGettingUp && machine.mode == Mode::kStanding) {
     machine.faults &= ~std::uint32_t{safety::kFaultFall};
   }
-  // Relaxing a relaxed robot acknowledges latched faults.
+  // Relaxing a relaxed robot acknowledges faults.
   const bool acknowledged = before == Mode::kRelaxed && machine.mode == Mode::kRelaxed &&
                             (conditions & safety::kAskRelax) != 0;
   machine.faults = acknowledged ? faults : machine.faults | faults;

@@ -19,20 +19,20 @@
 
 namespace verp {
 
-/// The ordered heading, to which the walk is corrected.
+/// Corrects the walk's heading.
 struct SteerState {
   float heading_rad = 0;
-  float slip_rad = 0;          ///< integral of the heading error: the soles' slip in every step
-  std::int32_t fallen_us = 0;  ///< how long the tilt has exceeded its limit
+  float slip_rad = 0;          ///< integral of the heading error
+  std::int32_t fallen_us = 0;  ///< tilt beyond its limit
   VERP_FIELDS(heading_rad, slip_rad, fallen_us)
 };
 VERP_PACKED(SteerState);
 
-/// Everything that a tick leaves for the next: a run continues from a copy with the same bits.
-/// Digested every tick.
+/// Everything that a tick leaves for the next: a copy continues with the same bits. Digested every
+/// tick.
 struct State {
   TickDigest digest{.chain = record::kChainSeed};
-  Tuning tuning;  ///< in force: Params::tuning and parameter writes
+  Tuning tuning;  ///< in force
   AdmitState admit;
   balance::AttitudeState attitude;
   balance::EstimatorState estimator;

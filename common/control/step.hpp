@@ -8,7 +8,7 @@ namespace verp {
 
 /// One control tick of the whole robot. Total: any input gives a safe output and, where needed, a
 /// latched fault; it never fails, blocks, allocates or logs. Same bits on every core and compiler
-/// under the floating-point contract. Without actions the robot stands and walks.
+/// under the floating-point contract.
 void step(const Params& params, const action::Library& actions, State& state, const Inputs& inputs,
           Outputs& outputs) noexcept;
 inline void step(const Params& params, State& state, const Inputs& inputs,

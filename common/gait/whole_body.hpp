@@ -18,7 +18,7 @@ VERP_PACKED(Lump);
 /// All but the legs' links.
 Lump lump_of(const Params& params, const float* angle_rad);
 
-/// Of the angles that lump_of reads.
+/// Covers the angles that lump_of reads.
 std::uint32_t digest_load(const Params& params, const float* angle_rad);
 
 /// Walk frame.

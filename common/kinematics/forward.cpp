@@ -74,7 +74,7 @@ Pose node_pose(const Params& params, const Pose& body, const float* angle_rad, i
 
 void all_poses(const Params& params, const Pose& body, const float* angle_rad, Pose* node) {
   node[0] = body;
-  // Followers come last but may carry earlier joints.
+  // Followers may carry earlier joints.
   for (int j = params.servo_count(); j < params.joint_count; ++j) {
     node[j + 1] = node_pose(params, body, angle_rad, j + 1);
   }

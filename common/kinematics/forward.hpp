@@ -2,15 +2,14 @@
 #include "common/math/linear.hpp"
 #include "common/model/params.hpp"
 
-/// Forward kinematics by the paper's chain rule, outwards: p = p0 + R0 p1, R = R0 R1. Joint angles
-/// are in rad, indexed as Params::joint; results are in the frame of `body`.
+/// The paper's chain rule, outwards: p = p0 + R0 p1, R = R0 R1. Joint angles are in rad, indexed as
+/// Params::joint; results are in the frame of `body`.
 namespace verp::kinematics {
 
-/// Pose of the joint's link in its parent link.
+/// In its parent link.
 Pose joint_transform(const JointParams& joint, float angle_rad);
 
-/// The product with rot_x (1, 2, 0), rot_y (2, 0, 1) or rot_z (0, 1, 2): rotates two columns, keeps
-/// the third.
+/// The product with rot_x (1, 2, 0), rot_y (2, 0, 1) or rot_z (0, 1, 2).
 inline void turn_columns(const Mat3& from, int first, int second, int kept, float sin, float cos,
                          Mat3& to) {
   for (int row = 0; row < 3; ++row) {
@@ -22,25 +21,24 @@ inline void turn_columns(const Mat3& from, int first, int second, int kept, floa
   }
 }
 
-/// link = parent * joint_transform, without multiplying by zero and one for axes along x, y or z.
+/// link = parent * joint_transform, faster for axes along x, y or z.
 void chain(const Pose& parent, const JointParams& joint, const math::SinCos& turn, Pose& link);
 inline void chain(const Pose& parent, const JointParams& joint, float angle_rad, Pose& link) {
   chain(parent, joint, math::sincos(angle_rad), link);
 }
 
-/// Recurses up to the body.
 Pose node_pose(const Params& params, const Pose& body, const float* angle_rad, int node);
 
-/// Poses of nodes 0..joint_count, in one pass.
+/// Nodes 0..joint_count.
 void all_poses(const Params& params, const Pose& body, const float* angle_rad, Pose* node);
 
 Vec3 center_of_mass(const Params& params, const Pose& body, const float* angle_rad);
 
-/// Joint axis from the rotation of the link that the joint moves.
+/// From the rotation of the link that the joint moves.
 Vec3 joint_axis(const JointParams& joint, const Mat3& link_rotation);
 
-/// Poses of a leg's six links, hip to ankle, in the frame of `body`. From the joints' sines if
-/// known (LegAngles::turn), else their angles, indexed by position in the leg.
+/// Six links, hip to ankle, in the frame of `body`, from the joints' sines if known
+/// (LegAngles::turn), else their angles.
 struct LegChain {
   Pose link[kLegJoints] = {Pose(math::Unset{}), Pose(math::Unset{}), Pose(math::Unset{}),
                            Pose(math::Unset{}), Pose(math::Unset{}), Pose(math::Unset{})};

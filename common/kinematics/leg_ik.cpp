@@ -7,7 +7,6 @@ namespace {
 
 using math::SinCos;
 
-// Pose of the last link for a given sole pose.
 Pose foot_of_sole(const LegParams& leg, const Pose& sole) {
   Mat3 sole_foot;
   sole_foot << leg.sole_foot[0], leg.sole_foot[1], leg.sole_foot[2], leg.sole_foot[3],
@@ -18,14 +17,14 @@ Pose foot_of_sole(const LegParams& leg, const Pose& sole) {
   return foot;
 }
 
-// Removes the common factor `norm` from sine and cosine. Angle 0 if it is too small.
+// Removes the factor `norm`. Angle 0 if it is too small.
 SinCos unit(float sin, float cos, float norm) {
   constexpr float kLeast = 1e-12F;
   return norm > kLeast ? SinCos{sin / norm, cos / norm} : SinCos{0.0F, 1.0F};
 }
 
-// Canonical to joint angles, clamped to the limits. Recomputes sines after clamping, an offset or a
-// failed solution, so that no NaN or infinity passes a flag.
+// Clamped to the limits. Recomputes sines after clamping, an offset or a failed solution, so that
+// no NaN or infinity passes a flag.
 void to_joints(const Params& params, const LegParams& leg, const SinCos* canonical,
                LegAngles& result) {
   for (int k = 0; k < kLegJoints; ++k) {
@@ -41,7 +40,7 @@ void to_joints(const Params& params, const LegParams& leg, const SinCos* canonic
   }
 }
 
-// Law of cosines with thigh, shank and hip-ankle distance.
+// Law of cosines.
 SinCos knee_of(const LegParams& leg, float distance_m, LegAngles& result) {
   const float sides_m2 = 2.0F * leg.thigh_m * leg.shank_m;
   const float cos =
@@ -56,8 +55,7 @@ SinCos knee_of(const LegParams& leg, float distance_m, LegAngles& result) {
 LegAngles solve_leg_closed_form(const Params& params, const LegParams& leg, const Pose& sole) {
   LegAngles result;
   const Pose foot = foot_of_sole(leg, sole);
-  // The hip from the ankle. Ankle roll brings it into the leg's plane, ankle pitch onto the shank's
-  // side.
+  // Ankle roll brings the hip into the leg's plane, ankle pitch onto the shank's side.
   const Vec3 hip_m = foot.rotation.transpose() * (math::to_vec(leg.hip_body_m) - foot.position_m);
   const float height_m = math::hypot(hip_m.y(), hip_m.z());
   const float side = hip_m.z() < 0.0F ? -1.0F : 1.0F;
@@ -66,7 +64,7 @@ LegAngles solve_leg_closed_form(const Params& params, const LegParams& leg, cons
   const float distance_m = math::hypot(hip_m.x(), height_m);
   const SinCos knee = knee_of(leg, distance_m, result);
 
-  // The same at zero ankle pitch. The pitch turns it onto (x, along).
+  // At zero ankle pitch.
   const float bent_x_m = -leg.thigh_m * knee.sin;
   const float bent_z_m = leg.shank_m + leg.thigh_m * knee.cos;
   const float pitch_sin = bent_x_m * along_m - bent_z_m * hip_m.x();

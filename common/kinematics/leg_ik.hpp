@@ -4,24 +4,23 @@
 #include "common/kinematics/forward.hpp"
 #include "common/math/elementary.hpp"
 
-/// Inverse kinematics of a six-joint leg.
 namespace verp::kinematics {
 
-/// Compromises of a solution. 0: the sole is exactly in place.
+/// 0: the sole is exactly in place.
 enum LegFlag : std::uint8_t {
-  kOutOfReach = 1 << 0,    ///< nearest reachable: same orientation and hip direction, straight leg
+  kOutOfReach = 1 << 0,    ///< same orientation and hip direction, straight leg
   kJointLimited = 1 << 1,  ///< at least one joint at its limit
-  kNotConverged = 1 << 2,  ///< Newton only: residual above 0.1 mm or 1 mrad at the end
+  kNotConverged = 1 << 2,  ///< Newton: residual above 0.1 mm or 1 mrad
 };
 
 struct LegAngles {
-  float angle_rad[kLegJoints] = {};  ///< hip to ankle, within the limits
-  math::SinCos turn[kLegJoints];     ///< of these angles, to 1e-6, for leg_chain
+  float angle_rad[kLegJoints] = {};  ///< hip to ankle, in the limits
+  math::SinCos turn[kLegJoints];     ///< to 1e-6, for leg_chain
   std::uint8_t flags = 0;            ///< LegFlag
 };
 
-/// Angles for the sole pose `sole` (body frame). `previous_rad` (six angles) starts Newton; the
-/// closed form ignores it. Total: any pose gives finite angles within the limits.
+/// `sole`: body frame. `previous_rad` (six angles) starts Newton; the closed form ignores it.
+/// Total: any pose gives finite angles within the limits.
 LegAngles solve_leg(const Params& params, const LegParams& leg, const Pose& sole,
                     const float* previous_rad);
 
@@ -29,7 +28,7 @@ LegAngles solve_leg_closed_form(const Params& params, const LegParams& leg, cons
 LegAngles solve_leg_newton(const Params& params, const LegParams& leg, const Pose& sole,
                            const float* previous_rad);
 
-/// Longest hip-ankle distance with the knee bent enough to steer: 99.8 %.
+/// The knee bent enough to steer: 99.8 %.
 inline float usable_reach_m(const LegParams& leg) {
   return 0.998F * (leg.thigh_m + leg.shank_m);
 }

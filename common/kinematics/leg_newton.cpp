@@ -3,8 +3,8 @@
 namespace verp::kinematics {
 namespace {
 
-constexpr int kIterations = 4;            // two were enough on every six-joint leg tried
-constexpr float kMetresPerRadian = 0.1F;  // weighs angle against length errors
+constexpr int kIterations = 4;            // two were enough on all legs tried
+constexpr float kMetresPerRadian = 0.1F;  // angle against length errors
 constexpr float kDamping = 1e-6F;         // m^2; bounds the step at a straight knee
 constexpr float kMaxStepRad = 0.3F;       // a larger step leaves the linear range
 constexpr float kPositionTolerance_m = 1e-4F;
@@ -24,8 +24,7 @@ Residual residual_of(const Pose& wanted, const Pose& reached) {
           math::rotation_vector(wanted.rotation * reached.rotation.transpose())};
 }
 
-// J^T J + damping and J^T e with scaled angular rows. Written out, because Eigen may use a blocked
-// product.
+// J^T J + damping and J^T e with scaled angular rows. Eigen may use a blocked product.
 bool newton_step(const Mat6& jacobian, const Residual& residual, Vec6& step_rad) {
   Mat6 scaled;
   Vec6 error;
@@ -45,7 +44,7 @@ bool newton_step(const Mat6& jacobian, const Residual& residual, Vec6& step_rad)
   return math::solve_spd(normal, right, step_rad);
 }
 
-// math::norm() of NaN is 0 and would look solved.
+// math::norm() of NaN is 0.
 bool is_pose(const Pose& sole) {
   return math::is_finite(sole.rotation.sum() + sole.position_m.sum());
 }

@@ -4,20 +4,19 @@
 
 #include "common/base/fields.hpp"
 
-/// Digests of plain structs, not cryptographic: do two runs have the same bits?
+/// Not cryptographic: do two runs have the same bits?
 namespace verp::record {
 
 static_assert(std::endian::native == std::endian::little, "byte images are little-endian");
 
-/// 32-bit digest over words by rotate, xor, multiply. A bit reaches every bit of the result within
-/// a few words, at four instructions a word on a Cortex-M. (In a word-wise FNV two sign bits could
-/// cancel.)
+/// Rotate, xor, multiply, four instructions a word on a Cortex-M. In a word-wise FNV two sign bits
+/// could cancel.
 class Digest32 {
  public:
   constexpr explicit Digest32(std::uint32_t seed) : value_(seed) {}
   constexpr void add(std::uint32_t word) { value_ = (std::rotl(value_, 5) ^ word) * 0x9E3779B1u; }
 
-  /// Adds the struct in memory order, its canonical image.
+  /// In memory order.
   template <class T>
   void add_struct(const T& data) {
     static_assert(packed_size<T>() == sizeof(T) && sizeof(T) % 4 == 0);
@@ -28,7 +27,7 @@ class Digest32 {
       return loaded;
     };
     std::size_t at = 0;
-    for (; at + 16 <= sizeof(T); at += 16) {  // unrolled: the loop would cost a third
+    for (; at + 16 <= sizeof(T); at += 16) {  // unrolled: a third faster
       add(word(at));
       add(word(at + 4));
       add(word(at + 8));
@@ -42,7 +41,7 @@ class Digest32 {
   std::uint32_t value_;
 };
 
-/// One link of the 64-bit chain. A run's last value identifies all earlier words.
+/// A run's last value identifies all earlier words.
 constexpr std::uint64_t chain(std::uint64_t previous, std::uint32_t word) {
   std::uint64_t mixed = (previous ^ word) * 0x9E3779B97F4A7C15ull;
   return mixed ^ (mixed >> 29);

@@ -4,16 +4,16 @@
 #include "common/base/fields.hpp"
 #include "common/io/io.hpp"
 
-/// A trace keeps this of every tick, to replay it and to name the first stage that differs.
+/// Per tick in a trace: names the first stage that differs in a replay.
 namespace verp {
 
-/// The stages of step(), in order.
+/// In order.
 enum class Stage : std::uint8_t { kAdmit, kEstimate, kPlan, kBalance, kKinematics, kLimit, kGate };
 inline constexpr int kStages = 7;
 inline constexpr const char* kStageNames[kStages] = {"admit",      "estimate", "plan", "balance",
                                                      "kinematics", "limit",    "gate"};
 
-/// Each stage's digest covers its state and output; `chain` covers this and all earlier ticks.
+/// State and output of each stage; `chain`: also all earlier ticks.
 struct TickDigest {
   std::uint64_t chain = 0;
   std::uint32_t stage[kStages] = {};

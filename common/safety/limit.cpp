@@ -13,7 +13,7 @@ float inside(const JointParams& joint, float angle_rad) {
   return math::clamp(angle_rad, joint.lower_rad, joint.upper_rad);
 }
 
-// Minimum jerk peaks at 15/8 of its mean speed; 2, because the stand may move meanwhile.
+// Minimum jerk peaks at 15/8 of its mean; the stand may move meanwhile.
 std::uint16_t time_for_way(const Params& params, const LimitState& state, const LimitIn& in) {
   const bool sitting = in.mode == Mode::kSitting;
   float longest_s = sitting ? in.tuning->sit_s : in.tuning->rise_s;
@@ -26,8 +26,7 @@ std::uint16_t time_for_way(const Params& params, const LimitState& state, const 
   return static_cast<std::uint16_t>(math::to_int32(1e3F * math::min(longest_s, kLongestWay_s)));
 }
 
-// Share of the remaining way for this tick. The whole way is a minimum-jerk curve, even if its end
-// moves.
+// The whole way is a minimum-jerk curve, even if its end moves.
 float blend(const Params& params, std::int32_t in_mode_us, std::uint16_t way_ms) {
   const float duration_s = 1e-3F * math::to_float(std::int32_t{way_ms > 0 ? way_ms : 1});
   const float now_s = static_cast<float>(in_mode_us) * 1e-6F;

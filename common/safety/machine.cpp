@@ -22,8 +22,7 @@ constexpr Row kTable[] = {
     {bit(Mode::kStopped), kAskRelax, kEmergency, Mode::kRelaxed},
     {kUpright, kFell, 0, Mode::kFallen},
     {bit(Mode::kFallen), kAskRelax, 0, Mode::kRelaxed},
-    // Silence: hold, then sit, then release torque. Sit at once on a relax request or power
-    // trouble.
+    // Hold, then sit, then release torque. Sit at once on a relax request or power trouble.
     {kMoving | bit(Mode::kGettingUp), kStale, 0, Mode::kHolding},
     {bit(Mode::kHolding), kLost, 0, Mode::kSitting},
     {kMayRest, kAskRelax, 0, Mode::kSitting},
@@ -40,10 +39,10 @@ constexpr Row kTable[] = {
     {bit(Mode::kWalking), kGaitOver | kOperatorQuiet, 0, Mode::kStanding},
     {bit(Mode::kWalking), kGaitOver | kPowerBad, 0, Mode::kStanding},
     {bit(Mode::kSitting), kTimeUp, 0, Mode::kRelaxed},
-    // Actions begin and end standing. A stopped action first returns to the stand.
+    // A stopped action first returns to the stand.
     {bit(Mode::kStanding), kAskAction | kCalibrated, kOperatorQuiet | kPowerBad, Mode::kActing},
     {bit(Mode::kActing), kTimeUp, 0, Mode::kStanding},
-    // A fall, seen before impact. May come last: an earlier row hides it for one tick only.
+    // Last: an earlier row hides a fall for one tick only.
     {kMayFall, kFallSeen, kStale, Mode::kFalling},
     {bit(Mode::kFalling), kTimeUp | kFell, 0, Mode::kFallen},
     {bit(Mode::kFalling), kTimeUp, 0, Mode::kHolding},
