@@ -8,15 +8,14 @@
 
 namespace verp::bus {
 
-/// Imu for a robot without an IMU: it always reports an upright, still body. The robot then walks
-/// without balance and does not detect a fall. The z gyro alternates by one count, because the core
-/// treats an IMU that repeats itself as dead.
+/// Imu for a robot without one: it reports an upright, still body. The robot then walks without
+/// balance and does not detect a fall. The z gyro alternates by one count: the core treats a
+/// constant IMU as dead.
 class AssumedImu {
  public:
-  /// Uses the scale and the mounting of `imu`.
   explicit AssumedImu(const ImuParams& imu) {
     if (!(imu.accel_m_s2_per_count > 0)) return;
-    for (int axis = 0; axis < 3; ++axis) {  // body z axis in the IMU frame
+    for (int axis = 0; axis < 3; ++axis) {
       const float g = imu.body_imu[6 + axis] * math::kGravityMS2 / imu.accel_m_s2_per_count;
       sample_.accel_count[axis] = static_cast<std::int16_t>(std::lround(g));
     }

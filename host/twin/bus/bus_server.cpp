@@ -31,7 +31,6 @@ bool BusServer::end(std::uint32_t exit_code, std::string reason) {
   return false;
 }
 
-/// Blocks until inbox_[used_] holds `size` unhandled bytes.
 bool BusServer::receive(std::size_t size) {
   while (inbox_.size() - used_ < size) {
     inbox_.erase(inbox_.begin(), inbox_.begin() + static_cast<std::ptrdiff_t>(used_));

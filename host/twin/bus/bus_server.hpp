@@ -13,18 +13,17 @@
 
 namespace verp::bus {
 
-/// Byte streams to a controller in another process. The caller owns them.
+/// Byte streams to a controller in another process.
 struct ByteStreams {
-  /// Waits for at least one byte. Returns the number of bytes stored; 0: the controller has closed.
+  /// Waits for at least one byte; 0: the controller has closed.
   std::function<std::size_t(void* data, std::size_t capacity)> read_some;
-  /// Writes all bytes at once; false: the controller has closed.
+  /// False: the controller has closed.
   std::function<bool(const void* data, std::size_t size)> write;
 };
 
 /// Members may be empty.
 struct ServerHooks {
-  std::function<app::OperatorOrder(std::uint32_t tick)>
-      order;  ///< called once per tick, when the bus begins it
+  std::function<app::OperatorOrder(std::uint32_t tick)> order;  ///< at the start of each tick
   /// Called in this order within a tick; `record` ends the tick. `state` is not sent in every tick.
   std::function<void(const State&)> state;
   std::function<void(const Outputs&)> outputs;
@@ -35,17 +34,16 @@ struct ServerHooks {
 struct RunOptions {
   std::uint32_t ticks = 0;  ///< 0: run until `stop`
   std::uint32_t state_every = 125;
-  std::span<const std::uint32_t> actions = {};  ///< action library for the controller
+  std::span<const std::uint32_t> actions = {};
 };
 
-/// How the controller ended. exit_code is that of the verp program; 3: the link broke or the
-/// controller sent invalid data.
+/// exit_code is that of the verp program; 3: broken link or invalid data.
 struct ServerResult {
   std::uint32_t exit_code = 3;
   std::string reason;
 };
 
-/// Serves the bus to one controller over firmware/app/link_messages.hpp until the controller quits.
+/// Serves one controller over firmware/app/link_messages.hpp until it quits.
 class BusServer {
  public:
   BusServer(const Params& params, VirtualBus& bus, ByteStreams streams, ServerHooks hooks,
@@ -65,7 +63,7 @@ class BusServer {
   ServerHooks hooks_;
   RunOptions options_;
   std::vector<std::uint8_t> inbox_;
-  std::size_t used_ = 0;  ///< bytes of inbox_ already handled
+  std::size_t used_ = 0;  ///< already handled
   ServerResult result_;
   app::OperatorOrder order_;
   std::uint32_t ordered_tick_ = 0;

@@ -8,7 +8,7 @@
 namespace verp::bus {
 namespace {
 
-constexpr std::uint32_t kArrival_us = 500'000;  // wait for the other end of a link to appear
+constexpr std::uint32_t kArrival_us = 500'000;  // until the other end of a link appears
 // The vendor's SDK waits 3 ms per id plus 16 ms for a broadcast Ping.
 constexpr std::uint32_t kScan_us = 253 * 3'000 + 16'000;
 
@@ -71,7 +71,7 @@ std::vector<Identity> Client::scan() {
   });
   std::sort(found.begin(), found.end(),
             [](const Identity& a, const Identity& b) { return a.id < b.id; });
-  // The scan may include a late reply to an earlier request.
+  // The scan may include a late reply.
   const auto again = std::unique(found.begin(), found.end(),
                                  [](const Identity& a, const Identity& b) { return a.id == b.id; });
   found.erase(again, found.end());
@@ -98,7 +98,7 @@ std::optional<Client::Answer> Client::ask(std::uint8_t id, std::size_t frame, st
   return answer;
 }
 
-/// Waits for late replies as long as for the original requests; later ones count as lost.
+/// Waits for late replies as long as for the requests; later ones count as lost.
 void Client::drop_late() {
   dxl::Parser late;
   std::uint8_t bytes[256];

@@ -12,13 +12,12 @@
 
 namespace verp::bus {
 
-/// A device did not do what the caller asked: exit status 3. what() is one line with a remedy.
+/// Exit status 3. what() is one line with a remedy.
 class DeviceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The device answered with an error.
 class RefusedError : public DeviceError {
  public:
   RefusedError(const std::string& line, dxl::Error error) : DeviceError(line), error_(error) {}
@@ -34,27 +33,25 @@ struct Identity {
   std::uint8_t firmware = 0;
 };
 
-/// Client for the Dynamixel devices on a link; one request at a time. It repeats unanswered
-/// requests. A late reply does not name its request. The client knows it by device and length, and
-/// waits for it before it sends a similar request. Methods throw DeviceError; the constructor
-/// throws LinkError.
+/// Client for Dynamixel devices; one request at a time, repeated without an answer. A late reply
+/// does not name its request: the client knows it by device and length, and waits for it before a
+/// similar request. Methods throw DeviceError; the constructor throws LinkError.
 class Client {
  public:
   static constexpr int kAttempts = 3;  ///< per unanswered request
 
   /// `timeout_us`: in addition to the reply's own bytes.
   Client(const link::Endpoint& endpoint, std::uint32_t timeout_us);
-  /// The caller owns the link, which must outlive the client; `endpoint` is the place it was opened
-  /// on.
+  /// The caller owns the link, which outlives the client; `endpoint` is its place.
   Client(link::Link& link, const link::Endpoint& endpoint, std::uint32_t timeout_us);
 
-  /// Every device that answers a broadcast Ping, sorted by id; waits as long as id 252 may take.
+  /// Every device that answers a broadcast Ping, sorted by id.
   std::vector<Identity> scan();
   std::optional<Identity> ping(std::uint8_t id, int attempts = kAttempts);
   std::vector<std::uint8_t> read(std::uint8_t id, std::uint16_t address, std::uint16_t length);
   void write(std::uint8_t id, std::uint16_t address, const std::vector<std::uint8_t>& data);
 
-  /// One read without a retry; false: it failed.
+  /// One read without retry.
   bool read_once(std::uint8_t id, std::uint16_t address, std::uint16_t length);
 
   int tries() const { return tries_; }
@@ -69,9 +66,9 @@ class Client {
     std::uint8_t error = 0;
     std::vector<std::uint8_t> data;
   };
-  /// Time limit of a request: `bytes` on the wire in both directions, plus the timeout.
+  /// `bytes` on the wire in both directions, plus the timeout.
   std::uint32_t patience_us(std::size_t bytes) const;
-  /// `frame`: bytes in the master's frame. `size`: data bytes of a good answer.
+  /// `frame`: bytes of the request. `size`: data bytes of the answer.
   std::optional<Answer> ask(std::uint8_t id, std::size_t frame, std::size_t size, int attempts);
   void drop_late();
   [[noreturn]] void silent(std::uint8_t id) const;
@@ -80,7 +77,6 @@ class Client {
 
   void wait_for_somebody();
 
-  /// Missing replies that may still arrive.
   struct Owed {
     int replies = 0;
     std::uint8_t id = 0;

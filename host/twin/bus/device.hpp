@@ -9,8 +9,7 @@
 
 namespace verp::bus {
 
-/// Base of every device on the bus: id, control table, Return Delay Time and status return level.
-/// VirtualBus owns time and the wire.
+/// Base of every device; VirtualBus owns time and the wire.
 class Device {
  public:
   virtual ~Device() = default;
@@ -24,39 +23,38 @@ class Device {
   }
   std::uint8_t firmware_version() const { return byte(dxl::address::kFirmwareVersion); }
   std::uint32_t return_delay_us() const { return 2u * byte(dxl::address::kReturnDelay); }
-  /// True if the device listens to this Secondary ID. Its group is written together and does not
-  /// reply.
+  /// Secondary ID: a group is written together and does not reply.
   virtual bool in_group(std::uint8_t) const { return false; }
   virtual std::uint8_t status_level() const { return 2; }
   virtual bool answers_fast_sync_read() const { return true; }
   virtual bool alert() const { return false; }
   virtual bool torque_on() const { return false; }
 
-  /// Updates the registers in the range; the plant is at the time of the reply.
+  /// Updates the registers; the plant is at the time of the reply.
   virtual void refresh(std::uint16_t address, std::uint16_t length) = 0;
-  /// Empty if the range passes the table's end. Valid until the next read.
+  /// Empty past the table's end; valid until the next read.
   std::span<const std::uint8_t> read(std::uint16_t address, std::uint16_t length);
 
-  /// Stores all of a write or nothing, and returns the reason. The plant is at the arrival time.
+  /// Stores all of a write or nothing; the plant is at the arrival time.
   virtual dxl::Error write(std::uint16_t address, std::span<const std::uint8_t> data);
-  /// Keeps a write until action(), or returns the reason for refusing it.
+  /// Keeps a write until action().
   dxl::Error reg_write(std::uint16_t address, std::span<const std::uint8_t> data);
   dxl::Error action();
 
-  /// An instruction packet, for any device, ended on the wire at `time_us`.
+  /// An instruction packet for any device ended at `time_us`.
   void heard(std::uint64_t time_us) { heard_us_ = time_us; }
-  /// When the device next acts by itself if it receives nothing more.
+  /// Time of the device's own next action.
   virtual std::uint64_t deadline_us() const { return kNever_us; }
-  /// Runs that action; the plant is at deadline_us().
+  /// The plant is at deadline_us().
   virtual void expire() {}
 
   void lose_power();
   void reboot();
-  /// e-Manual, Control Table Backup: stores the table, or restores the EEPROM and restarts.
+  /// Control Table Backup: stores the table, or restores the EEPROM and restarts.
   virtual dxl::Error backup(std::span<const std::uint8_t>) { return dxl::Error::kInstruction; }
   /// Refused while torque is on. Unless kept, the id becomes 1 and the baud rate 57600.
   dxl::Error factory_reset(dxl::Reset reset);
-  /// Removes full turns from Present Position; the twin's position has none. Refused while moving.
+  /// Removes full turns from Present Position; the twin has none. Refused while moving.
   dxl::Error clear(std::span<const std::uint8_t> parameters);
 
  protected:
@@ -66,7 +64,7 @@ class Device {
   }
   virtual void written(std::uint16_t address, std::uint16_t length) = 0;
   virtual void restarted() {}
-  /// Called when power is on and the registers have their initial values.
+  /// Power is on and the registers are initialised.
   virtual void started() {}
   virtual bool moving() { return false; }
   std::uint8_t byte(std::uint16_t address) const {
@@ -77,11 +75,11 @@ class Device {
   std::uint64_t heard_us_ = 0;
 
  private:
-  struct Piece {  ///< part of a write, on consecutive registers
+  struct Piece {
     std::uint16_t address;
     std::vector<std::uint8_t> data;
   };
-  /// Address behind `address`: the target of Indirect Data, otherwise `address` itself.
+  /// The target of Indirect Data, otherwise `address`.
   std::uint16_t meant(std::uint16_t address) const;
   std::vector<Piece> pieces(std::uint16_t address, std::span<const std::uint8_t> data) const;
   dxl::Error check(const std::vector<Piece>& pieces) const;

@@ -15,7 +15,7 @@ std::uint8_t error_field(const Device& device, dxl::Error error) {
   return dxl::error_field(error, device.alert());
 }
 
-/// Builds a status packet. A device refuses a read that is longer than it can send.
+/// A device refuses a read longer than it can send.
 std::vector<std::uint8_t> status(std::uint8_t id, std::uint8_t error,
                                  std::span<const std::uint8_t> data) {
   std::vector<std::uint8_t> packet(dxl::kMaxPacket);
@@ -104,7 +104,7 @@ void VirtualBus::speak(const std::vector<Device*>& speakers, bool at_once, Say&&
   wait_us(first_us);
   std::vector<Voice> voices;
   for (std::size_t i = 0; i < speakers.size(); ++i) {
-    // No two clocks agree: each device starts one bit later.
+    // No two clocks agree.
     const std::uint64_t late_us = delay_us(speakers[i]) - first_us;
     const auto late_bits = static_cast<std::uint32_t>(late_us * baud_ / 1'000'000 + i);
     voices.push_back({say(*speakers[i]), late_bits});
@@ -112,7 +112,7 @@ void VirtualBus::speak(const std::vector<Device*>& speakers, bool at_once, Say&&
   put_on_wire(heard(voices));
 }
 
-// A reply carries the id that the master used, even if the write has changed the id.
+// A reply carries the id of the request, even after the write changed it.
 template <class Apply>
 void VirtualBus::command(std::uint8_t id, bool for_group, Apply apply) {
   std::vector<Device*> speakers;
@@ -140,9 +140,9 @@ void VirtualBus::identify(std::uint8_t id) {
   });
 }
 
-// e-Manual: devices answer a broadcast Ping in the order of their ids. The spacing follows the
-// vendor's SDK, which waits 3 ms per id plus 16 ms. Dynamixel2Arduino issue 106 agrees: with a 10
-// ms wait, ids 1 and 2 are found and id 5 is not.
+// Devices answer a broadcast Ping in the order of their ids (e-Manual). The spacing follows the
+// vendor's SDK, which waits 3 ms per id plus 16 ms. Dynamixel2Arduino issue 106: with a 10 ms wait,
+// ids 1 and 2 are found and id 5 is not.
 void VirtualBus::ping(std::uint8_t id) {
   if (id != dxl::kBroadcast) return identify(id);
   const std::uint64_t end_ns = wire_free_ns_;
@@ -171,7 +171,7 @@ void VirtualBus::read(const dxl::Packet& packet) {
   });
 }
 
-// Firmware 42 and above ignores a broadcast reset that would also reset the ids.
+// Firmware 42 and above ignores a broadcast reset of ids.
 void VirtualBus::factory_reset(const dxl::Packet& packet) {
   const auto reset = static_cast<dxl::Reset>(packet.size == 1 ? packet.parameters[0] : 0);
   const bool known = reset == dxl::Reset::kAll || reset == dxl::Reset::kAllButId ||

@@ -15,11 +15,11 @@ namespace verp::bus {
 namespace {
 
 constexpr int kDelays = 80;
-constexpr int kSilent = 10;                        // stop after this many unanswered reads
+constexpr int kSilent = 10;                        // unanswered reads
 constexpr std::uint16_t kBytes = 4;                // Present Position, as in every tick
 constexpr int kShortest_ms = 4, kLongest_ms = 20;  // Params::period_us
 
-/// Id of the first servo that answers; nothing if the caller gave up.
+/// Id of the first answering servo.
 std::optional<std::uint8_t> somebody(Client& client, const Params& params,
                                      const std::function<bool()>& give_up) {
   for (int j = 0; j < params.servo_count() && !give_up(); ++j) {
@@ -31,7 +31,6 @@ std::optional<std::uint8_t> somebody(Client& client, const Params& params,
       client.place(), params.name));
 }
 
-/// The answered reads say nothing about the unanswered ones.
 [[noreturn]] void too_few(const Client& client, std::uint8_t id, const LinkDelay& delay) {
   const std::string how_many =
       delay.answered == 0 ? "none" : fmt::format("only {}", delay.answered);
@@ -85,7 +84,7 @@ LinkDelay measure_delay(Client& client, const Params& params,
 }
 
 LinkFit fit(const Params& params, const LinkDelay& delay) {
-  // Reads of a silent bus must not cost deadlines, nor delay the reads behind them.
+  // Reads of a silent bus must not cost deadlines.
   const std::size_t joints = params.servo_count(), sensors = app::sensor_devices(params);
   const std::uint32_t silence_us =
       app::timeout_us(app::sync_read_bytes(joints, kBytes + app::kMostSpare), joints, params.baud) +
@@ -120,7 +119,7 @@ std::string remedy(const LinkFit& fit, const Params& params, const link::Endpoin
     add(fmt::format("give --period {} (for good: period_us=\"{}\" in <verp:bus> of the model)",
                     period_ms, 1000 * period_ms));
   }
-  // A faster bus saves only wire time: suggest it only if that is enough.
+  // A faster bus saves only wire time.
   const double half_wire_us = fit.needed_us() - 0.5 * fit.wire_us;
   const bool can = endpoint.kind == link::Endpoint::Kind::kCan;
   if (!can && dxl::baud_rate_code(2 * params.baud) != 0xFF &&

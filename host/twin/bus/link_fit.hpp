@@ -7,59 +7,59 @@
 #include "common/model/params.hpp"
 #include "host/twin/bus/client.hpp"
 
-/// Checks whether a robot's traffic fits its control period on a link that delays bytes, as USB
-/// serial adapters do.
+/// Checks whether a robot's traffic fits its period on a link that delays bytes, such as a USB
+/// adapter.
 namespace verp::bus {
 
-/// Smallest element of `sorted` with at least `share` of them at or below it; 0 if empty.
+/// Smallest element with at least `share` of them at or below it; 0 if empty.
 double quantile(const std::vector<double>& sorted, double share);
 
-/// Delay of answered reads beyond their wire time in both directions.
+/// Delay of answered reads beyond their wire time.
 struct LinkDelay {
   int asked = 0, answered = 0;
   double median_us = 0, p90_us = 0, worst_us = 0;
 };
 
-/// Reads one servo of `params` repeatedly. `give_up` may end it early, even before the first read.
-/// Throws DeviceError if no servo answers a ping or fewer than half of the reads are answered.
+/// Reads one servo repeatedly. `give_up` ends it early. Throws DeviceError if no servo answers, or
+/// fewer than half of the reads.
 LinkDelay measure_delay(Client& client, const Params& params, const std::function<bool()>& give_up);
 
-/// The same with any `read`, which returns whether it was answered and takes `wire_us` on the wire.
-/// Fewer than half of the reads may be answered.
+/// With any `read`: it returns whether it was answered and takes `wire_us` on the wire. Fewer than
+/// half may be answered.
 LinkDelay measure_delay(const std::function<bool()>& read, double wire_us,
                         const std::function<bool()>& give_up);
 
-/// Time budget of one tick on such a link. Each read waits for the one before.
+/// Time of one tick on such a link; each read waits for the one before.
 struct LinkFit {
   std::uint32_t period_us = 0;
-  std::uint32_t wire_us = 0;  ///< all bytes of the tick, plus the timeouts of silent servos
+  std::uint32_t wire_us = 0;  ///< with the timeouts of silent servos
   LinkDelay delay;
   int reads = 2;  ///< positions and sensors; on CAN: SYNCs
 
-  /// Share of the period for bytes and delays; the controller needs the rest.
+  /// Share of the period; the controller needs the rest.
   static constexpr double kUsable = 0.95;
 
   double needed_us() const { return wire_us + reads * delay.median_us; }
-  /// False if no read was answered.
+  /// False without an answered read.
   bool fits() const { return delay.answered > 0 && needed_us() <= kUsable * period_us; }
-  /// Also with the delay of the slowest tenth of the reads.
+  /// Also with the slowest tenth of the reads.
   bool fits_well() const {
     return delay.answered > 0 && wire_us + reads * delay.p90_us <= kUsable * period_us;
   }
-  /// Delay allowed for each read of a tick; the controller does not wait longer.
+  /// Delay allowed for each read of a tick.
   std::uint32_t held_us() const;
-  /// Shortest period in whole milliseconds that fits well; 0: no allowed period does.
+  /// Whole milliseconds; 0: no allowed period fits.
   int shortest_period_ms() const;
 };
 
 LinkFit fit(const Params& params, const LinkDelay& delay);
 
-/// What the user can do on this PC about a link that does not fit, as words after a semicolon.
+/// Advice for a link that does not fit, as words after a semicolon.
 std::string remedy(const LinkFit& fit, const Params& params, const link::Endpoint& endpoint,
                    const std::string& system_folder = "/sys");
 
-/// For the twin, which answers controllers: one line with a remedy if the adapter is known to delay
-/// bytes too long, otherwise empty.
+/// For the twin as device: one line with a remedy if the adapter delays bytes too long, otherwise
+/// empty.
 std::string adapter_too_slow(const Params& params, const link::Endpoint& endpoint,
                              const std::string& system_folder = "/sys");
 

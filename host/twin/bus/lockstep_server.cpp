@@ -33,8 +33,7 @@ bool payload_of(const dxl::Packet& packet, std::uint16_t address, Payload& paylo
   return true;
 }
 
-/// Size of the first frame in `bytes`: up to the next header. A header occurs only at the start of
-/// an instruction packet.
+/// Up to the next header, which only occurs at the start of a packet.
 std::size_t frame_size(std::span<const std::uint8_t> bytes) {
   const auto next =
       std::search(bytes.begin() + 1, bytes.end(), std::begin(dxl::kHeader), std::end(dxl::kHeader));
@@ -56,7 +55,7 @@ LockstepServer::LockstepServer(const Params& params, VirtualBus& bus, LockstepHo
 
 void LockstepServer::take(std::span<const std::uint8_t> bytes, std::vector<std::uint8_t>& answer) {
   constexpr std::size_t kMostHeld =
-      16 * hal::kMaxFrame;  // limit for a controller that never asks for time
+      16 * hal::kMaxFrame;  // for a controller that never asks for time
   for (const std::uint8_t byte : bytes) {
     const bool complete = sieve_.push(byte, [this](std::uint8_t other) {
       if (frames_.size() < kMostHeld) frames_.push_back(other);
@@ -115,7 +114,7 @@ bool LockstepServer::send_frames(const lockstep::Advance& advance) {
   const bool intact = frames_.size() == advance.sent &&
                       dxl::crc16(frames_.data(), frames_.size()) == advance.sent_crc;
   if (!intact) note_damage(hooks_);
-  // If all bytes of a frame were lost, it still takes its time on the wire.
+  // A lost frame still takes its time on the wire.
   if (frames_.empty()) frames_.resize(std::min<std::size_t>(advance.sent, hal::kMaxFrame));
   const bool ticking = bus_.ticking();
   const std::uint32_t tick = bus_.tick();
@@ -133,7 +132,7 @@ bool LockstepServer::send_frames(const lockstep::Advance& advance) {
 
 void LockstepServer::advance(const lockstep::Advance& advance, std::vector<std::uint8_t>& answer) {
   if (asks_again(advance.sequence)) {
-    // The controller sends a repeat alone, so other frames with it are not its own.
+    // The controller sends a repeat alone.
     frames_.clear();
     answer.insert(answer.end(), last_.begin(), last_.end());
     return;

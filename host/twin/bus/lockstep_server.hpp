@@ -11,15 +11,14 @@
 
 namespace verp::bus {
 
-/// Callbacks for the actions of a lockstep controller. Members may be empty.
+/// Members may be empty.
 struct LockstepHooks : SessionHooks {
-  /// A frame reached the bus undamaged.
   std::function<void(std::span<const std::uint8_t> frame)> sent;
   std::function<void(std::span<const std::uint8_t> bytes, std::uint64_t now_us)> polled;
 };
 
-/// PC side of firmware/app/lockstep_messages.hpp: bytes in, bytes out. It uses no link, no wait and
-/// no clock, so the same bytes give the same answers at any speed.
+/// PC side of firmware/app/lockstep_messages.hpp. It uses no link and no clock: the same bytes give
+/// the same answers at any speed.
 class LockstepServer : public LockstepSession {
  public:
   /// `bus` must outlive the server.
@@ -28,7 +27,7 @@ class LockstepServer : public LockstepSession {
   /// Appends the reply to `answer`.
   void take(std::span<const std::uint8_t> bytes, std::vector<std::uint8_t>& answer);
 
-  /// Returns once the bytes before the first hello that are not for the clock; empty afterwards.
+  /// Bytes before the first hello that are not for the clock; empty afterwards.
   std::vector<std::uint8_t> unannounced();
 
  private:
@@ -36,7 +35,7 @@ class LockstepServer : public LockstepSession {
   dxl::Error set_upright(std::uint8_t value);
   void hello(const lockstep::Hello& hello, std::vector<std::uint8_t>& answer);
   void advance(const lockstep::Advance& advance, std::vector<std::uint8_t>& answer);
-  /// Puts the frames since the last Advance on the bus; true: a tick has begun.
+  /// True: a tick has begun.
   bool send_frames(const lockstep::Advance& advance);
   /// False: the controller must stop.
   bool send_frame(std::span<const std::uint8_t> frame, bool intact);
@@ -44,8 +43,8 @@ class LockstepServer : public LockstepSession {
   VirtualBus& bus_;
   LockstepHooks hooks_;
   lockstep::ClockSieve sieve_;
-  std::vector<std::uint8_t> frames_;  ///< received since the last Advance
-  std::vector<std::uint8_t> last_;    ///< complete last answer to an Advance
+  std::vector<std::uint8_t> frames_;
+  std::vector<std::uint8_t> last_;
 };
 
 }  // namespace verp::bus

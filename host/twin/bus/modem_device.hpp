@@ -7,34 +7,33 @@
 
 namespace verp::bus {
 
-/// Control table of a radio modem: our own layout on Protocol 2.0. Each comment gives the size in
-/// bytes. The registers of one message are adjacent, so one Write sends it and one Read receives
-/// it.
+/// Control table of a radio modem, our own layout; comments give bytes. One Write sends a message
+/// and one Read receives it.
 namespace modem {
 inline constexpr std::uint8_t kId = 202;          ///< next to the controller (200) and the clock
 inline constexpr std::uint16_t kModel = 0x7604;   ///< ours, like those in control_table.hpp
-inline constexpr std::uint16_t kMostData = 96;    ///< capacity of a message, bytes
-inline constexpr std::size_t kMostWaiting = 64;   ///< stored messages; later ones are lost
+inline constexpr std::uint16_t kMostData = 96;    ///< bytes
+inline constexpr std::size_t kMostWaiting = 64;   ///< later messages are lost
 inline constexpr std::uint8_t kEverybody = 0xFF;  ///< broadcast value of `to`
 // Read only.
-inline constexpr std::uint16_t kNumber = 256;     // 1, number of this modem, the `to` of others
-inline constexpr std::uint16_t kMostBytes = 257;  // 1, bytes of a message
+inline constexpr std::uint16_t kNumber = 256;     // 1, the `to` of others
+inline constexpr std::uint16_t kMostBytes = 257;  // 1, largest message
 inline constexpr std::uint16_t kSaid = 258;       // 2, messages sent; modulo
 inline constexpr std::uint16_t kRefused = 260;    // 2, messages refused
 inline constexpr std::uint16_t kHeard = 262;      // 2, messages received
-inline constexpr std::uint16_t kMissed = 264;     // 2, messages lost for lack of room
-// Outgoing message. A Write that covers say_size sends that many bytes of say_data.
-inline constexpr std::uint16_t kTo = 272;       // 1, number of a modem, or kEverybody
+inline constexpr std::uint16_t kMissed = 264;     // 2, for lack of room
+// Outgoing message: a Write that covers say_size sends that many bytes of say_data.
+inline constexpr std::uint16_t kTo = 272;       // 1, a modem or kEverybody
 inline constexpr std::uint16_t kSaySize = 273;  // 1
 inline constexpr std::uint16_t kSayData = 274;  // kMostData times 1
-// Oldest received message; `waiting` is 0 if there is none. Read only.
-inline constexpr std::uint16_t kWaiting = 384;      // 1, messages, including this one
+// Oldest received message, read only; `waiting` 0: there is none.
+inline constexpr std::uint16_t kWaiting = 384;      // 1, with this one
 inline constexpr std::uint16_t kHeardNumber = 385;  // 1, counts this modem's messages; modulo
 inline constexpr std::uint16_t kHeardFrom = 386;    // 1
 inline constexpr std::uint16_t kHeardSize = 387;    // 1
 inline constexpr std::uint16_t kHeardData = 388;    // kMostData times 1
-/// Writing the message's number removes it. Another number has no effect, so a Write whose answer
-/// was lost may be repeated.
+/// Writing the message's number removes it. Another number has no effect, so a Write may be
+/// repeated.
 inline constexpr std::uint16_t kTake = 488;  // 1
 }  // namespace modem
 
@@ -43,13 +42,12 @@ class Aerial {
   virtual ~Aerial() = default;
   virtual std::uint8_t number() const = 0;
   virtual std::uint8_t most_bytes() const = 0;
-  /// kNone: accepted. kDataRange: too long, or no modem has that number. kResultFail: queue full.
+  /// kDataRange: too long, or no such modem. kResultFail: queue full.
   virtual dxl::Error say(std::uint8_t to, const std::string& data) = 0;
-  /// Calls the modem's hear() for each message received so far.
   virtual void listen() = 0;
 };
 
-/// A robot's radio on its servo bus; its messages take their bus time.
+/// Its messages take their bus time.
 class ModemDevice final : public Device {
  public:
   /// `aerial` must outlive the device.
@@ -77,7 +75,7 @@ class ModemDevice final : public Device {
   Aerial& aerial_;
   std::deque<Message> inbox_;
   std::uint8_t numbers_ = 0;
-  dxl::Error said_ = dxl::Error::kNone;  ///< result of the write in progress
+  dxl::Error said_ = dxl::Error::kNone;  ///< of the write in progress
 };
 
 }  // namespace verp::bus

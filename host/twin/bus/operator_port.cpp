@@ -11,7 +11,7 @@ namespace {
 
 using app::reg;
 
-constexpr std::uint32_t kPatience_us = 500'000;  // for one answer, wall clock
+constexpr std::uint32_t kPatience_us = 500'000;  // per answer, wall clock
 constexpr std::uint32_t kSlice_us = 50'000;
 constexpr std::uint32_t kLinger_us = 20'000;
 constexpr int kAttempts = 6;
@@ -41,8 +41,8 @@ ControllerReport OperatorPort::exchange(const app::OperatorOrder* order) {
   if (order != nullptr) add_order(*order);
   const ControllerReport report = ask_report();
   if (order == nullptr || !refused_) return report;
-  // A started controller obeys only an operator that first asked it to relax. This controller
-  // drives a twin, so relaxing endangers nobody.
+  // A started controller obeys only an operator that first asked it to relax; a twin endangers
+  // nobody.
   app::OperatorOrder again = *order;
   again.flags &= static_cast<std::uint16_t>(~kParameterWrite);  // already written and accepted
   add_write(reg("request"), {static_cast<std::uint8_t>(Request::kRelax)});
@@ -79,7 +79,7 @@ std::vector<std::uint8_t> OperatorPort::ask() {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     link_.write(outbox_.data(), outbox_.size(), kPatience_us);
     if (collect(data)) {
-      // A repeated request must not act in a later tick, so take its late answer now.
+      // A repeated request must not act later, so take its late answer now.
       std::uint8_t late[256];
       while (attempt > 0 && link_.read(late, sizeof late, kLinger_us) > 0) {
       }

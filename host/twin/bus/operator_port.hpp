@@ -11,10 +11,10 @@
 
 namespace verp::bus {
 
-/// Operator port of a controller: Dynamixel device 200 (common/protocol/controller_table.hpp).
+/// Operator port: Dynamixel device 200 (common/protocol/controller_table.hpp).
 class OperatorPort final : public OrderSink {
  public:
-  /// Calls `give_up` while the controller is silent. Throws LinkError and EndpointError.
+  /// `give_up` is called while the controller is silent. Throws LinkError and EndpointError.
   OperatorPort(const std::string& endpoint, std::function<bool()> give_up);
 
   ControllerReport exchange(const app::OperatorOrder* order) override;
@@ -26,9 +26,8 @@ class OperatorPort final : public OrderSink {
   void add_write(std::uint16_t address, const std::vector<std::uint8_t>& data);
   void add_read(std::uint16_t address, std::uint16_t length);
   void add_order(const app::OperatorOrder& order);
-  /// Sends the queued requests and a request for the report.
   ControllerReport ask_report();
-  /// Sends the queued requests until all are answered; returns the data of the last answer.
+  /// Sends the queue until all is answered; returns the last answer's data.
   std::vector<std::uint8_t> ask();
   bool collect(std::vector<std::uint8_t>& data);
 
@@ -37,7 +36,7 @@ class OperatorPort final : public OrderSink {
   link::Link link_;
   std::vector<std::uint8_t> outbox_;
   std::size_t asked_ = 0;
-  bool refused_ = false;  ///< all were answered, and the first with "not now"
+  bool refused_ = false;  ///< all answered, the first with "not now"
 };
 
 }  // namespace verp::bus

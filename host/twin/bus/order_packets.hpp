@@ -5,13 +5,13 @@
 
 #include "firmware/app/contracts.hpp"
 
-/// Encodes an operator's orders as writes to the registers of device 200.
 namespace verp::bus {
 
 void append_write(std::vector<std::uint8_t>& bytes, std::uint16_t address,
                   const std::vector<std::uint8_t>& data);
 
-/// Appends the standing order and any parameter write; returns the number of packets.
+/// Appends writes to device 200: the standing order and any parameter write; returns the number of
+/// packets.
 std::size_t append_order(std::vector<std::uint8_t>& bytes, const app::OperatorOrder& order);
 
 }  // namespace verp::bus

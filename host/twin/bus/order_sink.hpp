@@ -11,7 +11,7 @@ struct ControllerReport {
   std::uint64_t digest = 0;
 };
 
-/// The controller did not accept an order: exit status 3. what() is one line with a remedy.
+/// Exit status 3. what() is one line with a remedy.
 class SinkError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -20,10 +20,10 @@ class SinkError : public std::runtime_error {
 class OrderSink {
  public:
   virtual ~OrderSink() = default;
-  /// Sends `order` unless null, and a request for the report; returns when both are answered. Call
-  /// it between two ticks; the order holds from the next tick on. Throws SinkError.
+  /// Sends `order` unless null and asks for the report. Call it between two ticks; the order holds
+  /// from the next tick on. Throws SinkError.
   virtual ControllerReport exchange(const app::OperatorOrder* order) = 0;
-  /// Number of actions; 0: the controller has none for getting up. Throws SinkError.
+  /// 0: no action for getting up. Throws SinkError.
   virtual int action_count() = 0;
 };
 

@@ -3,11 +3,11 @@
 
 #include "host/twin/bus/virtual_bus.hpp"
 
-// The half-duplex wire in real time: the master may transmit at any time.
+// The half-duplex wire in real time.
 namespace verp::bus {
 namespace {
 
-/// Longest pause within a packet. An estimate: the vendor documents no value.
+/// Longest pause within a packet; an estimate, the vendor documents none.
 constexpr std::uint64_t kPause_ns = 100'000'000;
 constexpr std::uint32_t kHeaderWord = 0xFFFFFD00;  // byte stuffing keeps it out of packets
 
@@ -39,8 +39,7 @@ std::size_t VirtualBus::unsent() const {
              : static_cast<std::size_t>((master_free_ns_ - now_ns_) / bytes_ns(1));
 }
 
-// A device that owes an answer is deaf until it has sent it. If two transmit, the low level wins
-// and both are lost (collision.hpp).
+// A device that owes an answer is deaf; if two transmit, both are lost (collision.hpp).
 bool VirtualBus::jams(std::uint8_t byte, std::uint64_t start_ns, std::uint64_t end_ns) {
   bool any = false;
   for (Chunk& each : replies_) {
@@ -77,7 +76,7 @@ void VirtualBus::talk(const std::uint8_t* data, std::size_t size) {
     }
     for (bool found = line_.push(data[i]); found; found = line_.next()) {
       wire_free_ns_ = master_free_ns_;
-      // A new packet cancels the devices' remaining answers to a broadcast Ping.
+      // A new packet cancels remaining answers to a broadcast Ping.
       std::erase_if(replies_,
                     [this](const Chunk& each) { return each.asked_ns > master_free_ns_; });
       handle(line_.packet(), master_free_ns_);

@@ -46,7 +46,7 @@ constexpr auto kFoot = std::to_array<NamedRegister>({
     row(dxl::sensor_block::kFoot, "force", Type::kU16, kFootSensors, "counts"),
 });
 
-// For people; controllers use the messages in firmware/app/lockstep_messages.hpp.
+// For people; controllers use firmware/app/lockstep_messages.hpp.
 constexpr auto kClock = std::to_array<NamedRegister>({
     used(lockstep::kSetUprightAddress, "set_upright", Type::kU8),
 });

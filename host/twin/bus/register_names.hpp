@@ -6,22 +6,21 @@
 
 #include "common/protocol/controller_table.hpp"
 
-/// Register names for people: known servos, our sensors, and the controller.
 namespace verp::bus {
 
 using NamedRegister = dxl::controller::Register;
 
-/// "XM430-W350", "controller", ...; "model N" for an unknown model.
+/// "XM430-W350", "controller" or "model N".
 std::string model_name(std::uint16_t model);
 std::string hardware_errors(unsigned bits);
 
-/// Sorted by address; empty for an unknown model.
+/// Sorted by address; empty: unknown model.
 std::span<const NamedRegister> registers_of(std::uint16_t model);
 
-/// nullptr: the model has no such register.
+/// nullptr: no such register.
 const NamedRegister* find_register(std::uint16_t model, std::string_view name);
 
-/// The controller's registers as a Markdown page (firmware/app/registers.md).
+/// Markdown page firmware/app/registers.md.
 std::string controller_document();
 
 }  // namespace verp::bus

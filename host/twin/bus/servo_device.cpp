@@ -44,15 +44,15 @@ void ServoDevice::refresh(std::uint16_t address, std::uint16_t length) {
   watch_limits(measured);
 }
 
-// e-Manual, Homing Offset (20): Present Position is the encoder's count plus this offset. Position
-// mode ignores an offset beyond a quarter turn.
+// e-Manual, Homing Offset (20): Present Position is the encoder's count plus this. Position mode
+// ignores more than a quarter turn.
 std::int32_t ServoDevice::homing() const {
   const auto offset = static_cast<std::int32_t>(table_.get(at::kHomingOffset));
   const bool valid = offset >= -kMostHoming && offset <= kMostHoming;
   return valid || byte(at::kOperatingMode) != dxl::kPositionMode ? offset : 0;
 }
 
-// A hardware error remains until a reboot. The errors selected by Shutdown also remove torque.
+// Hardware errors remain until a reboot; those in Shutdown also remove torque.
 void ServoDevice::watch_limits(const sim::ServoMeasurement& measured) {
   std::int64_t error = table_.get(at::kHardwareError);
   const double tenth_volts = measured.voltage_v * 10;
@@ -99,8 +99,8 @@ bool ServoDevice::known(std::uint16_t address, std::span<const std::uint8_t> dat
   return is_mode && (written(at::kDriveMode) & 1 << 1) == 0;  // dual joints only
 }
 
-// Goal PWM (100), Goal Current (102), Goal Velocity (104), Acceleration Limit (40) and Goal
-// Position (116) must stay within the EEPROM limits (e-Manual).
+// Goals (100 to 104, 116) and Acceleration Limit (40) must stay within the EEPROM limits
+// (e-Manual).
 bool ServoDevice::within_limits(std::uint16_t address, std::span<const std::uint8_t> data) const {
   const auto inside = [&](std::uint16_t goal, std::int64_t least, std::int64_t most) {
     const Register* reg = table_.find(goal);
@@ -155,8 +155,7 @@ void ServoDevice::reset_goals() {
   goal_written_ = false;
 }
 
-// e-Manual, Bus Watchdog (98): any instruction packet restarts it, for any device; it runs only
-// with torque on.
+// e-Manual, Bus Watchdog (98): any instruction packet restarts it; it runs with torque on.
 std::uint64_t ServoDevice::deadline_us() const {
   const std::uint8_t units = byte(at::kBusWatchdog);
   if (!torque_on() || units == 0 || tripped()) return kNever_us;

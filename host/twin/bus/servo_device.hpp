@@ -15,12 +15,12 @@ struct ServoIdentity {
   sim::ServoRating rating{};
 };
 
-/// Virtual servo: the control table of an X-series or MX(2.0) servo for one joint of a plant.
+/// An X-series or MX(2.0) servo for one joint of a plant.
 class ServoDevice final : public Device {
  public:
   ServoDevice(const ServoIdentity& identity, sim::Plant& plant, int joint);
 
-  /// e-Manual, Secondary(Shadow) ID (12): off from 253 up; the ID (7) has priority.
+  /// e-Manual, Secondary(Shadow) ID (12): off from 253; the ID (7) has priority.
   bool in_group(std::uint8_t id) const override {
     return byte(dxl::address::kSecondaryId) == id && id <= dxl::kMaxId && id != this->id();
   }
@@ -43,11 +43,11 @@ class ServoDevice final : public Device {
   void reset_goals();
   void refresh_motion(const sim::ServoMeasurement& measured);
   std::uint8_t moving_status(const sim::ServoMeasurement& measured) const;
-  /// True for position control: single-turn, multi-turn or current-based.
+  /// Single-turn, multi-turn or current-based.
   bool steers_position() const;
   bool reverse() const;
   int sign() const { return reverse() ? -1 : 1; }
-  /// Converts an encoder count to Present Position (shown) and back (meant_count).
+  /// Encoder count to Present Position (shown) and back (meant_count).
   double shown(double count) const;
   std::int32_t meant_count(std::int64_t shown) const;
   void hold_here();
@@ -64,7 +64,7 @@ class ServoDevice final : public Device {
   bool fast_sync_read_;
   std::uint8_t mode_ = dxl::kPositionMode;  ///< Operating Mode last applied
   bool goal_written_ = false;
-  RegisterTable stored_;  ///< by Control Table Backup; valid if Backup Ready is set
+  RegisterTable stored_;  ///< by Control Table Backup, if Backup Ready
 };
 
 }  // namespace verp::bus

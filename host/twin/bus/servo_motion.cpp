@@ -4,7 +4,6 @@
 #include "host/twin/bus/servo_device.hpp"
 #include "host/twin/bus/servo_registers.hpp"
 
-// Converts registers to the motor's set-point, and the motor's motion to registers.
 namespace verp::bus {
 
 using namespace servo;
@@ -73,7 +72,7 @@ void ServoDevice::apply() {
   setpoint.velocity_p_gain = unsigned16(at::kVelocityPGain);
   setpoint.velocity_i_gain = unsigned16(at::kVelocityIGain);
   const std::int64_t goal_pwm = table_.get(at::kGoalPwm);
-  // Goal PWM is the goal in PWM mode and a limit in the other modes.
+  // Goal PWM is the goal in PWM mode, else a limit.
   setpoint.pwm_limit = static_cast<std::uint16_t>(
       std::min(table_.get(at::kPwmLimit),
                mode_ == kPwmMode ? table_.get(at::kPwmLimit) : std::abs(goal_pwm)));

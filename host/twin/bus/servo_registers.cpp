@@ -34,9 +34,8 @@ constexpr Row used(std::uint16_t address, const char* name, Type type, std::int6
   return {{address, name, type, Access::kWrite, 1, low, high, unit, ""}, initial};
 }
 
-// Registers of both series under their e-Manual names; kept() marks EEPROM. Initial values and
-// ranges: e-Manual of the XM430-W210, as in control_table.hpp. Only the X-series has current
-// registers; only the MX series has Acceleration Limit.
+// e-Manual names; kept() marks EEPROM. Values and ranges: e-Manual, XM430-W210. Only the X-series
+// has current registers; only the MX series has Acceleration Limit.
 constexpr auto kRows = std::to_array<Row>({
     seen(at::kModelNumber, "model_number", Type::kU16),
     seen(at::kModelInformation, "model_information", Type::kU32),

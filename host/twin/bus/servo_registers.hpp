@@ -9,8 +9,7 @@
 #include "host/twin/bus/register_table.hpp"
 #include "host/twin/bus/servo_device.hpp"
 
-/// Meanings and units of the servo-only control table values. Source: ROBOTIS e-Manual, XM430-W210
-/// and MX-28(2.0).
+/// Values of the servo's control table: e-Manual, XM430-W210 and MX-28(2.0).
 namespace verp::bus::servo {
 
 inline constexpr double kVelocityUnitRadS = 0.229 * 2.0 * std::numbers::pi / 60.0;
@@ -37,10 +36,10 @@ inline constexpr std::uint8_t kTorqueOnByGoal = 1 << 3;
 inline constexpr std::uint16_t kStartupConfiguration = 60;
 inline constexpr std::uint8_t kStartupTorqueOn = 1 << 0;
 inline constexpr std::uint8_t kRamRestore = 1 << 1;
-// Control Table Backup (0x20): the commands, and the word that guards against accidents.
+// Control Table Backup (0x20): commands and the guard word.
 inline constexpr std::uint8_t kStore = 1, kRestore = 2;
 inline constexpr std::uint8_t kBackupWord[] = {'C', 'T', 'R', 'L'};
-// Moving Status (123). Its bounds are estimates: the e-Manual calls them predefined.
+// Moving Status (123); its bounds are estimates.
 inline constexpr std::uint8_t kInPosition = 1 << 0, kOngoing = 1 << 1, kNotFollowing = 1 << 3;
 inline constexpr double kInPositionCount = 10;
 inline constexpr double kFollowingCount = 57;  // 5 degrees

@@ -12,12 +12,12 @@ namespace {
 
 namespace at = dxl::address;
 
-constexpr std::uint32_t kTimeout_us = 60'000;  // 16 ms of an adapter, twice, plus a margin
+constexpr std::uint32_t kTimeout_us = 60'000;  // 16 ms of an adapter, twice, with margin
 constexpr int kPositions = 9;
 constexpr std::uint8_t kAllReplies = 2;  // e-Manual, Status Return Level (68)
-constexpr std::int32_t kStill = 6;       // counts, half a degree: a hand trembles
+constexpr std::int32_t kStill = 6;       // half a degree: a hand trembles
 
-/// All servo baud rates (e-Manual, Baud Rate (8)), likely ones first.
+/// Baud Rate (8), likely ones first.
 constexpr std::array<std::uint32_t, 8> kRates = {dxl::kFactoryBaud, 1'000'000, 2'000'000, 115'200,
                                                  3'000'000,         4'000'000, 4'500'000, 9'600};
 
@@ -33,16 +33,14 @@ std::int32_t read_i32(Client& client, std::uint8_t id, std::uint16_t address) {
   return static_cast<std::int32_t>(dxl::get_u32(client.read(id, address, 4).data()));
 }
 
-/// Writes a register without requiring a reply. The servo may not answer, by its status return
-/// level or because the write changes how it answers.
+/// Needs no reply: the status return level may forbid it, or the write changes it.
 void tell(Client& client, std::uint8_t id, std::uint16_t address, std::uint8_t value) {
   try {
     client.write(id, address, {value});
-  } catch (const DeviceError&) {  // the caller reads back the result
+  } catch (const DeviceError&) {  // the caller reads back
   }
 }
 
-/// Makes the servo answer reads and writes; reports the change.
 void make_it_answer(Client& client, std::uint8_t id, const Changed& changed) {
   std::uint8_t before = 0;
   try {
@@ -88,7 +86,7 @@ std::vector<FoundServo> SetupLine::find(const std::function<bool()>& give_up) {
       for (const Identity& each : at(rate).scan()) found.push_back({each, rate});
     } catch (const link::LinkError& error) {
       if (error.kind() != link::LinkError::Kind::kUnsuitable || rate == baud_) throw;
-      continue;  // the adapter does not support this rate
+      continue;  // not supported by the adapter
     }
     if (!found.empty()) break;
   }
@@ -102,8 +100,7 @@ void configure(SetupLine& line, FoundServo& servo, std::uint8_t id, std::uint32_
   const Setting settings[] = {{"status_return_level", at::kStatusReturnLevel, kAllReplies},
                               {"torque_enable", at::kTorqueEnable, 0},
                               {"return_delay", at::kReturnDelay, 0},
-                              // As in the control loop, because the zero and the direction depend
-                              // on them.
+                              // Zero and direction depend on these.
                               {"drive_mode", at::kDriveMode, dxl::kTimeBasedProfile},
                               {"operating_mode", at::kOperatingMode, dxl::kPositionMode}};
   if (!dry_run) make_it_answer(*client, from, changed);
@@ -153,7 +150,7 @@ std::int32_t still_position(Client& client, std::uint8_t id) {
 
 ZeroFix zero_fix(Client& client, std::uint8_t id, std::int32_t count, std::int32_t model_count) {
   ZeroFix fix{.count = count, .homing_before = read_i32(client, id, at::kHomingOffset)};
-  // e-Manual: Present Position is the encoder's count plus Homing Offset.
+  // Present Position is the encoder's count plus Homing Offset.
   fix.homing_after = fix.homing_before + model_count - count;
   fix.model_offset = count;
   fix.servo_can = fix.homing_after >= -kMostHoming && fix.homing_after <= kMostHoming;

@@ -8,8 +8,8 @@
 #include "common/model/params.hpp"
 #include "host/twin/bus/client.hpp"
 
-/// Sets up a new servo for a robot: finds it at any baud rate and id, assigns its own, and measures
-/// its zero and direction by hand with torque off.
+/// Sets up a new servo: finds it at any baud rate and id, assigns its own, and measures zero and
+/// direction by hand with torque off.
 namespace verp::bus {
 
 struct FoundServo {
@@ -17,7 +17,7 @@ struct FoundServo {
   std::uint32_t baud = 0;
 };
 
-/// A register that was changed, or would be in a dry run.
+/// Changed, or would be in a dry run.
 struct Change {
   std::string name;
   std::int64_t before = 0, after = 0;
@@ -26,12 +26,12 @@ struct Change {
 /// A link whose servos may have different baud rates. Throws what Client throws.
 class SetupLine {
  public:
-  /// `baud`: the rate of the robot's bus.
+  /// Rate of the robot's bus.
   SetupLine(const link::Endpoint& endpoint, std::uint32_t baud);
 
-  /// Client at that rate; always the same one on a link without a rate.
+  /// On a link without a rate, always the same client.
   Client& at(std::uint32_t baud);
-  /// All servos at the first rate with an answer: the robot's, the factory's, then the others.
+  /// Servos at the first rate with an answer: robot's, factory's, others.
   std::vector<FoundServo> find(const std::function<bool()>& give_up);
 
  private:
@@ -40,19 +40,17 @@ class SetupLine {
   std::optional<Client> client_;
 };
 
-/// Called for each register when it was written, or would be.
 using Changed = std::function<void(const Change&)>;
 
-/// Sets torque off, all replies on and no return delay, then `id` and `baud`; reads each back.
-/// Calls `changed` at once for each difference; with `dry_run` it writes nothing. Updates `servo`.
-/// Throws DeviceError.
+/// Sets torque off, all replies on and no return delay, then `id` and `baud`; reads back. Calls
+/// `changed` for each difference; `dry_run` writes nothing. Updates `servo`. Throws DeviceError.
 void configure(SetupLine& line, FoundServo& servo, std::uint8_t id, std::uint32_t baud,
                bool dry_run, const Changed& changed);
 
-/// Median Present Position of several readings, counts. Throws DeviceError if the servo moves.
+/// Median of several readings, counts. Throws DeviceError if the servo moves.
 std::int32_t still_position(Client& client, std::uint8_t id);
 
-/// Encoder count at the joint's zero, and the correction to the model's count.
+/// Count at the joint's zero, and the correction to the model's count.
 struct ZeroFix {
   std::int32_t count = 0;
   std::int32_t homing_before = 0;  ///< Homing Offset (20)
@@ -61,7 +59,7 @@ struct ZeroFix {
   bool servo_can = true;           ///< homing_after is within range
 };
 
-/// In position mode Homing Offset is limited to a quarter turn (e-Manual, Homing Offset (20)).
+/// Limit in position mode (e-Manual, Homing Offset (20)).
 inline constexpr std::int32_t kMostHoming = 1024;
 
 ZeroFix zero_fix(Client& client, std::uint8_t id, std::int32_t count, std::int32_t model_count);

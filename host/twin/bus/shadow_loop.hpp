@@ -14,11 +14,10 @@
 
 namespace verp::bus {
 
-/// Recording of a remote controller, poll by poll: the frames it sent and the bytes it received. It
-/// is the OperatorLink and Recorder of a local loop that repeats the run. The kind of bus adds the
-/// bus functions and:
+/// Recording of a remote controller, poll by poll. It is the OperatorLink and Recorder of a local
+/// loop that repeats the run; the kind of bus adds:
 ///  - Sent: a frame that the controller sent. Received: all that one answer brought.
-///  - kWholeTicks: catch_up() is called at the start of each tick, so it need not guess tick ends.
+///  - kWholeTicks: catch_up() is called at the start of each tick.
 template <class Sent_, class Received_>
 class ShadowTape {
  public:
@@ -35,7 +34,7 @@ class ShadowTape {
     std::size_t played = 0;
     std::vector<Sent> frames;
     Received received;      ///< by the last poll played
-    std::size_t taken = 0;  ///< part of `received` already read
+    std::size_t taken = 0;  ///< of `received`, already read
     app::OperatorOrder standing;
     std::uint64_t time_us = 0;
   };
@@ -58,10 +57,10 @@ class ShadowTape {
   Mark here;
   std::uint32_t tick = 0;
   bool ticking = false;
-  bool torn = false;  ///< the loop asked for a poll that is not recorded yet
+  bool torn = false;  ///< the loop asked for a poll not recorded yet
 
  protected:
-  /// Plays the next poll; false at the end of the tape.
+  /// False at the end of the tape.
   template <class Same>
   bool play(Same same) {
     torn = torn || here.played == polls.size();
@@ -86,23 +85,22 @@ class Shadow {
   using Record = std::function<void(const TickRecord&, const State&, const Outputs&)>;
 
   virtual ~Shadow() = default;
-  /// Frames were lost on the link, so the frames up to the next poll cannot be compared.
+  /// Frames were lost: those up to the next poll cannot be compared.
   virtual void damaged() = 0;
-  /// Holds from the next poll on; its flags hold for one tick.
+  /// From the next poll on; flags hold for one tick.
   virtual void ordered(const app::OperatorOrder& order) = 0;
   virtual void catch_up() = 0;
-  /// Describes the first difference between the frames of the two controllers; empty if there is
-  /// none.
+  /// First difference between the two controllers' frames; empty: none.
   virtual const std::string& difference() const = 0;
 };
 
-/// Runs the remote controller's control loop a second time, locally and one tick behind. It uses
-/// the same bytes, times and orders. It recovers what no link carries (Inputs, State and Outputs of
-/// each tick) and checks that both loops sent the same frames.
+/// Repeats the remote controller's loop locally, one tick behind, with the same bytes, times and
+/// orders. It recovers Inputs, State and Outputs, which no link carries, and compares the sent
+/// frames.
 template <class Tape>
 class ShadowLoopOver final : public Shadow {
  public:
-  /// `actions`: the remote controller's library.
+  /// Library of the remote controller.
   ShadowLoopOver(const Params& params, Record record, const action::Library& actions = {})
       : loop_(std::make_unique<Loop>(params, tape_, tape_, tape_, nullptr, app::Core{actions})) {
     tape_.recorder = std::move(record);
@@ -119,9 +117,8 @@ class ShadowLoopOver final : public Shadow {
   }
   void ordered(const app::OperatorOrder& order) override { next_.order = order; }
 
-  /// Runs all ticks (first: the bring-up) whose polls are all recorded. With kWholeTicks it runs
-  /// the bring-up when the first tick begins, then one tick per call. It runs further ticks if
-  /// their beginning was lost on the link.
+  /// Runs all ticks (first: the bring-up) whose polls are recorded. With kWholeTicks: the bring-up
+  /// when the first tick begins, then one tick per call, and more if a tick's beginning was lost.
   void catch_up() override {
     if constexpr (Tape::kWholeTicks) {
       const bool began = tape_.ticking;
@@ -132,7 +129,7 @@ class ShadowLoopOver final : public Shadow {
       if (tape_.torn) miss_polls(began);
       forget_played();
       if (tape_.torn) return;
-      // The lost frames may include the start of another tick.
+      // Another tick's start may be lost.
       while (!whole && !tape_.polls.empty() && try_to_run()) forget_played();
     } else {
       while (!tape_.polls.empty() && try_to_run()) forget_played();
@@ -158,13 +155,12 @@ class ShadowLoopOver final : public Shadow {
   void run() {
     tape_.torn = false;
     if (tape_.ticking) return loop_->tick();
-    // A controller repeats its bring-up until it succeeds.
     const bool ready = loop_->bring_up().status == app::BringUpStatus::kReady;
     tape_.ticking = ready && !tape_.torn;
   }
-  /// Like run(); false and no change if the tape ends first. Polls do not show where a tick ends:
-  /// after an error the next tick begins with a poll that clears the line. So the loop tries a tick
-  /// again when more polls are known.
+  /// Like run(); false and no change at the end of the tape. Polls do not show a tick's end: after
+  /// an error, the next tick begins with a poll that clears the line. So the loop retries when more
+  /// polls are known.
   bool try_to_run() {
     const Loop before(*loop_);
     const typename Tape::Mark mark = tape_.here;

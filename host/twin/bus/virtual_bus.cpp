@@ -123,7 +123,7 @@ std::size_t VirtualBus::arrive(std::uint64_t deadline_ns, std::uint8_t* buffer,
   return count;
 }
 
-// The plant may be ahead: the bus computes an answer at the request, and the answer begins later.
+// The plant may be ahead: an answer is computed at the request and begins later.
 void VirtualBus::advance_plant(std::uint64_t time_us) {
   if (held_) return;
   time_us = std::max(time_us, plant_.now_us());

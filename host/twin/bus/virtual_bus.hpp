@@ -15,64 +15,58 @@
 
 namespace verp::bus {
 
-/// A robot's servo bus in memory: a FrameBus with devices on a plant, in simulated time.
+/// A FrameBus in memory with devices on a plant, in simulated time.
 ///
 /// Lockstep: a broadcast (Fast) Sync Read that covers Present Position begins a tick. It waits on
 /// the wire for the next multiple of the control period. Otherwise only bytes, reply delays and
-/// poll's timeouts advance time. The bus samples registers when a device's reply begins, and
-/// applies writes when their last byte has arrived.
+/// poll's timeouts advance time. Registers are sampled when a reply begins; writes apply when their
+/// last byte arrives.
 ///
-/// In a Sync or Bulk Read each device waits for the one before, so a silent device silences those
-/// behind it. Devices with the same id transmit over each other, and the master receives neither
-/// packet (collision.hpp). A device at another baud rate neither hears nor answers. Deterministic:
-/// the same frames give the same replies at the same times.
+/// In a Sync or Bulk Read a silent device silences those behind it. Replies of devices with the
+/// same id collide (collision.hpp). A device at another baud rate neither hears nor answers.
+/// Deterministic.
 class VirtualBus {
  public:
-  /// Creates the servos, IMU and feet of `params`. The plant must outlive the bus and be at time 0.
+  /// The plant must outlive the bus and be at time 0.
   VirtualBus(const Params& params, sim::Plant& plant);
 
-  /// Adds a device that `params` does not name; call it before the first frame.
+  /// A device that `params` does not name; call before the first frame.
   void add(std::unique_ptr<Device> device) { devices_.push_back(std::move(device)); }
 
   bool send(const std::uint8_t* data, std::size_t size);
   std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us);
   std::uint64_t now_us() const { return now_ns_ / 1000; }
 
-  /// Control periods since the first tick; 0 before it. The controller counts the same ticks.
+  /// Control periods since the first tick, as the controller counts them; 0 before it.
   std::uint32_t tick() const { return tick_; }
   bool ticking() const { return ticking_; }
-  /// Connects or disconnects a device. A disconnected device neither hears nor answers.
+  /// A disconnected device neither hears nor answers.
   void set_connected(std::uint8_t id, bool connected);
-  /// Switches a device's power. Without power it is disconnected; with power it restarts.
+  /// Without power a device is disconnected; with power it restarts.
   void set_powered(std::uint8_t id, bool powered);
-  /// Whether a packet begins a tick in lockstep.
   static bool begins_tick(const dxl::Packet& packet);
 
-  /// In real time no read waits for a period, and bring_until() advances time. The master transmits
-  /// at any time (real_time_line.cpp). The half-duplex wire loses what the master sends before an
-  /// answer is over. An incomplete packet ends at the next header or after a pause.
+  /// In real time no read waits for a period, and bring_until() advances time. The half-duplex wire
+  /// loses bytes that the master sends before an answer is over (real_time_line.cpp). An incomplete
+  /// packet ends at the next header or after a pause.
   void set_real_time(bool real_time) { real_time_ = real_time; }
-  /// Baud rate of the master's port; devices at another rate neither hear nor answer.
+  /// Baud rate of the master's port.
   void set_baud(std::uint32_t baud);
-  /// Holds the plant: only bytes advance time.
+  /// Only bytes advance time.
   void hold_plant() { held_ = true; }
-  /// Releases the plant and restarts time at 0. The devices keep their settings; bytes on the wire
-  /// are lost.
+  /// Time restarts at 0; devices keep their settings, bytes on the wire are lost.
   void begin_time();
   bool held() const { return held_; }
   bool torque_on() const;
-  /// True if nothing is on the wire and nothing is queued.
   bool quiet() const { return replies_.empty() && master_free_ns_ <= now_ns_; }
-  /// The master's bytes that have not left its port.
   std::size_t unsent() const;
-  /// The master closed its port: discards its incomplete packet.
   void hung_up() { line_.reset(); }
-  /// The master's requests that arrived during an answer.
+  /// Requests that arrived during an answer.
   std::uint32_t lost_requests() const { return lost_requests_; }
-  /// Advances time and the plant to `time_us`; stores the bytes that arrive and returns their
-  /// number. At `capacity` bytes, time stops with the last byte stored.
+  /// Advances to `time_us`; stores arriving bytes and returns their number. At `capacity` bytes,
+  /// time stops with the last one.
   std::size_t bring_until(std::uint64_t time_us, std::uint8_t* buffer, std::size_t capacity);
-  /// Advances time to `time_us` and discards what arrives.
+  /// Discards what arrives.
   void let_pass(std::uint64_t time_us) {
     std::uint8_t unheard[hal::kMaxFrame];
     while (now_us() < time_us) bring_until(time_us, unheard, sizeof unheard);
@@ -82,39 +76,38 @@ class VirtualBus {
 
  private:
   struct Chunk {
-    std::uint64_t asked_ns = 0;  ///< from here on the sender hears nothing else
-    std::uint64_t start_ns = 0;  ///< start of its first start bit
+    std::uint64_t asked_ns = 0;  ///< its sender is deaf from here on
+    std::uint64_t start_ns = 0;
     std::size_t taken = 0;
     std::vector<std::uint8_t> bytes;
   };
 
-  /// A broadcast Ping is answered in slots; the device with id n answers in slot n.
+  /// A broadcast Ping is answered in slots: id n in slot n.
   static constexpr std::uint64_t kPingSlot_us = 3000;
 
   std::uint64_t bytes_ns(std::size_t count) const;
-  /// All devices with this id; more than one only if ids are duplicated.
+  /// More than one only if ids are duplicated.
   std::vector<Device*> devices(std::uint8_t id);
   std::uint64_t begin_tick(std::uint64_t ready_ns);
   std::size_t arrive(std::uint64_t deadline_ns, std::uint8_t* buffer, std::size_t capacity);
 
   // real_time_line.cpp
   void talk(const std::uint8_t* data, std::size_t size);
-  /// True if an answer is in progress; `byte` corrupts the part of it on the line.
+  /// An answer is in progress; `byte` corrupts the part of it on the line.
   bool jams(std::uint8_t byte, std::uint64_t start_ns, std::uint64_t end_ns);
-  /// False for a device that is disconnected or at another baud rate.
+  /// Connected, and at the master's baud rate.
   bool hears(const Device& device) const;
-  /// Advances the plant, and runs the devices' own actions on the way.
+  /// Runs the devices' own actions on the way.
   void advance_plant(std::uint64_t time_us);
   void wait_us(std::uint32_t delay_us);
-  /// Each of `speakers` sends the result of `say`, after the shortest of their delays or at once.
+  /// Each speaker sends the result of `say`, after the shortest delay or at once.
   template <class Say>
   void speak(const std::vector<Device*>& speakers, bool at_once, Say&& say);
   void put_on_wire(std::vector<std::uint8_t> bytes);
 
   // instructions.cpp
   void handle(const dxl::Packet& packet, std::uint64_t end_ns);
-  /// Applies it to all addressed devices, by Secondary ID too if `for_group`. A device addressed by
-  /// its own id replies.
+  /// `for_group`: by Secondary ID too. Only a device addressed by its own id replies.
   template <class Apply>
   void command(std::uint8_t id, bool for_group, Apply apply);
   void ping(std::uint8_t id);
@@ -134,17 +127,17 @@ class VirtualBus {
   dxl::Parser line_;
   std::deque<Chunk> replies_;
   std::uint64_t now_ns_ = 0;
-  std::uint64_t wire_free_ns_ = 0;    ///< end of the last byte on the wire
+  std::uint64_t wire_free_ns_ = 0;
   std::uint64_t asked_ns_ = 0;        ///< when the next sender received its request
-  std::uint64_t master_free_ns_ = 0;  ///< real time: end of the master's last byte
-  std::uint64_t send_start_ns_ = 0;   ///< start of the last sent frame
+  std::uint64_t master_free_ns_ = 0;  ///< real time
+  std::uint64_t send_start_ns_ = 0;   ///< of the last sent frame
   std::uint64_t tick_start_ns_ = 0;
   std::uint64_t first_tick_ns_ = 0;
   std::uint64_t bytes_on_wire_ = 0;
   std::uint32_t tick_ = 0;
   std::uint32_t lost_requests_ = 0;
-  std::uint32_t last_four_ = 0;  ///< last four bytes from the master, real time
-  bool jammed_ = false;          ///< the master's last byte collided
+  std::uint32_t last_four_ = 0;  ///< of the master, real time
+  bool jammed_ = false;
   bool ticking_ = false;
   bool real_time_ = false;
   bool held_ = false;

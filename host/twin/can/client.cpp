@@ -18,8 +18,8 @@ using canopen::SdoClient;
 constexpr Address kDeviceType{0x1000, 0};
 constexpr Address kName{0x1008, 0};
 constexpr std::uint16_t kIdentityIndex = 0x1018;
-constexpr std::size_t kMostBytes = 1 << 16;      // limit of an object that is read
-constexpr unsigned kRequestsAtOnce = 16;         // of a scan; the size of a queue
+constexpr std::size_t kMostBytes = 1 << 16;  // limit of an object that is read
+constexpr unsigned kRequestsAtOnce = 16;
 constexpr std::uint32_t kStopAfter_us = 20'000;  // longest wait for Ctrl-C during a scan
 
 std::uint32_t to_number(const std::vector<std::uint8_t>& data) {
@@ -27,7 +27,6 @@ std::uint32_t to_number(const std::vector<std::uint8_t>& data) {
       canopen::get_le(data.data(), static_cast<unsigned>(std::min<std::size_t>(data.size(), 4))));
 }
 
-/// An interface of this PC: the caller's port, or its own (`Port` is link::CanPort).
 template <class Port>
 class PortBus final : public ClientBus {
  public:
@@ -45,13 +44,12 @@ class PortBus final : public ClientBus {
   Port port_;
 };
 
-/// True if a retry may help: no answer, or an answer to an earlier abandoned request, so that the
-/// two ends were out of step.
+/// True if a retry may help: no answer, or one to an earlier request.
 bool may_be_late(Abort why) {
   return why == Abort::kTimeout || why == Abort::kCommand || why == Abort::kToggle;
 }
 
-/// Device type in an answer to the request for 1000h; 0 if the answer is a refusal or segmented.
+/// Device type in an answer for 1000h; 0 after a refusal or a segmented answer.
 std::uint32_t device_type_in(const CanFrame& frame, std::uint8_t node) {
   std::uint8_t type[4] = {};
   SdoClient client(node);

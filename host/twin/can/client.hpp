@@ -15,7 +15,6 @@
 
 namespace verp::can {
 
-/// The node did not answer, or the interface delivered nothing.
 class SilentError : public bus::DeviceError {
  public:
   using bus::DeviceError::DeviceError;
@@ -31,7 +30,7 @@ class AbortedError : public bus::DeviceError {
 };
 
 struct NodeIdentity {
-  /// How far the identification came. Unless kToTheEnd, missing fields are unknown.
+  /// How far the identification came. Fields not reached are unknown.
   enum class Asked : std::uint8_t {
     kToTheEnd,
     kFellSilent,   ///< it stopped answering
@@ -40,15 +39,14 @@ struct NodeIdentity {
 
   std::uint8_t node = 0;
   std::uint32_t device_type = 0;        ///< 1000h
-  std::optional<std::uint32_t> vendor;  ///< 1018h:1; as with the next two, nothing if the node
-                                        ///< refused
+  std::optional<std::uint32_t> vendor;  ///< 1018h:1; as the next two, nothing if refused
   std::optional<std::uint32_t> product;
   std::optional<std::uint32_t> revision;
   std::string name;  ///< 1008h; empty if the node refused
   Asked asked = Asked::kToTheEnd;
 };
 
-/// Bus of a Client: an interface of this PC, or a test's bus. A hal::CanBus.
+/// An interface of this PC or a test's bus; a hal::CanBus.
 class ClientBus {
  public:
   virtual ~ClientBus() = default;
@@ -60,48 +58,43 @@ class ClientBus {
 };
 static_assert(hal::CanBus<ClientBus>);
 
-/// "6064:0", the usual form of an object's address; both parts are hexadecimal.
+/// For example "6064:0", hexadecimal.
 std::string to_text(canopen::Address at);
 
-/// SDO client for the CANopen nodes on an interface, one transfer at a time. The PC has no node id
-/// and sends nothing else. It repeats a request without an answer within `timeout_us`. Throws
-/// bus::DeviceError with the abort's reason, SilentError without an answer; the constructor throws
-/// LinkError.
+/// SDO client for the CANopen nodes on an interface, one transfer at a time. The PC has no node id.
+/// It repeats a request without an answer within `timeout_us`. Throws bus::DeviceError with the
+/// abort's reason, SilentError without an answer; the constructor throws LinkError.
 ///
-/// It asks the controller's node over its separate channel (plan::kToolSdo), if any, so that
-/// clients of the default channel do not take its answers for theirs.
+/// It asks the controller's node over its separate channel (plan::kToolSdo), apart from clients of
+/// the default channel.
 class Client {
  public:
   static constexpr int kAttempts = 3;  ///< per unanswered transfer
 
   Client(const link::Endpoint& endpoint, std::uint32_t timeout_us);
-  /// The caller owns the port, which must outlive the client; `endpoint` is the place it was opened
-  /// on.
+  /// The caller owns the port, which outlives the client; `endpoint` is its place.
   Client(link::CanPort& port, const link::Endpoint& endpoint, std::uint32_t timeout_us);
-  /// The caller owns the bus likewise; errors name it `place`.
   Client(ClientBus& bus, std::string place, std::uint32_t timeout_us);
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
 
-  /// scan() and identify() send no more requests once `stop` returns true.
+  /// scan() and identify() stop sending once `stop` returns true.
   void stop_when(std::function<bool()> stop) { stop_ = std::move(stop); }
 
-  /// Requests 1000h from all 127 ids; returns, by id, the nodes that answer within the timeout
-  /// after the last request. Includes nodes that fall silent afterwards.
+  /// Requests 1000h from all 127 ids; returns, by id, the nodes that answer in time.
   std::vector<NodeIdentity> scan();
-  /// Nothing if no node answers.
   std::optional<NodeIdentity> identify(std::uint8_t node, int attempts = kAttempts);
   std::vector<std::uint8_t> read(std::uint8_t node, canopen::Address at);
   void write(std::uint8_t node, canopen::Address at, const std::vector<std::uint8_t>& data);
 
-  /// Makes one expedited read without a retry; false: no answer.
+  /// One expedited read without retry; false: no answer.
   bool read_once(std::uint8_t node, canopen::Address at);
 
   const std::string& place() const { return place_; }
 
  private:
   canopen::SdoChannel channel_to(std::uint8_t node);
-  /// Reason of the failure; kNone: success.
+  /// kNone: success.
   canopen::Abort upload(std::uint8_t node, canopen::Address at, int attempts,
                         std::vector<std::uint8_t>& data);
   /// Reads the remaining objects until the node falls silent.
@@ -117,7 +110,7 @@ class Client {
   const std::uint32_t timeout_us_;
   std::string place_;
   std::function<bool()> stop_ = [] { return false; };
-  std::optional<bool> has_own_channel_;  ///< the controller's node; nothing: not asked yet
+  std::optional<bool> has_own_channel_;  ///< nothing: not asked yet
 };
 
 }  // namespace verp::can

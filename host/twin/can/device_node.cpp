@@ -18,7 +18,6 @@ PdoMapping<> just(canopen::Address at, std::uint8_t bits) {
   return mapping;
 }
 
-/// A PDO with identifier and mapping, but disabled.
 template <class Record>
 Record spare(Direction direction, std::uint16_t id, const PdoMapping<>& mapping) {
   Record record(direction, id, canopen::kEventProfile, mapping);

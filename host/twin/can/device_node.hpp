@@ -8,10 +8,9 @@
 
 namespace verp::can {
 
-/// A CANopen device as a node of the bus: an application inside a device with the PDOs of `Setup`,
-/// rebuilt at each reset.
-///  - Setup::kSize: the numbers of the device's objects.
-///  - Setup::prepare(objects, node): sets the factory values of its communication objects.
+/// Runs an application as a CANopen node with the PDOs of `Setup`, rebuilt at each reset.
+///  - Setup::kSize: sizes of the device's object tables.
+///  - Setup::prepare(objects, node): sets the factory values of the communication objects.
 template <class Application, class Setup>
 class DeviceNode : public Node {
  public:
@@ -43,13 +42,10 @@ class DeviceNode : public Node {
   Device& device() { return *device_; }
 
  protected:
-  /// Restores the factory state of the application, not of the communication.
   virtual void begin_anew() {}
-  /// 1010h or 1011h: stores the application's settings, or discards the stored ones.
+  /// 1010h or 1011h: stores the application's settings or discards the stored ones.
   virtual void keep_application(bool) {}
-  /// Called when NMT stops the node.
   virtual void stopped() {}
-  /// Called when the master's heartbeat (1016h) is missing.
   virtual void master_lost() {}
 
  private:
@@ -68,7 +64,7 @@ class DeviceNode : public Node {
     if (event == canopen::NmtEvent::kResetNode) begin_anew();
     boot();
   }
-  // On start the node sends its event-driven TPDOs at once, because their values may never change.
+  // Sends the event-driven TPDOs at once on start: their values may never change.
   void tell_all() {
     for (std::size_t i = 0; i < Setup::kSize.tpdos; ++i) {
       if (!canopen::is_synchronous(device_->objects().tpdos[i].type())) device_->trigger(i);
@@ -91,8 +87,7 @@ class DeviceNode : public Node {
   std::optional<typename Device::Objects> communication_;  ///< stored by 1010h
 };
 
-/// As in CiA 402, RPDO 1 holds the controlword and TPDO 1 reports a changed statusword. The robot's
-/// controller maps what else it needs.
+/// As in CiA 402, RPDO 1 holds the controlword and TPDO 1 reports a changed statusword.
 struct DrivePdos {
   static constexpr canopen::DeviceSize kSize{.rpdos = 3, .tpdos = 2, .stores = true};
   static void prepare(canopen::CommunicationObjects<DriveApplication, kSize>& objects,
@@ -117,7 +112,7 @@ canopen::Identity foot_identity(std::uint8_t node);
 using ImuNode = DeviceNode<ImuApplication, ImuPdos>;
 using FootNode = DeviceNode<FootApplication, FootPdos>;
 
-/// A drive as a node. It also watches its master's heartbeat and reports its errors.
+/// A drive that also watches its master's heartbeat and reports errors.
 class DriveNode final : public DeviceNode<DriveApplication, DrivePdos> {
  public:
   DriveNode(const canopen::Identity& identity, std::uint8_t node, sim::Plant& plant, int joint,
@@ -138,7 +133,7 @@ class DriveNode final : public DeviceNode<DriveApplication, DrivePdos> {
   void tell_status(std::uint16_t status);
   std::uint16_t told_status_ = 0;
   std::optional<DriveApplication::Settings> stored_;
-  DriveNews error_;  ///< error of the drive itself, while it lasts
+  DriveNews error_;  ///< the drive's own error, while it lasts
 };
 
 }  // namespace verp::can

@@ -19,13 +19,13 @@ using canopen::cia402::Trigger;
 namespace cia402 = canopen::cia402;
 namespace object = canopen::cia402::object;
 
-// Factory limits of a serial servo's control table (e-Manual, XM430-W210).
+// Factory limits of a serial servo (e-Manual, XM430-W210).
 constexpr double kHottest_c = 80;
 constexpr double kStands_rad_s = 0.1;  ///< slower than this counts as stopped
 
 constexpr int kPerMille = 1000;
 
-/// Adds an offset; the 32-bit position counter wraps.
+/// Wraps as the 32-bit position counter does.
 std::int32_t around(std::int32_t count, std::int64_t offset) {
   return static_cast<std::int32_t>(count + offset);
 }
@@ -130,7 +130,7 @@ DriveApplication::Settings DriveApplication::settings() const {
   return {objects_, {gains_[0], gains_[1], gains_[2]}};
 }
 
-// Commands are not restored, so that a drive does nothing by itself after boot.
+// Restores no commands: a drive does nothing by itself after boot.
 void DriveApplication::restore(const Settings& settings) {
   for (std::size_t i = 0; i < cia402::kDriveRowCount; ++i) {
     const cia402::ObjectRow& row = cia402::kDriveRows[i];
@@ -183,7 +183,6 @@ void DriveApplication::settle() {
   apply();
 }
 
-// Uses the measurements of the last millisecond and acts on a new state at once.
 DriveNews DriveApplication::work(std::uint64_t now_us) {
   const DriveNews news = watch(now_us);
   if (drive_.state() == State::kQuickStopActive &&
@@ -198,7 +197,7 @@ DriveNews DriveApplication::watch(std::uint64_t now_us) {
   refresh();
   const sim::ServoMeasurement measured = plant_.measure(joint_);
   const bool hot = measured.temperature_c > kHottest_c;
-  if (!hot) drive_.clear_fault();  // a drive without torque has no following error
+  if (!hot) drive_.clear_fault();  // without torque there is no following error
   if (hot && drive_.state() != State::kFault) {
     return fault(ErrorCode::kOverTemperature, canopen::kErrorTemperature, dxl::kOverheatingError);
   }
@@ -226,8 +225,7 @@ DriveNews DriveApplication::fault(ErrorCode code, std::uint8_t error_register,
   return {code, error_register, true};
 }
 
-// Share of the rated torque. Torque follows current; if the rated current is unknown, the duty is
-// used, as in the serial servos' Present Load.
+// Current over rated current; if that is unknown, the duty, as in the serial servos' Present Load.
 double DriveApplication::share(const sim::ServoMeasurement& measured) const {
   return rating_.current_a > 0 ? measured.current_a / rating_.current_a : measured.duty;
 }

@@ -8,11 +8,11 @@
 
 namespace verp::can {
 
-/// P, I and D gain of the position loop: an array.
+/// P, I and D gain of the position loop.
 inline constexpr std::uint16_t kGains = 0x2002;
 inline constexpr std::uint16_t kMostGain = 16383;
 
-/// Commissioned settings of a drive for which CiA 402 has no objects.
+/// Commissioned settings without a CiA 402 object.
 struct DriveSetup {
   double counts_per_rad = 0;  ///< of the encoder, unsigned
   std::uint16_t p_gain = 0;   ///< 2002h:1 to 3, units of sim::ServoSetpoint
@@ -20,22 +20,20 @@ struct DriveSetup {
   std::uint16_t d_gain = 0;
 };
 
-/// An event in the drive that its device must report.
 struct DriveNews {
   canopen::ErrorCode code = canopen::ErrorCode::kNoError;
   std::uint8_t error_register = 0;
   bool any = false;
 };
 
-/// Application of a CiA 402 drive for one joint of a plant: its objects from 2000h up (a
-/// canopen::Application) and its state machine.
+/// CiA 402 drive of one joint: its objects from 2000h up (a canopen::Application) and its state
+/// machine.
 ///
-/// Mode 8 only. A target, limited by 607Dh, takes effect when written. Straight lines of duration
-/// 60C2h join the targets. Without a target since torque-on, the drive holds its position. Max
-/// torque (6072h) limits the duty, as Goal PWM does in a serial servo. Quick stop stops at once; at
-/// standstill the torque goes off (605Ah 1 to 3) or stays on (5 to 7). Overheating and a watched
-/// following error are faults. A supply voltage out of range is a warning, as with a serial servo's
-/// Shutdown.
+/// Mode 8 only. A target, limited by 607Dh, takes effect when written. Straight lines of 60C2h join
+/// the targets. Without a target since torque-on, it holds its position. 6072h limits the duty, as
+/// Goal PWM does in a serial servo. Quick stop stops at once; then the torque goes off (605Ah 1 to
+/// 3) or stays on (5 to 7). Overheating and a watched following error are faults; a wrong supply
+/// voltage is a warning.
 class DriveApplication {
  public:
   DriveApplication(sim::Plant& plant, int joint, const DriveSetup& setup);
@@ -53,20 +51,18 @@ class DriveApplication {
     std::uint16_t gains[3] = {};
   };
   Settings settings() const;
-  /// Restores stored settings; call it after restart().
+  /// Call after restart().
   void restore(const Settings& settings);
 
   /// Power-on or NMT reset: all objects as commissioned, no torque.
   void restart();
   void power_off();
-  /// The master's heartbeat is missing or NMT stopped the node: applies option 6007h. True if this
-  /// is a fault; a drive without torque has none.
+  /// Master's heartbeat missing, or stopped by NMT: applies 6007h; true if that is a fault.
   bool connection_lost();
-  /// Sets 603Fh to the device's error.
   void show_error(canopen::ErrorCode code) {
     objects_.error_code = static_cast<std::uint16_t>(code);
   }
-  /// Call once a millisecond. The device sends the returned event as EMCY.
+  /// Call once a millisecond; the device sends the returned event as EMCY.
   DriveNews work(std::uint64_t now_us);
 
   const canopen::cia402::Drive& drive() const { return drive_; }
@@ -92,8 +88,8 @@ class DriveApplication {
   canopen::cia402::Drive drive_;
   canopen::cia402::FollowingMonitor following_;
   std::uint16_t gains_[3] = {};
-  std::uint8_t hardware_errors_ = 0;  ///< bits of dxl::HardwareError, until a fault reset
-  std::int32_t held_count_ = 0;       ///< held position while there is no target
+  std::uint8_t hardware_errors_ = 0;  ///< bits of dxl::HardwareError until a fault reset
+  std::int32_t held_count_ = 0;       ///< without a target
   bool target_written_ = false;       ///< since the last stop or loss of torque
   bool limited_ = false;              ///< 607Dh limited the target
   bool following_error_ = false;

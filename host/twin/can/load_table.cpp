@@ -13,7 +13,7 @@ using plan::TickKind;
 
 constexpr std::uint32_t kRates_hz[] = {100, 125, 200, 250};
 
-/// Params of bus `which` of two; `first` drives are on the first bus.
+/// Bus `which` of two; its drives are the `first` ones on bus 0.
 Params half_of(const Params& params, int which, int first) {
   Params half = params;
   half.joint_count = static_cast<std::uint8_t>(which == 0 ? first : params.servo_count() - first);
@@ -28,8 +28,8 @@ Params half_of(const Params& params, int which, int first) {
   return half;
 }
 
-/// Raises the row to the load of this bus, whose first drive is that of joint `from`. `own_imu`:
-/// the controller's own IMU is a node here.
+/// Adds the bus whose first drive is that of joint `from`. `own_imu`: the controller's IMU is a
+/// node.
 void add_bus(LoadRow& row, const Params& params, int from, bool own_imu,
              const canopen::BitRates& rates) {
   const std::uint32_t period_us = 1'000'000 / row.rate_hz;

@@ -10,8 +10,7 @@
 namespace verp::can {
 namespace {
 
-/// True for frames from or to the controller's own node; the twin's clock uses lower ids
-/// (firmware/app/operator_node.hpp).
+/// The twin's clock uses lower ids (firmware/app/operator_node.hpp).
 bool is_of_controller_node(const CanFrame& frame) {
   namespace plan = canopen::plan;
   if (!canopen::is_canopen(frame)) return false;
@@ -23,7 +22,6 @@ bool is_of_controller_node(const CanFrame& frame) {
          at.service == Service::kSdoRequest || at.service == Service::kSdoResponse;
 }
 
-/// True for frames that a controller may send; other nodes share the interface.
 bool may_be_of_controller(const CanFrame& frame) {
   if (!canopen::is_canopen(frame)) return false;
   const canopen::Connection on = canopen::connection_of(frame.id);
@@ -44,8 +42,8 @@ LockstepServer::LockstepServer(const Params& params, VirtualCan& bus, LockstepHo
     : LockstepSession(params), bus_(bus), hooks_(std::move(hooks)) {}
 
 void LockstepServer::take(const CanFrame& frame, std::vector<CanFrame>& answer) {
-  constexpr std::size_t kMostHeld = 4 * hal::kCanQueue;  // limit for a controller that never asks
-                                                         // for time
+  constexpr std::size_t kMostHeld = 4 * hal::kCanQueue;  // for a controller that never asks for
+                                                         // time
   lockstep::CanAdvance request;
   if (lockstep::take_message(frame, lockstep::kCanAdvanceId, request)) {
     return advance(request, answer);
@@ -88,8 +86,7 @@ bool LockstepServer::make_whole(const lockstep::CanAdvance& advance) {
   return is_whole(advance);
 }
 
-// A SYNC ends the frames between two polls. It has the highest priority, so it may have overtaken
-// goals on its way here.
+// A SYNC ends the frames between two polls; by priority it may have overtaken goals.
 bool LockstepServer::send_frames(bool whole) {
   std::stable_partition(frames_.begin(), frames_.end(), [](const CanFrame& each) {
     return each.extended || each.id != canopen::kSyncId;
@@ -97,7 +94,7 @@ bool LockstepServer::send_frames(bool whole) {
   bool begins = false;
   for (const CanFrame& each : std::exchange(frames_, {})) {
     if (VirtualCan::begins_tick(each)) {
-      if (begins) continue;  // duplicated on its way: a controller begins only one tick
+      if (begins) continue;  // duplicated on its way
       if (hooks_.tick_ends && !hooks_.tick_ends()) return false;
       begins = true;
     }
@@ -143,7 +140,7 @@ void LockstepServer::advance(const lockstep::CanAdvance& advance, std::vector<Ca
     return;
   }
   if (asks_again(advance.sequence)) {
-    // The controller sends a repeat alone, so other frames with it are not its own.
+    // The controller sends a repeat alone.
     frames_.clear();
     answer.insert(answer.end(), last_.begin(), last_.end());
     return;

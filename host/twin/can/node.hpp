@@ -5,8 +5,8 @@
 
 namespace verp::can {
 
-/// A node of a virtual CAN bus. It receives each frame at the frame's end on the wire, works once a
-/// millisecond, and sends frames. The plant is always at `now_us`.
+/// A node receives each frame at its end on the wire and works once a millisecond. The plant is
+/// always at `now_us`.
 class Node {
  public:
   virtual ~Node() = default;
@@ -18,7 +18,6 @@ class Node {
   virtual void work(std::uint64_t now_us) = 0;
   /// False: nothing to send.
   virtual bool say(CanFrame& frame, std::uint64_t now_us) = 0;
-  /// Power on: restores the commissioned state and boots.
   virtual void power_on() = 0;
   virtual void power_off() = 0;
 

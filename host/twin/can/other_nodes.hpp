@@ -6,18 +6,17 @@
 
 namespace verp::can {
 
-/// Detects another device that acts as a node of the twin's robot on the interface: the robot
-/// itself or another twin. Its answers would mix with ours in the controller's Inputs.
+/// Detects another device that acts as a node of the twin's robot: the robot itself or another
+/// twin.
 ///
-/// The proof is five heartbeats, TPDOs or SDO answers of one node, in the form used on a robot's
-/// bus. Three random frames look like this now and then, five hardly ever
+/// Proof: five heartbeats, TPDOs or SDO answers of one node. Random frames hardly ever give five
 /// (tests/host/can/other_nodes_test.cpp).
 class OtherNodes {
  public:
   explicit OtherNodes(const Params& params) : nodes_(params) {}
 
   void take(const CanFrame& frame);
-  /// First detected node; 0: none.
+  /// 0: none.
   std::uint8_t found() const { return found_; }
 
  private:

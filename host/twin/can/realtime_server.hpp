@@ -7,21 +7,19 @@
 
 namespace verp::can {
 
-/// Serves the bus on a real clock to a master with its own timing: any CANopen tool. Time and the
-/// nodes' boot start with the first frame. Frames take simulated wire time in addition to the
-/// interface's time.
+/// Serves any CANopen tool on a real clock. Time and the nodes' boot start with the first frame.
+/// Simulated wire time adds to the interface's.
 class RealtimeServer {
  public:
   struct Counters {
     std::uint64_t frames = 0;   ///< from the master
-    std::uint32_t dropped = 0;  ///< frames lost because they came faster than the simulated wire
-    std::uint32_t late = 0;     ///< turns with the twin over kLate_us behind the clock
-    std::uint64_t worst_late_us = 0;  ///< behind the clock at the end of a turn
-    std::uint64_t skipped_us = 0;     ///< clock time for which the twin stood still
+    std::uint32_t dropped = 0;  ///< came faster than the simulated wire
+    std::uint32_t late = 0;     ///< turns over kLate_us behind the clock
+    std::uint64_t worst_late_us = 0;
+    std::uint64_t skipped_us = 0;  ///< clock time without simulation
   };
   static constexpr std::uint64_t kLate_us = 1000;  ///< a physics step
-  /// A turn catches up at most this much and skips the rest. A twin that is slower than the clock
-  /// then still receives and answers, instead of falling further behind.
+  /// A turn catches up at most this much and skips the rest, so that a slow twin still answers.
   static constexpr std::uint64_t kMostBehind_us = 50'000;
   static constexpr std::uint64_t kKeepsUp_us = 1'000'000;  ///< time without a skip
 
@@ -32,26 +30,22 @@ class RealtimeServer {
 
   explicit RealtimeServer(VirtualCan& bus) : bus_(bus) {}
 
-  /// Handles all waiting frames in one turn: for each, advances time to its arrival (at most
-  /// kMostBehind_us / 2 before `clock_us`) and appends the bus's frames to `answer`. It skips once
-  /// for all frames. Otherwise, on a slow PC, a master that asks more often than there are turns
-  /// would get later and later answers.
+  /// Handles all waiting frames: advances to each arrival (at most kMostBehind_us / 2 before
+  /// `clock_us`) and appends the bus's frames to `answer`. It skips once for all frames; otherwise
+  /// answers to a fast master would come later and later.
   void hear(std::span<const ReceivedFrame> frames, std::uint64_t clock_us,
             std::vector<CanFrame>& answer);
-  /// Advances to `clock_us` without a frame; does nothing before the first frame.
+  /// Does nothing before the first frame.
   void turn(std::uint64_t clock_us, std::vector<CanFrame>& answer);
-  /// Records how late the twin is at the end of a turn.
   void finished(std::uint64_t clock_us);
 
   bool begun() const { return begun_; }
-  /// True if nothing was skipped for kKeepsUp_us at least once, or little in all; a short run may
-  /// also be delayed.
+  /// Nothing was skipped for kKeepsUp_us once, or little in all.
   bool kept_up() const { return kept_up_ || counters_.skipped_us <= bus_.now_us() / 10; }
   const Counters& counters() const { return counters_; }
 
  private:
-  /// Target time of the bus; never before its present time, because frames may be older than a
-  /// skip.
+  /// Never before the bus's time.
   std::uint64_t due_us(std::uint64_t clock_us) const;
   void skip(std::uint64_t clock_us);
   void go_on(std::uint64_t clock_us, std::vector<CanFrame>& answer);

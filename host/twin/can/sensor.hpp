@@ -6,7 +6,7 @@
 
 namespace verp::can {
 
-/// Application of a sensor node: arrays of 16-bit numbers that can be read and mapped.
+/// Arrays of 16-bit numbers that can be read and mapped.
 class SensorApplication {
  public:
   canopen::Abort find(canopen::Address at, canopen::Entry& entry) const;
@@ -23,7 +23,7 @@ class SensorApplication {
   sim::Plant& plant_;
 
  private:
-  /// Number of elements in an object; 0: no such object.
+  /// 0: no such object.
   virtual std::uint8_t count(std::uint16_t index) const = 0;
   virtual std::uint16_t number(std::uint16_t index, int i) const = 0;
 };
@@ -38,7 +38,7 @@ class ImuApplication final : public SensorApplication {
   std::uint16_t number(std::uint16_t index, int i) const override;
 };
 
-/// A foot: four forces, 2020h:1 to 4, u16: front-left, front-right, back-left, back-right.
+/// Four forces, 2020h:1 to 4, u16: front-left, front-right, back-left, back-right.
 class FootApplication final : public SensorApplication {
  public:
   FootApplication(sim::Plant& plant, int foot) : SensorApplication(plant), foot_(foot) {}

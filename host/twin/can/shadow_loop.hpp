@@ -8,9 +8,8 @@
 
 namespace verp::can {
 
-/// Tape of a CAN bus: frames; an answer brings a burst. Between two polls the controller fixes only
-/// the order of frames with the same identifier; priorities decide the rest. A tick ends when the
-/// next SYNC 1 is sent (LockstepHooks::tick_ends).
+/// Between two polls the controller fixes only the order of frames with the same identifier. A tick
+/// ends when the next SYNC 1 is sent (LockstepHooks::tick_ends).
 class CanTape : public bus::ShadowTape<CanFrame, std::vector<CanFrame>> {
  public:
   static constexpr bool kWholeTicks = true;

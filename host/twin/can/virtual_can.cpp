@@ -171,7 +171,7 @@ bool VirtualCan::step(std::uint64_t limit_ns) {
   return true;
 }
 
-// A frame on the wire at the end of a poll may have taken the plant past it.
+// The last poll's frame may have taken the plant past it.
 void VirtualCan::reach(std::uint64_t time_ns) {
   if (time_ns / 1000 > plant_.now_us()) plant_.advance_to(time_ns / 1000);
 }
@@ -197,7 +197,7 @@ VirtualCan::Place* VirtualCan::arbitrate(std::uint64_t begin_ns, Waiting& winner
   std::deque<Waiting>* queue = nullptr;
   Place* sender = nullptr;
   std::size_t place_in_queue = 0;
-  // In real time the controller's frames have already crossed a wire, so they keep their order.
+  // In real time the controller's frames keep the order of their real wire.
   const auto compete = [&](std::deque<Waiting>& out, Place* who) {
     for (std::size_t i = 0; i < out.size(); ++i) {
       if (out[i].ready_ns > begin_ns) continue;

@@ -14,42 +14,39 @@
 
 namespace verp::can {
 
-/// Decides what each receiver hears of each frame: models a wire worse than this one.
+/// Decides who receives each frame: models a bad wire.
 class Interference {
  public:
   virtual ~Interference() = default;
   Interference(const Interference&) = delete;
   Interference& operator=(const Interference&) = delete;
 
-  /// True if this node (0: the controller) receives the frame that ends now. Called for each
-  /// connected receiver.
+  /// True if this node (0: the controller) receives the frame that ends now.
   virtual bool passes(const CanFrame& frame, std::uint8_t receiver) = 0;
-  /// Called after each delivery and each millisecond. It may call bring().
+  /// Called after each delivery and each millisecond; may call bring().
   virtual void passed(std::uint64_t now_us) = 0;
 
  protected:
   Interference() = default;
 };
 
-/// A robot's CAN bus in memory: a CanBus with CANopen nodes on a plant, in simulated time.
+/// A CanBus in memory with CANopen nodes on a plant, in simulated time.
 ///
 /// Lockstep: a SYNC with counter 1 begins a tick. Earlier frames go first; then the SYNC waits on
 /// the wire for the next multiple of the control period. Otherwise only frames and poll's timeouts
-/// advance time. A frame takes its exact bits, including its own stuff bits. When the wire becomes
-/// free, the waiting frame with the lowest identifier goes first. A node samples for a SYNC when
-/// that ends, applies a target when its frame has arrived, and works once a millisecond.
-/// Deterministic: the same frames give the same answers at the same times.
+/// advance time. A frame takes its exact bits, with stuff bits. The lowest waiting identifier goes
+/// first. A node samples for a SYNC when that ends, applies a target when its frame has arrived,
+/// and works once a millisecond. Deterministic.
 class VirtualCan {
  public:
-  /// Creates the drives, IMU and feet of `params`. The plant must outlive the bus and be at time 0.
+  /// The plant must outlive the bus and be at time 0.
   VirtualCan(const Params& params, sim::Plant& plant);
 
   bool send(const CanFrame& frame);
-  /// Advances time to the end of the frame's burst: all frames that follow it on the wire without a
-  /// gap. The next polls return them. The caller cannot act inside a burst, whether local or on a
-  /// link that delivers a whole burst at once (lockstep_server.hpp).
+  /// Advances to the end of the frame's burst: all frames that follow without a gap. The next polls
+  /// return them. The caller cannot act inside a burst, on a link either (lockstep_server.hpp).
   bool poll(CanFrame& frame, std::uint32_t timeout_us);
-  /// The frame that the next poll returns without advancing time; null if it would wait.
+  /// The frame that the next poll returns at once, or null.
   const CanFrame* next_unread() const {
     return arrived_.empty() ? nullptr : &arrived_.front().frame;
   }
@@ -57,63 +54,57 @@ class VirtualCan {
   hal::CanErrors errors() const { return errors_; }
 
   void plug_in(std::unique_ptr<Node> node);
-  /// Bus-off after too many errors of the controller: it loses its waiting frames and returns by
-  /// itself.
+  /// Bus-off of the controller: it loses its waiting frames and returns by itself.
   void leave_bus();
 
-  /// Control periods since the first tick; 0 before it. The controller counts the same ticks.
+  /// Control periods since the first tick, as the controller counts them; 0 before it.
   std::uint32_t tick() const { return tick_; }
   bool ticking() const { return ticking_; }
-  /// Connects or disconnects a node. A disconnected node receives nothing, and its frames are lost.
+  /// A disconnected node receives nothing; its frames are lost.
   void set_connected(std::uint8_t id, bool connected);
-  /// Switches a node's power. With power it restarts with its boot-up message.
+  /// With power a node restarts with its boot-up message.
   void set_powered(std::uint8_t id, bool powered);
-  /// Whether a frame begins a tick in lockstep.
   static bool begins_tick(const CanFrame& frame);
 
-  /// In real time no SYNC waits for a period, and a poll ends with its frame, not with a burst.
-  /// send() keeps the order of its frames, as on the interface they come from. bring_until() and
-  /// go_on_until() advance time.
+  /// In real time no SYNC waits for a period, a poll ends with its frame, and send() keeps the
+  /// order of its frames. bring_until() and go_on_until() advance time.
   void set_real_time(bool real_time) { real_time_ = real_time; }
-  /// Returns the next frame that arrives by `time_us`. Without one, time and the plant advance to
-  /// `time_us`.
+  /// The next frame by `time_us`; without one, time advances to `time_us`.
   bool bring_until(std::uint64_t time_us, CanFrame& frame);
-  /// Advances time to `time_us`; the next poll returns what arrives.
+  /// The next poll returns what arrives.
   void go_on_until(std::uint64_t time_us);
-  /// Advances time to `time_us` and discards what arrives.
+  /// Discards what arrives.
   void let_pass(std::uint64_t time_us) {
     CanFrame unheard;
     while (bring_until(time_us, unheard)) {
     }
   }
 
-  /// Bits on the wire so far, including stuff bits and intermissions.
+  /// With stuff bits and intermissions.
   std::uint64_t bits_on_wire() const { return bits_on_wire_; }
   std::uint64_t bare_bits_on_wire() const { return bare_bits_on_wire_; }
   std::uint64_t frames_on_wire() const { return frames_on_wire_; }
-  /// Called at the end of each frame: a passive listener on the wire.
+  /// A passive listener at the end of each frame.
   using Listener =
       std::function<void(const CanFrame&, std::uint64_t begin_ns, std::uint64_t end_ns)>;
   void set_listener(Listener listener) { listener_ = std::move(listener); }
 
-  /// Null: none. It must outlive the bus or be removed.
+  /// Null: none; it must outlive the bus or be removed.
   void set_interference(Interference* interference) { interference_ = interference; }
-  /// This node (0: the controller) now receives a frame that is not on the wire: repeated or late.
+  /// The node (0: the controller) receives a frame that is not on the wire: repeated or late.
   void bring(const CanFrame& frame, std::uint8_t receiver);
 
-  // For nodes on the wire of a chip model, which calls these before it advances.
-  /// A frame has crossed that wire. Only nodes receive it here.
+  // For a chip model that owns the wire; it calls these before it advances.
+  /// A frame has crossed that wire; only nodes receive it here.
   void crossed(const CanFrame& frame, std::uint64_t end_ns);
   void work_until(std::uint64_t time_ns);
-  /// Returns the next frame that a node sends over that wire.
   bool take_said(CanFrame& frame);
 
  private:
-  /// A frame that waits in the queue of a node or of the controller.
   struct Waiting {
     CanFrame frame;
     std::uint64_t ready_ns = 0;
-    bool last = false;  ///< the last one that send() accepted
+    bool last = false;
   };
   struct Place {
     std::unique_ptr<Node> node;
@@ -126,18 +117,17 @@ class VirtualCan {
     std::uint64_t end_ns = 0;
   };
 
-  /// Frames that the controller may leave unread.
   static constexpr std::size_t kRoom = 64;
   static constexpr std::uint64_t kWork_ns = 1'000'000;
   static constexpr std::uint64_t kNever_ns = ~std::uint64_t{0};
 
   Place* place_of(std::uint8_t id);
-  /// Runs the next event that begins by `limit_ns`; false if there is none.
+  /// False: no event begins by `limit_ns`.
   bool step(std::uint64_t limit_ns);
   /// kNever_ns if no frame waits.
   std::uint64_t next_begin_ns() const;
   void transmit(std::uint64_t begin_ns);
-  /// Removes the winner of the arbitration from its queue; null: the controller's frame.
+  /// Takes the winner from its queue; null: the controller's frame.
   Place* arbitrate(std::uint64_t begin_ns, Waiting& winner);
   void deliver(const CanFrame& frame, const Place* sender, std::uint64_t end_ns);
   void arrive(const CanFrame& frame, std::uint64_t end_ns);
@@ -163,10 +153,10 @@ class VirtualCan {
   Interference* interference_ = nullptr;
   std::uint64_t heard_ns_ = 0;  ///< last time a node received or worked
   std::uint64_t now_ns_ = 0;
-  std::uint64_t wire_free_ns_ = 0;  ///< end of the last frame's intermission
+  std::uint64_t wire_free_ns_ = 0;  ///< end of the intermission
   std::uint64_t next_work_ns_ = 0;
-  std::uint64_t last_begin_ns_ = 0;  ///< of the last frame that send() accepted
-  bool last_waits_ = false;          ///< it has not begun yet
+  std::uint64_t last_begin_ns_ = 0;  ///< of send()'s last frame
+  bool last_waits_ = false;
   std::uint64_t off_until_ns_ = 0;
   std::uint64_t tick_start_ns_ = 0;
   std::uint64_t first_tick_ns_ = 0;

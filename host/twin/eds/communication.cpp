@@ -38,7 +38,7 @@ Object identity_object(const canopen::Identity& identity) {
           .has_members = true};
 }
 
-// Subindex 4 of a PDO's communication record is reserved. Only TPDOs have a SYNC start value.
+// Subindex 4 is reserved; only TPDOs have a SYNC start value.
 Object pdo_communication(bool receive, std::size_t number) {
   const unsigned base = receive ? 0x1400 : 0x1800;
   const std::size_t id = 0x100 * number + (receive ? 0x200 : 0x180);

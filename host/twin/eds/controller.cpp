@@ -56,8 +56,7 @@ Object image_object(app::ImageKind kind, const char* name, bool writable) {
           .values = {{.name = name, .type = DataType::kDomain, .writable = writable}}};
 }
 
-/// Factory communication objects of a controller with any node id, on a bus with room to publish
-/// ticks.
+/// Factory objects of a controller on a bus with room to publish ticks.
 struct Fresh {
   explicit Fresh(std::uint8_t node) : objects(application, app::controller_identity(), node) {
     app::publish_ticks(objects, node, true);

@@ -7,7 +7,6 @@
 #include "host/twin/eds/eds.hpp"
 #include "host/twin/eds/initials.hpp"
 
-// The twin's devices. Their factory values are read from two instances that differ only in node id.
 namespace verp::eds {
 namespace {
 
@@ -44,7 +43,7 @@ Value value_of(const cia402::ObjectRow& row) {
           .mappable = row.mapping != cia402::ObjectMapping::kNone};
 }
 
-/// Adds the CiA 402 objects in rising order; rows with the same index form one object.
+/// Rows with the same index form one object.
 void add_profile(std::vector<Object>& objects) {
   for (std::size_t i = 0; i < cia402::kDriveRowCount; ++i) {
     const cia402::ObjectRow& row = cia402::kDriveRows[i];

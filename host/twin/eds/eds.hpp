@@ -6,10 +6,10 @@
 
 #include "common/protocol/canopen/communication.hpp"
 
-/// Electronic data sheets (EDS, CiA 306): describe a node's objects to tools of other makers.
+/// Electronic data sheets (EDS, CiA 306) for tools of other makers.
 namespace verp::eds {
 
-/// Data type numbers of CiA 301.
+/// Numbers of CiA 301.
 enum class DataType : std::uint16_t {
   kInteger8 = 0x02,
   kInteger16 = 0x03,
@@ -29,12 +29,12 @@ struct Value {
   DataType type = DataType::kUnsigned8;
   bool writable = false;
   bool mappable = false;
-  bool commissioned = false;        ///< each node has its own value, so the sheet gives none
-  std::string initial = {};         ///< EDS notation: "", "0x20", "$NODEID+0x180"
+  bool commissioned = false;        ///< the sheet gives no value
+  std::string initial = {};         ///< "", "0x20", "$NODEID+0x180"
   std::string low = {}, high = {};  ///< limits for writing; empty: the type's
 };
 
-/// One index. A single value is at subindex 0. Members start at subindex 1, with their number at 0.
+/// A single value is at subindex 0; members start at 1, with their number at 0.
 struct Object {
   std::uint16_t index = 0;
   std::string name;
@@ -43,29 +43,29 @@ struct Object {
   bool is_array = false;                      ///< members alike, else a record
   bool count_writable = false;                ///< subindex 0 of members
   std::size_t count_initial = 0;              ///< its initial value
-  std::vector<std::uint8_t> subindices = {};  ///< of the members; empty: 1 to n
+  std::vector<std::uint8_t> subindices = {};  ///< empty: 1 to n
 };
 
 struct Description {
   std::string file;
-  std::string text;  ///< one line for a person
+  std::string text;
   canopen::Identity identity{};
   canopen::DeviceSize size{};
-  bool is_master = false;       ///< starts the others and obeys no NMT command
+  bool is_master = false;       ///< obeys no NMT command
   std::vector<Object> objects;  ///< rising index
 };
 
-/// Text of the file: the same description gives the same bytes.
+/// The same description gives the same bytes.
 std::string to_text(const Description& description);
 
-/// The objects 1000h to 1FFFh of every canopen::Device of this size.
+/// 1000h to 1FFFh of a canopen::Device of this size.
 std::vector<Object> communication_objects(const canopen::DeviceSize& size,
                                           const canopen::Identity& identity);
 
 /// The robot's controller (firmware/app/controller_objects.hpp).
 Description controller();
 
-/// The twin's devices (host/twin/can/device_node.hpp): a drive of the ready robots, IMU, foot.
+/// The twin's devices (host/twin/can/device_node.hpp).
 Description drive();
 Description imu();
 Description foot();
@@ -77,7 +77,6 @@ struct Sheet {
 };
 std::span<const Sheet> sheets();
 
-/// 2000h to 5FFFh: the manufacturer's own objects.
 constexpr bool is_manufacturers(std::uint16_t index) {
   return index >= 0x2000 && index <= 0x5FFF;
 }
@@ -87,8 +86,8 @@ struct Entry {
   Value value;
 };
 
-/// Entries of our sheets that apply to this node; empty if no sheet does. For a CiA 402 servo drive
-/// of another vendor or product: the profile's entries without our manufacturer area.
+/// Entries of our sheets for this node; empty without a sheet. CiA 402 drives of other vendors: the
+/// profile's entries.
 std::vector<Entry> known_entries(const canopen::Identity& node);
 
 }  // namespace verp::eds

@@ -7,7 +7,7 @@
 #include "common/protocol/canopen/drive_objects.hpp"
 #include "host/twin/eds/eds.hpp"
 
-/// Reads a device's factory values from two instances that differ only in node id: 1 and 2.
+/// Factory values, from two instances that differ only in node id: 1 and 2.
 namespace verp::eds {
 
 inline bool is_signed(DataType type) {
@@ -15,7 +15,7 @@ inline bool is_signed(DataType type) {
          type == DataType::kInteger32;
 }
 
-/// Initial value in EDS notation; empty: no value, or a text.
+/// In EDS notation; empty: no value, or a text.
 template <class Objects>
 std::string initial_at(canopen::Address at, DataType type, Objects& of_node_1, Objects& of_node_2) {
   canopen::Entry entry;

@@ -10,13 +10,12 @@ namespace {
 
 using Out = std::back_insert_iterator<std::string>;
 
-// CiA 306 requires the date and time of creation. The file is regenerated whenever the objects
-// change, so these are the first version's.
+// CiA 306 requires a date; files are regenerated, so it is the first version's.
 constexpr const char* kDate = "11-21-2026";
 constexpr const char* kTime = "12:00AM";
 constexpr struct {
   int kbit_s;
-  bool supported;  ///< bxCAN cannot make 800; at the slower rates no tick fits its period
+  bool supported;  ///< bxCAN cannot make 800; a tick does not fit at slower rates
 } kRates[] = {{10, false}, {20, false}, {50, false},  {125, true},
               {250, true}, {500, true}, {800, false}, {1000, true}};
 

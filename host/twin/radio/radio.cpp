@@ -46,7 +46,6 @@ int Radio::add() {
   return static_cast<int>(stations_.size()) - 1;
 }
 
-/// Separate stream for each use of each message at each station.
 sim::Random Radio::drawn(std::uint64_t number, int station, std::uint64_t use) const {
   sim::Random of_seed(seed_, sim::Draw::kRadio);
   const auto of_station = static_cast<std::uint64_t>(station) << 2 | use;
@@ -58,8 +57,7 @@ std::uint64_t Radio::on_air_us(const Message& message) const {
   return static_cast<std::uint64_t>(std::ceil(kSecond_us * bytes / conditions_.bytes_s));
 }
 
-/// Random wait before each try, so that stations waiting for the same message do not start
-/// together.
+/// Stations that wait for the same message must not start together.
 std::uint64_t Radio::wait_us(const Message& message) const {
   return static_cast<std::uint64_t>(drawn(message.number, message.tries, kForWait)
                                         .uniform(0, static_cast<double>(kLongestWait_us)));
@@ -86,7 +84,7 @@ Sent Radio::send(int from, int to, std::string data, std::uint64_t now_us) {
   message.ready_us = now_us +
                      static_cast<std::uint64_t>(kSecond_us * (conditions_.delay_s + jitter_s)) +
                      wait_us(message);
-  // Messages of one station never overtake each other.
+  // A station's messages never overtake each other.
   if (!station.waiting.empty())
     message.ready_us = std::max(message.ready_us, station.waiting.back().ready_us);
   station.waiting.push_back(std::move(message));
@@ -115,7 +113,7 @@ void Radio::advance(std::uint64_t now_us, std::span<const Place> places) {
   }
 }
 
-/// The message that blocks the start: one that its station hears at that moment or sends itself.
+/// A message that its station hears or sends.
 const Radio::Message* Radio::in_the_way(const Message& message,
                                         std::span<const Place> places) const {
   for (const Message& each : air_) {
@@ -172,13 +170,13 @@ Fate Radio::fate(const Message& message, int station, std::span<const Place> pla
       return Fate::kCollided;
   }
   if (faded(message.from, station, message.begun_us)) return Fate::kFaded;
-  // Rough path loss exponent of a hall; share is 1 at range_m.
+  // Rough exponent of a hall; share is 1 at range_m.
   const double lost = 1 - (1 - conditions_.loss) * (1 - std::pow(share, 4));
   const bool hit = drawn(message.number, station, kForLoss).uniform(0, 1) < lost;
   return hit ? Fate::kLost : Fate::kHeard;
 }
 
-/// Drawn for the pair: the same in both directions.
+/// The same in both directions.
 bool Radio::faded(int a, int b, std::uint64_t time_us) const {
   const auto window =
       static_cast<std::uint64_t>(static_cast<double>(time_us) / (kSecond_us * conditions_.fade_s));
@@ -186,7 +184,7 @@ bool Radio::faded(int a, int b, std::uint64_t time_us) const {
   return drawn(window, pair, kForFade).uniform(0, 1) < conditions_.fade;
 }
 
-/// Keeps a finished message while one that overlapped it is still on the air.
+/// Keeps a finished message while an overlapping one is on the air.
 void Radio::forget() {
   std::uint64_t earliest_us = std::numeric_limits<std::uint64_t>::max();
   for (const Message& each : air_) {

@@ -11,20 +11,19 @@
 
 namespace verp::radio {
 
-/// Properties of the modem and the channel. Defaults: an IEEE 802.15.4 modem (250 kbit/s, frames of
-/// at most 127 bytes) behind a serial port, in a hall. host/guide/walk.md lists what the model
-/// omits.
+/// Defaults: an IEEE 802.15.4 modem (250 kbit/s, frames of at most 127 bytes) in a hall.
+/// host/guide/walk.md lists what the model omits.
 struct Conditions {
-  double range_m = 30;      ///< no reception beyond
-  double loss = 0.02;       ///< share of messages lost close to the sender; all are lost at range_m
-  double fade = 0.02;       ///< share of time in which a pair of stations is disconnected,
-  double fade_s = 0.3;      ///< for this long at a time
-  double delay_s = 0.004;   ///< from send() to the earliest start on the air,
-  double jitter_s = 0.004;  ///< plus at most this
-  double bytes_s = 31'250;  ///< on the air, shared by all within range_m
-  std::size_t overhead = 31;      ///< bytes added to every message
-  std::size_t most_bytes = 96;    ///< of a message; longer ones are refused
-  std::size_t most_waiting = 16;  ///< per station; further messages are refused
+  double range_m = 30;          ///< no reception beyond
+  double loss = 0.02;           ///< at short range; all are lost at range_m
+  double fade = 0.02;           ///< share of time that a pair is disconnected,
+  double fade_s = 0.3;          ///< for this long at a time
+  double delay_s = 0.004;       ///< from send() to the air,
+  double jitter_s = 0.004;      ///< plus at most this
+  double bytes_s = 31'250;      ///< shared by all within range_m
+  std::size_t overhead = 31;    ///< bytes per message
+  std::size_t most_bytes = 96;  ///< longer messages are refused
+  std::size_t most_waiting = 16;
 
   bool operator==(const Conditions&) const = default;
 };
@@ -39,53 +38,52 @@ inline constexpr int kEverybody = -1;
 struct ReceivedMessage {
   int from = 0;
   std::string data;
-  std::uint64_t number = 0;  ///< counted by send(), for records
+  std::uint64_t number = 0;
 };
 
-enum class Sent { kOnItsWay, kTooLong, kTooMany, kNobody };  ///< kNobody: there is no such station
+enum class Sent { kOnItsWay, kTooLong, kTooMany, kNobody };
 
 enum class Fate { kHeard, kTooFar, kCollided, kFaded, kLost };
 inline constexpr int kFates = 5;
 inline constexpr const char* kFateNames[kFates] = {"heard", "too far", "collided", "faded", "lost"};
 
-/// Result of a message at one addressed station.
+/// At one addressed station.
 struct Outcome {
-  std::uint64_t number = 0, time_us = 0;  ///< end of its last byte
+  std::uint64_t number = 0, time_us = 0;
   int from = 0, to = 0;
   std::size_t bytes = 0;  ///< payload
   Fate fate = Fate::kHeard;
 };
 
-/// Messages between stations, broadcast or addressed; the radio neither acknowledges nor repeats
-/// them. A station listens before it sends. Two messages collide where both are heard if they begin
-/// within kBlind_us of each other or their senders do not hear each other. A sending station hears
-/// nothing. Random draws depend only on the seed, the message number and the two stations. So equal
-/// runs are equal, and another station changes no other draw.
+/// Broadcast or addressed messages, without acknowledgement or repeat. A station listens before it
+/// sends. Two messages collide where both are heard if they begin within kBlind_us of each other or
+/// their senders do not hear each other. A sending station hears nothing. Random draws depend only
+/// on the seed, the message number and the two stations: equal runs are equal, and another station
+/// changes no other draw.
 class Radio {
  public:
   /// Throws as check() does.
   Radio(const Conditions& conditions, std::uint64_t seed);
 
-  /// Adds a station; they count from 0. Call it before the first message.
+  /// Stations count from 0; add all before the first message.
   int add();
   std::size_t stations() const { return stations_.size(); }
 
-  /// Time must not go backwards, here and in advance().
+  /// Time must not go backwards, here or in advance().
   Sent send(int from, int to, std::string data, std::uint64_t now_us);
-  /// Ends all messages that are over by now; `places` are the antenna positions of the stations.
+  /// `places`: antennas of the stations.
   void advance(std::uint64_t now_us, std::span<const Place> places);
-  /// Messages that the station received up to the last advance(), in order of arrival.
+  /// In order of arrival, up to the last advance().
   std::vector<ReceivedMessage> take(int station);
 
-  /// Outcomes since the last call.
   std::vector<Outcome> take_outcomes();
   std::uint64_t sent() const { return numbers_; }
   /// Messages that send() refused.
   std::uint64_t refused() const { return refused_; }
   const Conditions& conditions() const { return conditions_; }
 
-  /// A message that began less than this ago is not heard yet: an 802.15.4 radio needs 8 symbols of
-  /// 16 us to detect it, and 12 to turn from receiving to sending.
+  /// A message younger than this is not heard: an 802.15.4 radio needs 8 symbols of 16 us to detect
+  /// it and 12 to turn to sending.
   static constexpr std::uint64_t kBlind_us = 320;
   /// Longest random wait before sending (7 units of 20 symbols).
   static constexpr std::uint64_t kLongestWait_us = 2240;
@@ -116,7 +114,7 @@ class Radio {
   const Conditions conditions_;
   const std::uint64_t seed_;
   std::vector<Station> stations_;
-  std::deque<Message> air_;  ///< on the air, or overlapped one that is
+  std::deque<Message> air_;
   std::vector<Outcome> outcomes_;
   std::uint64_t numbers_ = 0, refused_ = 0;
 };

@@ -12,8 +12,8 @@
 namespace verp::sim {
 namespace {
 
-/// Least principal inertia given to the engine: a 10 g cube of 8 mm. Imported links may be lighter
-/// (wire frames, markers). Between two joints they would make the solver's matrix singular.
+/// Least principal inertia for the engine: a 10 g cube of 8 mm. Imported links may be lighter, and
+/// between two joints they would make the solver's matrix singular.
 constexpr double kMinInertia = 1e-7;
 
 std::size_t index_of(int i) {
@@ -43,7 +43,7 @@ double lowest_point(const model::Collision& shape, const Transform& link_world) 
   return pose.translation().z() - reach;
 }
 
-/// Links that never collide with `node`, one bit each: its neighbours and the entity's exemptions.
+/// Links that never collide with `node`, one bit each.
 std::uint64_t passes(const model::Entity& entity, int node) {
   std::uint64_t links = 0;
   const auto pair = [&](int a, int b) {
@@ -64,8 +64,7 @@ void set_pose(dBodyID body, const Transform& pose, const Vec3& com_m) {
   dBodySetRotation(body, rotation);
 }
 
-/// Level frame midway between the soles, in body coordinates: z is their mean normal, x their mean
-/// heading.
+/// Level frame midway between the soles, in body coordinates; x is their mean heading.
 Transform between_soles(const model::Entity& entity, const std::vector<Transform>& link_body) {
   Vec3 normal = Vec3::Zero();
   Vec3 heading = Vec3::Zero();
@@ -265,8 +264,8 @@ void Body::read_joints() {
 }
 
 void Body::drive(int joint, const Drive& drive) {
-  // ODE solves  rate = speed - CFM * torque:  the torque-speed line, implicit in the new rate. A
-  // constant torque is a very flat line.
+  // ODE solves rate = speed - CFM * torque: the torque-speed line. A constant torque is a very flat
+  // line.
   constexpr double kLeastSlope = 1e-6;
   const dJointID hinge = hinges_[index_of(joint)];
   const bool idle = drive.standstill_n_m == 0 && drive.slope_n_m_s <= 0;
@@ -282,8 +281,7 @@ void Body::meter(int joint) {
   dJointSetFeedback(hinge, &feedback_.emplace_back());
 }
 
-/// Force and torque on the joint's child link, which is the hinge's first body. ODE refers them to
-/// that body's centre of mass.
+/// Force and torque on the joint's child link, which ODE refers to its centre of mass.
 JointLoad Body::load(int joint) const {
   const dJointFeedback* given = dJointGetFeedback(hinges_[index_of(joint)]);
   if (given == nullptr) return {};
@@ -294,7 +292,7 @@ JointLoad Body::load(int joint) const {
 }
 
 std::vector<double> Body::inertias_kg_m2() const {
-  // Sums of each link and all links beyond it, about the body's origin, from the tips inwards.
+  // Sums of each link and those beyond it, about the body's origin.
   struct Sum {
     double mass_kg = 0;
     Vec3 moment_kg_m = Vec3::Zero();

@@ -6,27 +6,27 @@
 #include "host/twin/sim/servo.hpp"
 #include "host/twin/sim/world.hpp"
 
-/// A robot's links and hinges in the physics engine. Joint j moves node j + 1; node 0 is the body.
+/// Links and hinges in the physics engine. Joint j moves node j + 1; node 0 is the body.
 namespace verp::sim {
 
-/// World pose of every node's link frame, by forward kinematics.
+/// By forward kinematics.
 std::vector<Transform> link_poses(const model::Entity& entity, const Transform& body_world,
                                   const std::vector<double>& joint_rad);
 
-/// Body pose in which the robot stands on the ground. Soles level (their mean), their midpoint over
-/// start_m, their mean heading along yaw, the lowest point of any shape gap_m above the ground.
-/// Without legs: body level, over start_m.
+/// Body pose of a standing robot. Soles level (their mean), midpoint over start_m, mean heading
+/// along yaw, lowest point of any shape gap_m above the ground. Without legs: body level, over
+/// start_m.
 Transform standing_pose(const model::Entity& entity, const std::vector<double>& joint_rad,
                         const Vec3& start_m, double yaw_rad, double gap_m);
 
-/// Moves a pose vertically until the lowest point of any shape is gap_m above the ground.
+/// Moves a pose vertically until the lowest point is gap_m above the ground.
 Transform resting(const model::Entity& entity, const std::vector<double>& joint_rad,
                   Transform body_world, double gap_m);
 
-/// Limb of a leg (0 left, 1 right), or null.
+/// Leg 0 left, 1 right; or null.
 const model::Limb* find_leg(const model::Entity& entity, int foot);
 
-/// Load of a joint on its child link in the last step, about `point_world_m`.
+/// On the joint's child link in the last step, about `point_world_m`.
 struct JointLoad {
   Vec3 point_world_m = Vec3::Zero();
   Vec3 force_world_n = Vec3::Zero(), torque_world_n_m = Vec3::Zero();
@@ -34,8 +34,8 @@ struct JointLoad {
 
 class Body {
  public:
-  /// mass_factor scales mass and inertia of each node. Throws std::invalid_argument if a link has
-  /// no mass.
+  /// mass_factor scales each node's mass and inertia. Throws std::invalid_argument if a link has no
+  /// mass.
   Body(World& world, const model::Entity& entity, const std::vector<double>& mass_factor,
        int owner);
   ~Body();
@@ -44,30 +44,30 @@ class Body {
 
   /// At rest.
   void place(const Transform& body_world, const std::vector<double>& joint_rad);
-  /// Reads joint angles and rates; call it after every step.
+  /// Call after every step.
   void read_joints();
   void drive(int joint, const Drive& drive);
-  /// Lets load() report this joint from the next step on.
+  /// load() reports this joint from the next step on.
   void meter(int joint);
   JointLoad load(int joint) const;
-  /// Inertia of each joint in the present pose: its link and all beyond, about its axis.
+  /// The joint's link and all beyond, about its axis, in the present pose.
   std::vector<double> inertias_kg_m2() const;
-  /// Changes the mass and scales the inertia; the shape stays.
+  /// Scales the inertia; the shape stays.
   void set_mass(int node, double mass_kg);
   /// About the link's x, y or z. Throws std::invalid_argument unless it stays positive definite.
   void set_inertia(int node, int axis, double inertia_kg_m2);
-  /// Moves the whole robot; its velocities stay.
+  /// Velocities stay.
   void move(const Transform& by_world);
-  /// Adds a rigid velocity to the whole robot; the rotation is about the body's origin.
+  /// About the body's origin.
   void add_velocity(const Vec3& linear_world_m_s, const Vec3& angular_world_rad_s);
   dBodyID ode_body(int node) const { return links_[static_cast<std::size_t>(node)].body; }
   std::vector<GeomTag*> tags(int node) const;
-  /// Fixes the body to the world in its present pose, like a robot stand.
+  /// Fixes the body to the world, like a robot stand.
   void hold();
   void release();
   bool held() const { return hold_ != nullptr; }
 
-  /// Counts turns: no jump at half a revolution.
+  /// Multi-turn.
   double angle_rad(int joint) const { return angle_rad_[static_cast<std::size_t>(joint)]; }
   double rate_rad_s(int joint) const { return rate_rad_s_[static_cast<std::size_t>(joint)]; }
   const std::vector<double>& angles_rad() const { return angle_rad_; }
@@ -88,7 +88,7 @@ class Body {
  private:
   struct Link {
     dBodyID body = nullptr;
-    Vec3 com_m = Vec3::Zero();  ///< origin of ODE's body frame, which is parallel to the link frame
+    Vec3 com_m = Vec3::Zero();  ///< origin of ODE's body frame, parallel to the link frame
     double mass_kg = 0;
     Mat3 inertia_kg_m2 = Mat3::Zero();  ///< about the centre of mass, link axes
   };
@@ -102,7 +102,7 @@ class Body {
   std::vector<Link> links_;
   std::vector<dJointID> hinges_;
   std::vector<dGeomID> geoms_;
-  std::deque<dJointFeedback> feedback_;  ///< of the metered joints; ODE points to these
+  std::deque<dJointFeedback> feedback_;  ///< a deque: ODE points to these
   dJointID hold_ = nullptr;
   double mass_kg_ = 0;
   std::vector<double> angle_rad_;

@@ -5,8 +5,7 @@
 namespace verp::sim {
 namespace {
 
-/// As stiff as an end stop; softer in steps above 1 ms, where it would outweigh a rotor and
-/// diverge.
+/// As stiff as an end stop; softer in steps above 1 ms, where it would diverge.
 struct Coupling {
   explicit Coupling(double step_s) {
     constexpr double kStep_s = 0.001, kStiffness_n_m = 500.0, kDamping_n_m_s = 1.0;
@@ -15,7 +14,7 @@ struct Coupling {
     slope_n_m_s = softer * kDamping_n_m_s + step_s * stiffness_n_m;
   }
   double stiffness_n_m;
-  double slope_n_m_s;  ///< slope over the joint's own new speed
+  double slope_n_m_s;  ///< over the joint's own new speed
 };
 
 }  // namespace

@@ -7,18 +7,16 @@
 
 namespace verp::sim {
 
-/// When cameras took a picture, and all poses at that moment, from which a renderer draws it later.
-/// A run does not depend on exposures.
+/// Time and all poses of a picture, for drawing it later. A run does not depend on exposures.
 struct Exposure {
   std::uint64_t time_us = 0;
   std::vector<std::size_t> cameras;  ///< indices in Entity::cameras
-  std::size_t robot = 0;             ///< index of the cameras' robot in the world
-  /// Nodes of each robot, in the order in which robots joined the world.
+  std::size_t robot = 0;             ///< of the cameras
+  /// In the order in which robots joined the world.
   std::vector<std::vector<model::Transform>> link_world;
   std::vector<model::Transform> body_world;  ///< objects that can move
 };
 
-/// Opens at whole periods of simulated time, in the physics step that ends then or first after.
 class Shutter {
  public:
   explicit Shutter(double rate_hz) : rate_hz_(rate_hz) {}

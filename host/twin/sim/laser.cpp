@@ -31,7 +31,7 @@ bool LaserModel::sample(const World& world, const Transform& link) {
   return arrived.has_value();
 }
 
-/// Draws noise even without a hit, so that an obstacle in one ray does not change the others.
+/// Draws noise even without a hit, so that one ray's obstacle does not change the others.
 float LaserModel::measure(const World& world, const Transform& sensor, double angle_rad) {
   const double noise_m = noise_ ? bias_m_ + sensor_.noise_stddev_m * random_.normal() : 0;
   const Vec3 direction = sensor.linear() * Vec3(std::cos(angle_rad), std::sin(angle_rad), 0);

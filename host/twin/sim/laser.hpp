@@ -8,24 +8,23 @@
 #include "host/twin/sim/random.hpp"
 #include "host/twin/sim/world.hpp"
 
-/// Laser range finder: one ray, or many in a plane, traced by ODE.
+/// One ray, or many in a plane, traced by ODE.
 namespace verp::sim {
 
 struct Scan {
   std::uint64_t time_us = 0;
   std::size_t laser = 0;       ///< index in Entity::lasers
-  std::vector<float> range_m;  ///< from the first angle to the last; inf: nothing in range
+  std::vector<float> range_m;  ///< in order of angle; inf: nothing in range
 };
 
 class LaserModel {
  public:
-  /// Rays pass through the sensor's own link of `owner`, which is its housing.
+  /// Rays pass through the sensor's own link.
   LaserModel(const model::LaserSensor& sensor, std::size_t index, int owner, bool noise,
              Random random);
 
-  /// Takes a scan if one is due; `link` is its link's pose in the world. Scans are due at whole
-  /// periods of simulated time, in the physics step that ends then or first after. True: scan() is
-  /// new; it was taken one latency ago.
+  /// `link`: its link's pose in the world. Scans are due at whole periods of simulated time, in the
+  /// physics step that ends then or first after. True: scan() is new, taken one latency ago.
   bool sample(const World& world, const Transform& link);
   const Scan& scan() const { return scan_; }
 

@@ -10,14 +10,14 @@
 namespace verp::sim {
 namespace {
 
-/// Cycles left out at each end of the transition phase; the first contain the start transient.
+/// Cycles left out at each end of the transition phase.
 constexpr std::size_t kUnsteadyCycles = 2;
 
 bool is_walking(const Outputs& outputs) {
   return outputs.gait_phase != static_cast<std::uint8_t>(gait::Phase::kIdle);
 }
 
-/// Midpoint of the soles; without soles, below the body.
+/// Without soles, below the body.
 Vec2 ground_position(const Truth& truth) {
   if (!truth.foot[0].present || !truth.foot[1].present)
     return truth.body_world.translation().head<2>();
@@ -61,7 +61,7 @@ void WalkMeter::tick(const Observation& seen, const Outputs& outputs,
   if (!walks && walking_) end_walk();
   walking_ = walks;
   previous_ = outputs;
-  // A user controller may output any byte, and the value counts feet below.
+  // A user controller may output any byte.
   previous_.stance = std::min<std::uint8_t>(outputs.stance, gait::kBoth);
   last_ = seen;
   if (keep_series_) keep(seen, outputs, zmp_planned_world_m);
@@ -111,7 +111,7 @@ void WalkMeter::score_transport(WalkMetrics& out) const {
   out.joint_work_j = joint_work_j_;
   const double carried_n_m = last_.weight_n * out.distance_m;
   if (out.distance_m < kLeast_m || carried_n_m <= 0) return;
-  // Without a stall current in its file a servo draws nothing here: the cost is unknown, not zero.
+  // Without a stall current the cost is unknown, not zero.
   if (supply_energy_j_ > 0) out.cost_of_transport = supply_energy_j_ / carried_n_m;
   out.cost_of_transport_mechanical = joint_work_j_ / carried_n_m;
 }

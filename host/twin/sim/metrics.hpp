@@ -8,55 +8,50 @@
 #include "common/io/io.hpp"
 #include "host/twin/sim/robot.hpp"
 
-/// Scores a walk by distance, straightness and balance, from the controller's Outputs and the
-/// twin's truth.
+/// Scores a walk from the controller's Outputs and the twin's truth.
 namespace verp::sim {
 
-/// |torque| / stall torque of a joint's motor over control ticks.
+/// |torque| / stall torque over control ticks.
 struct TorqueUse {
   double mean = 0, peak = 0;
 };
 
-/// The physics results of `verp walk --json`. Without a measurement a number has no value.
+/// Physics results of `verp walk --json`; unmeasured numbers have no value.
 struct WalkMetrics {
   double duration_s = 0;  ///< from the first tick
-  double walk_s = 0;      ///< in the three phases of the gait
-  /// Path length of the soles' midpoint while walking, measured from cycle to cycle. Curves and
-  /// sideways steps count; sway and a single step do not.
+  double walk_s = 0;      ///< all three phases
+  /// Path of the soles' midpoint from cycle to cycle. Curves and sideways steps count; sway and a
+  /// single step do not.
   double distance_m = 0;
   std::optional<double> speed_mean_m_s;  ///< distance_m / walk_s
-  /// Transition phase without its first and last two cycles, if anything remains.
+  /// Transition phase without its first and last two cycles.
   std::optional<double> speed_steady_m_s;
-  /// Part of it due to the carrying sole sliding along the path. The remaining difference from the
-  /// commanded speed comes from steps that end off plan.
+  /// Part of it due to the carrying sole's slip; the remaining error comes from steps that end off
+  /// plan.
   std::optional<double> slip_steady_m_s;
-  double ahead_m = 0;          ///< along the heading at the walk's start; backward is negative
-  double lateral_drift_m = 0;  ///< to the left of that heading line
-  double yaw_drift_deg = 0;    ///< of the body since the walk's start, turns counted
+  double ahead_m = 0;          ///< along the first heading; backward is negative
+  double lateral_drift_m = 0;  ///< to the left of that heading
+  double yaw_drift_deg = 0;    ///< of the body, turns counted
   bool fallen = false;
-  /// Ground-plane distance from the measured ZMP (mean of a control tick) to the centroid of the
-  /// supporting sole; in double support, of the next carrying sole.
+  /// From the measured ZMP (mean of a control tick) to the centroid of the supporting sole; in
+  /// double support, of the next carrying sole.
   std::optional<double> zmp_bias_mean_mm;
   std::array<std::optional<double>, 16> zmp_bias_by_state_mm{};
-  /// Share of (joint, physics step) pairs with duty at its limit while walking; and the worst
-  /// joint's share.
+  /// Share of (joint, physics step) pairs with duty at its limit; and the worst joint's share.
   std::optional<double> servo_saturation;
   std::optional<double> servo_saturation_worst;
   int servo_saturation_worst_joint = 0;
-  /// Per joint while walking; empty: it did not walk.
+  /// Per joint; empty: it did not walk.
   std::vector<TorqueUse> torque_use;
-  /// While walking: energy of the servos from the supply, and their work on the joints. Controller
-  /// and sensors are not counted.
+  /// While walking: energy from the supply, and work on the joints, of the servos alone.
   double supply_energy_j = 0, joint_work_j = 0;
-  /// The same per weight and distance_m: energy to move one newton by one metre. No value if the
-  /// path is too short.
+  /// Per weight and distance_m. No value for a short path.
   std::optional<double> cost_of_transport, cost_of_transport_mechanical;
-  /// Control ticks with self-contact while walking, and the last two links involved; empty: none.
+  /// While walking; and the last two links.
   std::uint64_t self_contact_ticks = 0;
   std::array<std::string, 2> self_contact_links;
 };
 
-/// One control tick, for plots.
 struct SeriesRow {
   double t_s = 0;
   std::uint8_t phase = 0, state = 0, stance = 0;  ///< Outputs
@@ -70,34 +65,33 @@ struct SeriesRow {
   std::array<Vec3, 2> sole_rpy_rad{Vec3::Zero(), Vec3::Zero()};
   std::array<double, 2> foot_force_n{};
   bool zmp_valid = false;
-  Vec2 zmp_world_m = Vec2::Zero();  ///< mean of the past control tick
+  Vec2 zmp_world_m = Vec2::Zero();  ///< mean of the past tick
   bool zmp_planned_valid = false;
   Vec2 zmp_planned_world_m = Vec2::Zero();
   std::vector<Vec2> support_world_m;
 };
 
-/// Read from the twin once per control tick.
+/// Once per control tick.
 struct Observation {
   Truth truth;
   FootLoads loads;                               ///< since the last observation
-  std::uint64_t steps = 0;                       ///< physics steps since the start
-  std::vector<std::uint64_t> saturated_steps;    ///< per joint, since the start
+  std::uint64_t steps = 0;                       ///< since the start
+  std::vector<std::uint64_t> saturated_steps;    ///< since the start
   std::uint64_t self_contact_steps = 0;          ///< since the start
-  std::array<int, 2> self_contact_nodes{};       ///< of the last such step
+  std::array<int, 2> self_contact_nodes{};       ///< last such step
   double supply_energy_j = 0, joint_work_j = 0;  ///< since the start
   double weight_n = 0;
 };
 
-/// Takes the robot's foot loads, so a robot can have only one observer.
+/// Takes the foot loads, so a robot can have only one observer.
 Observation observe(TwinRobot& robot);
 
 class WalkMeter {
  public:
-  /// Without keep_series, keeps only the numbers.
   explicit WalkMeter(const model::Entity& entity, bool keep_series = true);
 
-  /// Call once per control tick, after the controller's step, with the world that it acted on and
-  /// its new outputs.
+  /// Call once per control tick after the controller's step, with the world it acted on and its new
+  /// outputs.
   void tick(const Observation& seen, const Outputs& outputs,
             const std::optional<Vec2>& zmp_planned_world_m = {});
 
@@ -111,7 +105,7 @@ class WalkMeter {
     double slip_m;
     int phase;
   };
-  struct Pending {  ///< double support, until the next carrying foot is known
+  struct Pending {  ///< double support: next carrying foot unknown
     int state;
     std::array<double, 2> distance_mm;
   };
@@ -137,7 +131,7 @@ class WalkMeter {
   bool started_ = false;
   double first_s_ = 0;
   Observation last_;
-  Outputs previous_;  ///< in force during the past tick
+  Outputs previous_;  ///< during the past tick
   bool walking_ = false;
   bool ever_walked_ = false;
   double walk_s_ = 0;
@@ -149,7 +143,7 @@ class WalkMeter {
   Vec2 last_mark_m_ = Vec2::Zero();
   Vec2 here_m_ = Vec2::Zero();
   double path_m_ = 0, slip_m_ = 0;  ///< up to last_mark_m_
-  Vec2 slid_m_ = Vec2::Zero();      ///< slip of the carrying sole since then
+  Vec2 slid_m_ = Vec2::Zero();      ///< of the carrying sole
   std::vector<Mark> marks_;
   std::vector<Pending> pending_;
   std::array<double, 16> bias_sum_mm_{};

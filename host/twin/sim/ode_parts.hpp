@@ -3,14 +3,13 @@
 
 #include "host/robot/model/entity.hpp"
 
-/// Converts between ODE's arrays and Eigen.
 namespace verp::sim {
 
 inline model::Vec3 vec_of(const dReal* v) {
   return {v[0], v[1], v[2]};
 }
 
-/// From ODE's three rows of four.
+/// Three rows of four.
 inline model::Mat3 mat_of(const dReal* m) {
   model::Mat3 out;
   for (int row = 0; row < 3; ++row) {

@@ -7,7 +7,7 @@
 namespace verp::sim {
 namespace {
 
-constexpr std::size_t kMostReadings = 1000;  // per kind, if the caller never takes them
+constexpr std::size_t kMostReadings = 1000;  // per kind, if never taken
 
 Vec3 noise_of(Random& random, const Vec3& mean, const Vec3& stddev) {
   const double x = random.normal();
@@ -29,7 +29,7 @@ Probes::Probes(const model::Entity& entity, Body& body, int owner, bool noise, s
     wrench_.emplace_back(each, Random(seed, Draw::kForceTorque, index++));
     body.meter(each.node - 1);
   }
-  // Contacts have no noise: nothing is drawn from that stream.
+  // Contacts have no noise.
   for (const model::ContactSensor& each : entity.contacts)
     contact_.emplace_back(each, Random(seed, Draw::kForceTorque));
   index = 0;
@@ -37,7 +37,7 @@ Probes::Probes(const model::Entity& entity, Body& body, int owner, bool noise, s
     truth_.emplace_back(each, Random(seed, Draw::kTruth, index++));
 }
 
-/// The hinge's force is the link's only support and includes all that the servo applies.
+/// The hinge's force is the link's only support.
 WrenchReading Probes::measure(WrenchProbe& probe, const World&, const Body& body) const {
   const model::ForceTorqueSensor& sensor = probe.sensor;
   const Transform pose = body.link_pose(sensor.node) * sensor.pose;

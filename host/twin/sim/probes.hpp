@@ -10,12 +10,11 @@
 #include "host/twin/sim/random.hpp"
 #include "host/twin/sim/world.hpp"
 
-/// Sensors that a robot's file declares but no bus carries: force-torque, contact, ground truth.
-/// Each is sampled at whole periods of simulated time, in the physics step that ends then or first
-/// after. A run does not depend on them.
+/// Sensors that no bus carries: force-torque, contact, ground truth. Sampled at whole periods of
+/// simulated time, in the step that ends then or first after. A run does not depend on them.
 namespace verp::sim {
 
-/// In the sensor's axes, about its origin.
+/// Sensor axes, about its origin.
 struct WrenchReading {
   std::uint64_t time_us = 0;
   std::size_t sensor = 0;  ///< index in Entity::force_torques
@@ -23,7 +22,7 @@ struct WrenchReading {
 };
 
 struct Touch {
-  std::string other;  ///< a link of its own, an object, "world" (static things), "robot"
+  std::string other;  ///< a link, an object, "world" (static things), "robot"
   Vec3 position_world_m = Vec3::Zero();
   Vec3 force_world_n = Vec3::Zero();  ///< on the link
 };
@@ -48,12 +47,11 @@ struct ProbeReadings {
 
 class Probes {
  public:
-  /// Meters the joints it needs in `body`; `owner` is the robot's number in the world.
+  /// Meters its joints in `body`; `owner`: number in the world.
   Probes(const model::Entity& entity, Body& body, int owner, bool noise, std::uint64_t seed);
 
   void sample(const World& world, const Body& body);
-  /// Readings that became available since the last call; if nobody takes them, the oldest are
-  /// dropped.
+  /// Since the last call; the oldest are dropped if nobody takes them.
   ProbeReadings take();
 
  private:

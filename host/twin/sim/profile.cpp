@@ -23,7 +23,7 @@ void Profile::begin(const ServoSetpoint& setpoint, double step_s) {
   ongoing_ = true;
   const double way = std::abs(goal_count_ - count_);
   const bool timed = setpoint.profile_ms != 0;
-  // e-Manual, Profile Acceleration (108): at most half of the time.
+  // Profile Acceleration (108): at most half of the time.
   const double accelerate_s =
       1e-3 * std::min(setpoint.accelerate_ms, static_cast<double>(setpoint.profile_ms) / 2);
   top_count_s_ =
@@ -37,7 +37,7 @@ void Profile::begin(const ServoSetpoint& setpoint, double step_s) {
           : std::sqrt(accelerate_count_s2_ * way) <= top_count_s_ * (1 + 1e-9)
               ? ProfileKind::kTriangular
               : ProfileKind::kTrapezoidal;
-  if (timed && curved) speed_count_s_ = 0;  // a time-based profile assumes a start from rest
+  if (timed && curved) speed_count_s_ = 0;  // starts from rest
   if (!straight()) return;
   const double duration_s = std::max(setpoint.profile_ms * 1e-3, step_s);
   line_count_s_ = (goal_count_ - count_) / duration_s;
@@ -60,8 +60,7 @@ void Profile::advance_straight(double step_s) {
   speed_count_s_ = ongoing_ ? line_count_s_ : 0;
 }
 
-// Limits the speed so that the profile can still brake in whole steps: v step / 2 + v^2 / 2a is
-// left.
+// Limits the speed so that whole steps can still brake: v step / 2 + v^2 / 2a is left.
 void Profile::advance_curved(double step_s) {
   const double left = goal_count_ - count_;
   const double most = accelerate_count_s2_ * step_s;

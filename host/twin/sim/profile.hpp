@@ -5,18 +5,18 @@
 
 namespace verp::sim {
 
-/// A servo's trajectory to its goal, in counts (e-Manual, "What is the Profile" and Profile
-/// Velocity (112)). Jerk is not limited here.
+/// Trajectory to the goal, in counts (e-Manual, "What is the Profile" and Profile Velocity (112)).
+/// Jerk is not limited here.
 class Profile {
  public:
   explicit Profile(double count) : goal_count_(count), count_(count) {}
 
-  /// Sets position and speed and ends the profile.
+  /// Ends the profile.
   void stand(double count, double speed_count_s = 0);
-  /// Starts a new goal. step_s is the loop's period, the duration of a step profile.
+  /// step_s: the loop's period, the duration of a step profile.
   void begin(const ServoSetpoint& setpoint, double step_s);
   void advance(double step_s);
-  /// Velocity mode: accelerates to that speed with at most `accelerate_count_s2`; 0: at once.
+  /// Velocity mode; acceleration 0: at once.
   void follow_speed(double goal_count_s, double accelerate_count_s2, double step_s);
 
   double goal_count() const { return goal_count_; }

@@ -32,7 +32,6 @@ Thing thing_of(TwinRobot& robot, const std::string& prefix, int node) {
   return thing;
 }
 
-/// An object that moves on its own.
 Thing thing_of(Scenery& scenery, std::size_t index) {
   const Scenery::Item& item = scenery.items()[index];
   const dBodyID body = item.body;
@@ -65,7 +64,7 @@ Thing thing_of(Scenery& scenery, std::size_t index) {
   return thing;
 }
 
-/// Share of a speed that ODE removes in each step.
+/// Share that ODE removes in each step.
 double lost_per_step(double damping_1_s, double step_s) {
   return -std::expm1(-damping_1_s * step_s);
 }

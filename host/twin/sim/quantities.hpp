@@ -9,11 +9,11 @@
 #include "host/twin/sim/scenery.hpp"
 #include "host/twin/sim/world.hpp"
 
-/// Named access to every number of a world's physics while it runs, and external pushes. Reading
-/// changes nothing. A new value acts from the next step on.
+/// Named access to a running world's physics, and external pushes. A new value acts from the next
+/// step on.
 namespace verp::sim {
 
-/// One rigid thing: a robot's link, or an object of the world.
+/// A robot's link or an object.
 struct Thing {
   std::string name;
   dBodyID body = nullptr;
@@ -21,7 +21,7 @@ struct Thing {
   std::function<Transform()> pose;
   std::function<void(double mass_kg)> set_mass;
   std::function<void(int axis, double inertia_kg_m2)> set_inertia;
-  /// Only free-standing things; a link follows its robot.
+  /// Free-standing things only.
   std::function<void(const Transform& by_world)> move;
   std::function<void(const Vec3& linear_world_m_s, const Vec3& angular_world_rad_s)> add_velocity;
 
@@ -37,30 +37,28 @@ struct Thing {
 
 class Quantities final : private Actor {
  public:
-  /// The world must outlive this object.
   explicit Quantities(World& world);
   ~Quantities() override;
   Quantities(const Quantities&) = delete;
   Quantities& operator=(const Quantities&) = delete;
 
-  /// `prefix` precedes the names of its links and joints, to tell robots apart ("red.").
+  /// `prefix` of its names ("red.") distinguishes robots.
   void add(TwinRobot& robot, const std::string& prefix = "");
 
-  /// Adds the world's objects: moving ones as things, the others by their surface.
+  /// Moving objects become things; the others only surfaces.
   void add(Scenery& scenery);
 
   const std::vector<Quantity>& all() const { return all_; }
-  /// Null: no quantity has this name.
+  /// Null: unknown name.
   const Quantity* find(const std::string& name) const;
   std::vector<std::string> names() const;
   std::vector<std::string> things() const;
 
-  /// Each throws std::invalid_argument, which lists the valid names or range.
+  /// These throw std::invalid_argument with the valid names or range.
   double read(const std::string& name) const;
   void set(const std::string& name, double value);
-  /// Throws as set() does, but sets nothing.
   void check(const std::string& name, double value) const;
-  /// Acts at the thing's centre of mass, in world axes, from the next step on.
+  /// At the centre of mass, in world axes, from the next step on.
   void push(const std::string& thing, const Vec3& force_world_n, double for_s);
   void check_push(const std::string& thing) const;
 
@@ -82,13 +80,12 @@ class Quantities final : private Actor {
   std::vector<Quantity> all_;
 };
 
-/// Quantities of a thing, a joint, a whole robot, the world.
 std::vector<Quantity> quantities_of(Thing& thing, const World& world);
 std::vector<Quantity> quantities_of(const std::string& name, TwinRobot& robot, int joint);
 std::vector<Quantity> quantities_of(const std::string& name, const TwinRobot& robot,
                                     const World& world);
 std::vector<Quantity> quantities_of(World& world);
-/// Surface contact parameters of a static object.
+/// Of a static object.
 std::vector<Quantity> surface_quantities(const std::string& name,
                                          const std::vector<GeomTag*>& tags);
 

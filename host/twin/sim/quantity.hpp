@@ -8,8 +8,8 @@ namespace verp::sim {
 /// read or set it, between steps.
 struct Quantity {
   std::string name;
-  std::string unit;          ///< "" for a pure number
-  std::string what;          ///< in words, the same for all links, joints or objects
+  std::string unit;          ///< "": a pure number
+  std::string what;          ///< the same for all of its kind
   double low = 0, high = 0;  ///< range of settable values
   std::function<double()> read;
   std::function<void(double)> set;  ///< empty: read only

@@ -5,8 +5,8 @@
 
 namespace verp::sim {
 
-/// Purpose of a stream of random numbers. Each purpose has its own stream, so an additional sample
-/// or joint changes nothing else. The values define the meaning of a seed: append only.
+/// Purpose of a random stream. An additional sample or joint changes no other stream. The values
+/// define a seed's meaning: append only.
 enum class Draw : std::uint64_t {
   kImuBias = 1,
   kZeroError = 2,
@@ -14,7 +14,7 @@ enum class Draw : std::uint64_t {
   kMass = 4,
   kImuNoise = 5,
   kFootNoise = 10,  ///< plus the foot's index
-  kVaryMass = 20,   ///< this and the following: vary.hpp
+  kVaryMass = 20,   ///< from here on: vary.hpp
   kVaryFriction = 21,
   kVaryDelay = 22,
   kVaryBacklash = 23,
@@ -67,8 +67,8 @@ class Random {
     return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1p-53);
   }
 
-  /// Mean 0, standard deviation 1, at most 6: the sum of twelve 16-bit uniforms, in integers, so
-  /// that no libm is involved. Beyond 3 its tails are thinner than a Gaussian's.
+  /// Mean 0, standard deviation 1, at most 6: twelve 16-bit uniforms, without libm. Beyond 3 its
+  /// tails are thinner than a Gaussian's.
   double normal() {
     std::uint64_t sum = 0;
     for (int draw = 0; draw < 3; ++draw) {

@@ -13,10 +13,10 @@ namespace verp::sim {
 namespace {
 
 constexpr double kRadPerDegree = std::numbers::pi / 180;
-/// Fallen: body height above the feet below this share of its initial value, or tilt above this.
+/// Least body height above the feet as a share of its initial value, or largest tilt.
 constexpr double kFallenHeight = 0.6;
 constexpr double kFallenTilt = 1.0;
-// If nobody takes the scans, the oldest are dropped.
+// The oldest are dropped.
 constexpr std::size_t kMostScans = 1000;
 
 double made_for_v(const model::Entity& entity) {
@@ -178,7 +178,7 @@ void TwinRobot::update_servos(double step_s) {
   for (std::size_t j = 0; j < servo_.size(); ++j) {
     const double rate_rad_s = body_.rate_rad_s(static_cast<int>(j));
     servo_[j].finish(rate_rad_s, step_s);
-    // The rest of the world applied what the servo did not.
+    // Torque of everything but the servo.
     external_n_m_[j] += inertia_kg_m2_[j] * rate_rad_s / step_s - servo_[j].torque_n_m();
     current_a += servo_[j].supply_current_a();
     joint_work_j_ += std::max(0.0, servo_[j].torque_n_m() * rate_rad_s) * step_s;
@@ -218,7 +218,7 @@ void TwinRobot::update_feet(double step_s) {
   foot_force_n_ = {};
   for (FootModel& foot : foot_) foot.begin_step();
   for (const Contact& contact : world_.contacts()) {
-    // Contact with the robot's own other foot carries no weight.
+    // Contact with the own other foot carries no weight.
     if (contact.owner != owner_ || contact.other_owner == owner_) continue;
     const int foot = foot_of(contact.node);
     if (foot < 0) continue;
@@ -250,7 +250,7 @@ int TwinRobot::foot_of(int node) const {
 bool TwinRobot::is_down() const {
   const Transform body = body_.link_pose(0);
   const double tilt = std::acos(std::clamp(body.linear()(2, 2), -1.0, 1.0));
-  // Walking downhill or stepping down is not a fall.
+  // Walking downhill is not a fall.
   double floor_m = std::numeric_limits<double>::infinity();
   for (const int foot : {0, 1}) {
     const FootTruth truth = foot_truth(foot);

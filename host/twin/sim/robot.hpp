@@ -19,23 +19,23 @@
 
 namespace verp::sim {
 
-/// Active imperfections. All on is the real robot; all off is for tests and for finding a cause.
+/// All on: the real robot. All off: tests and finding a cause.
 struct Imperfections {
   bool imu = true;           ///< noise and bias
   bool encoder = true;       ///< noise (quantisation stays)
-  bool zero_error = true;    ///< joint zeros are off by up to zero_error_deg
-  bool initial_pose = true;  ///< joints, lean and heading at the start
+  bool zero_error = true;    ///< up to zero_error_deg
+  bool initial_pose = true;  ///< joints, lean and heading
   bool feet = true;          ///< force noise
   bool lasers = true;        ///< noise
-  bool probes = true;        ///< noise of force-torque and truth sensors
+  bool probes = true;        ///< of force-torque and truth sensors
 
   static Imperfections none() { return {false, false, false, false, false, false, false}; }
 };
 
-/// How long the body is held. Servos power up limp, so a standing robot must be held until armed.
+/// A standing robot must be held until armed, because servos power up limp.
 enum class Cradle { kNone, kUntilArmed, kAlways };
 
-/// Start: standing, or lying on the given side. kAny: pose and orientation drawn from the seed.
+/// Start: standing, or lying on a side; kAny: drawn from the seed.
 enum class Lies { kNo, kFront, kBack, kLeft, kRight, kAny };
 
 struct TwinOptions {
@@ -43,30 +43,30 @@ struct TwinOptions {
   Imperfections imperfections = {};
   double zero_error_deg = 0.5;           ///< uniform in +- this
   double mass_scale = 1.0;               ///< of every link
-  double mass_spread = 0.0;              ///< each link: uniform in 1 +- this
-  double goal_delay_s = 0;               ///< from a set-point's arrival until its servo acts on it
-  Vec3 gyro_bias_rad_s = Vec3::Zero();   ///< sensor axes, added to the drawn bias
-  std::vector<double> initial_rad = {};  ///< joint angles at the start; empty: Entity's stand_rad
-  Vec3 start_m = Vec3::Zero();           ///< midpoint of the soles; z: ground height there
+  double mass_spread = 0.0;              ///< each link: 1 +- this
+  double goal_delay_s = 0;               ///< from arrival to the servo's action
+  Vec3 gyro_bias_rad_s = Vec3::Zero();   ///< sensor axes, besides the drawn bias
+  std::vector<double> initial_rad = {};  ///< empty: Entity's stand_rad
+  Vec3 start_m = Vec3::Zero();           ///< midpoint of the soles
   double start_yaw_rad = 0;
-  Lies lies = Lies::kNo;  ///< a lying robot is not held
+  Lies lies = Lies::kNo;  ///< not held if lying
   Cradle cradle = Cradle::kUntilArmed;
-  /// Release this long after all leg servos have torque. The firmware then stands in its pose
-  /// (rise_s is 1 s) and does not walk yet.
+  /// Release after torque-on of all leg servos. The firmware then stands (rise_s is 1 s) and does
+  /// not walk yet.
   double cradle_s = 1.2;
-  std::optional<double> supply_v = {};  ///< unloaded; none: the servos' nominal voltage
-  /// Internal resistance of battery and harness. An estimate: 3 LiPo cells of about 10 mOhm (hobby
-  /// packs of 1 to 2 Ah), plug, fuse and the first metre of daisy chain. It holds for 12 V servos.
-  /// For others it scales with the voltage squared, so that equal power loses an equal share.
+  std::optional<double> supply_v = {};  ///< unloaded; none: nominal
+  /// Internal resistance of battery and harness. An estimate for 12 V: 3 LiPo cells of about 10
+  /// mOhm (hobby packs of 1 to 2 Ah), plug, fuse and the first metre of daisy chain. For other
+  /// servos it scales with the voltage squared: equal power loses an equal share.
   double supply_ohm = 0.1;
   bool cameras = false;  ///< cameras are rendered: take_exposures()
 };
 
-/// One robot in a World: links, servos, sensors. The controller's side is Plant, in counts; the
-/// referee's side is truth(). The world must outlive the robot.
+/// One robot in a World: links, servos, sensors. Plant is for the controller, in counts; truth()
+/// for the referee. The world must outlive the robot.
 class TwinRobot final : public Plant, private Actor {
  public:
-  /// Throws std::invalid_argument with the link or joint if the entity cannot be simulated.
+  /// Throws std::invalid_argument with the link or joint.
   TwinRobot(World& world, const model::Entity& entity, const TwinOptions& options = {});
   ~TwinRobot() override;
   TwinRobot(const TwinRobot&) = delete;
@@ -74,7 +74,7 @@ class TwinRobot final : public Plant, private Actor {
 
   std::uint64_t now_us() const override { return world_.now_us(); }
   void advance_to(std::uint64_t time_us) override { time_->advance_to(time_us); }
-  /// For a follower: the set-point of its driver's servo.
+  /// A follower's is its driver's.
   ServoSetpoint& setpoint(int joint) override {
     return setpoint_[static_cast<std::size_t>(motor_of(joint))];
   }
@@ -83,7 +83,7 @@ class TwinRobot final : public Plant, private Actor {
   ImuMeasurement imu() override { return imu_.measurement(); }
   std::array<std::uint16_t, 4> foot_counts(int foot) override;
 
-  /// Requests time from `time` instead of the world; it must outlive the robot.
+  /// Requests time there instead of from the world; `time` must outlive the robot.
   void set_time(TimeSource& time) { time_ = &time; }
 
   const model::Entity& entity() const { return entity_; }
@@ -93,37 +93,31 @@ class TwinRobot final : public Plant, private Actor {
   ServoModel& servo(int joint) { return servo_[static_cast<std::size_t>(joint)]; }
   int owner() const { return owner_; }
   Truth truth() const;
-  /// Releases the body at once, whatever the cradle state.
+  /// Whatever the cradle state.
   void release() { body_.release(); }
   bool fallen() const { return fallen_; }
-  /// Resets fallen() if the robot stands as high and upright as one that never fell. False: it does
-  /// not, and nothing changes.
+  /// Resets fallen() if the robot stands as one that never fell; false: it does not.
   bool forget_fall();
-  /// Sets a limp robot upright where it lies, in its initial pose, and holds it as at the start
-  /// (Cradle). False: a servo has torque, and nothing changes.
+  /// Holds a limp robot upright where it lies, as at the start (Cradle). False: a servo has torque.
   bool set_upright();
   double supply_v() const { return supply_v_; }
-  /// Energy that the servos drew from the supply since the start, and their work on the joints
-  /// (braking is not subtracted).
+  /// Since the start: from the supply, and work on the joints without braking.
   double supply_energy_j() const { return supply_energy_j_; }
   double joint_work_j() const { return joint_work_j_; }
   double weight_n() const { return body_.mass_kg() * world_.options().gravity_m_s2; }
-  /// Physics steps since the start, and per joint the number of steps with duty at its limit.
+  /// Since the start; per joint, steps with duty at its limit.
   std::uint64_t steps() const { return steps_; }
-  /// Scans that became available since the last call, with the time of each.
+  /// New since the last call.
   std::vector<Scan> take_scans() { return std::exchange(scans_, {}); }
-  /// The same for exposures, once their pictures are available.
   std::vector<Exposure> take_exposures() { return shutters_.take(); }
-  /// The same for force-torque, contact and truth sensors.
   ProbeReadings take_readings() { return probes_.take(); }
   const std::vector<std::uint64_t>& saturated_steps() const { return saturated_steps_; }
 
-  /// Number of physics steps with self-contact, and the last two links involved.
+  /// Steps with self-contact, and the last two links.
   std::uint64_t self_contact_steps() const { return self_contact_steps_; }
   std::array<int, 2> self_contact_nodes() const { return self_contact_nodes_; }
 
-  /// Foot forces since the last call or the start: the mean of a control tick instead of one noisy
-  /// sample.
+  /// Since the last call: a control tick's mean.
   FootLoads take_foot_loads();
 
  private:
@@ -155,10 +149,10 @@ class TwinRobot final : public Plant, private Actor {
   Body body_;
   std::vector<ServoModel> servo_;
   std::vector<ServoSetpoint> setpoint_;
-  std::deque<std::vector<ServoSetpoint>> arriving_;  ///< of the last steps, oldest first
+  std::deque<std::vector<ServoSetpoint>> arriving_;  ///< oldest first
   std::vector<std::size_t> delay_steps_;             ///< of each joint
   ImuModel imu_;
-  std::vector<FootModel> foot_;  ///< none, or left and right
+  std::vector<FootModel> foot_;  ///< none, or two
   std::array<int, 2> foot_node_{-1, -1};
   std::vector<LaserModel> laser_;
   std::vector<Scan> scans_;
@@ -172,9 +166,9 @@ class TwinRobot final : public Plant, private Actor {
   double supply_v_;
   const double supply_ohm_;
   double supply_energy_j_ = 0, joint_work_j_ = 0;
-  std::vector<double> inertia_kg_m2_;  ///< of each joint's links, at the start of the step
-  std::vector<double> external_n_m_;   ///< torque on each joint besides its servo, last step
-  std::vector<Drive> coupling_;        ///< of each joint, added to its servo, this step
+  std::vector<double> inertia_kg_m2_;  ///< at the start of the step
+  std::vector<double> external_n_m_;   ///< besides the servo's, last step
+  std::vector<Drive> coupling_;        ///< per joint, this step
   double armed_s_ = 0;
   double initial_height_m_ = 0;
   bool fallen_ = false;

@@ -34,7 +34,7 @@ void place_geom(dGeomID geom, const Transform& pose) {
   dGeomSetRotation(geom, rotation);
 }
 
-/// ODE's heightfields have their heights along y.
+/// ODE's heightfields have heights along y.
 Mat3 y_up() {
   return Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX()).toRotationMatrix();
 }
@@ -157,7 +157,7 @@ dGeomID Scenery::make_mesh(const model::Mesh& mesh) {
   return dCreateTriMesh(world_.ode_space(), meshes_.back(), nullptr, nullptr, nullptr);
 }
 
-/// ODE's rows go along z, which is -y here.
+/// ODE's rows go along z, here -y.
 dGeomID Scenery::make_heightfield(const model::Heightfield& field) {
   std::vector<double>& heights = numbers_.emplace_back();
   for (int row = field.rows - 1; row >= 0; --row) {
@@ -194,7 +194,7 @@ void Scenery::place(std::size_t index, const Transform& pose_world) {
   if (item.body != nullptr) place_body(item.body, pose_world, item.object->com_m);
 }
 
-/// A moving object follows its waypoints and pushes others with its speed there.
+/// A scripted object pushes with its speed.
 void Scenery::before_step(double step_s) {
   const double t_s = static_cast<double>(world_.now_us()) * 1e-6;
   for (const Item& item : items_) {

@@ -5,10 +5,9 @@
 #include "host/robot/model/world.hpp"
 #include "host/twin/sim/world.hpp"
 
-/// Objects of a world file in the physics engine, shape by shape.
 namespace verp::sim {
 
-/// Replaces the level floor by the contents of `file`.
+/// Replaces the level floor by `file`.
 WorldOptions furnished(WorldOptions options, model::World file);
 
 class Scenery final : private Actor {
@@ -20,7 +19,6 @@ class Scenery final : private Actor {
     std::vector<GeomTag*> tags;
   };
 
-  /// The world must outlive it.
   Scenery(World& world, std::shared_ptr<const model::World> data);
   ~Scenery() override;
   Scenery(const Scenery&) = delete;
@@ -30,9 +28,9 @@ class Scenery final : private Actor {
   /// In the order of data().objects.
   const std::vector<Item>& items() const { return items_; }
   Transform pose(std::size_t index) const;
-  /// Present poses of the objects that can move, in the order of model::moving().
+  /// In the order of model::moving().
   std::vector<Transform> moving_poses() const;
-  /// For a dynamic object: moves it at once; its velocity stays.
+  /// A dynamic object; its velocity stays.
   void place(std::size_t index, const Transform& pose_world);
 
  private:

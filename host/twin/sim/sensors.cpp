@@ -9,8 +9,7 @@ namespace verp::sim {
 namespace {
 
 constexpr double kBandwidthHz = 23.9;
-/// Noise of a foot sensor, one sigma: a quarter percent of a 10 N force-sensing resistor's span. An
-/// estimate.
+/// One sigma: a quarter percent of a 10 N force-sensing resistor's span; an estimate.
 constexpr double kFootNoiseN = 0.025;
 
 template <class Int>
@@ -58,7 +57,7 @@ void ImuModel::sample(const Mat3& world_imu, const Vec3& angular_velocity_world_
   Vec3 accel = world_imu.transpose() * (acceleration_world_m_s2 + up_world_m_s2);
   gyro += gyro_bias_rad_s_;
   accel += accel_bias_m_s2_;
-  if (noise_) {  // white noise, before the filter
+  if (noise_) {  // white, before the filter
     const double band_rthz = std::sqrt(0.5 / step_s);
     gyro += normal3(random_, sensor_.gyro_noise_rad_s_rthz * band_rthz);
     accel += normal3(random_, sensor_.accel_noise_m_s2_rthz * band_rthz);

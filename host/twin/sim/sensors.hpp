@@ -9,10 +9,9 @@
 #include "host/twin/sim/random.hpp"
 #include "host/twin/sim/world.hpp"
 
-/// Sensors sample in every physics step; reading has no side effect.
 namespace verp::sim {
 
-/// First-order low pass, like an IMU's digital filter or the RC in front of an ADC.
+/// First order, like an IMU's filter or an ADC's RC.
 class LowPass {
  public:
   double operator()(double value, double step_s);
@@ -22,19 +21,17 @@ class LowPass {
   bool started_ = false;
 };
 
-/// Gyroscope and accelerometer, as hal/chip/invensense reads them: bandwidth 23.9 Hz (InvenSense
-/// ICM-20648, DLPF 4). It reports the mean of the samples of one control period. The jolt of a
-/// landing is shorter than a period, so single samples would add false rotation.
+/// As hal/chip/invensense reads it: bandwidth 23.9 Hz (InvenSense ICM-20648, DLPF 4). It reports
+/// the mean of one control period: the jolt of a landing is shorter, and single samples would add
+/// false rotation.
 class ImuModel {
  public:
-  /// mean_s: averaging time; 0: the newest sample alone. gyro_bias_rad_s: added to the bias drawn
-  /// from the seed.
+  /// mean_s: averaging time; 0: newest sample only. gyro_bias_rad_s adds to the drawn bias.
   ImuModel(const model::ImuSensor& sensor, double mean_s, bool noise, std::uint64_t seed,
            const Vec3& gyro_bias_rad_s = Vec3::Zero());
 
-  /// Angular velocity and acceleration of the sensor's origin, world axes; the specific force
-  /// follows. up_world_m_s2: opposite to gravity. measurement() is one latency old, in whole steps;
-  /// until then it is the first one.
+  /// Motion of the sensor's origin, world axes; up_world_m_s2: opposite to gravity. measurement()
+  /// is one latency old, in whole steps; first, the first one.
   void sample(const Mat3& world_imu, const Vec3& angular_velocity_world_rad_s,
               const Vec3& acceleration_world_m_s2, const Vec3& up_world_m_s2, double step_s);
   const ImuMeasurement& measurement() const { return measurement_; }
@@ -51,7 +48,7 @@ class ImuModel {
   std::array<LowPass, 3> gyro_filter_;
   std::array<LowPass, 3> accel_filter_;
   std::deque<ImuMeasurement> samples_;     ///< of the last mean_s
-  std::deque<ImuMeasurement> on_the_way_;  ///< of the last steps, within the latency
+  std::deque<ImuMeasurement> on_the_way_;  ///< within the latency
   ImuMeasurement measurement_;
 };
 
@@ -60,8 +57,8 @@ class FootModel {
   FootModel(const model::Limb& leg, double newton_per_count, bool noise, Random random);
 
   void begin_step() { load_n_ = {}; }
-  /// Shares a normal force at a point of the sole bilinearly between the corners. The four readings
-  /// keep the force and its centre of pressure. Points off the sole count at its edge.
+  /// Shares a force bilinearly between the sole's corners, which keeps the centre of pressure.
+  /// Points off the sole count at its edge.
   void add_load(const Vec3& point_sole_m, double force_n);
   void end_step(double step_s);
   const std::array<std::uint16_t, 4>& counts() const { return counts_; }

@@ -8,8 +8,8 @@
 namespace verp::sim {
 namespace {
 
-constexpr double kFullPwm = 885.0;  ///< e-Manual X-series, PWM Limit: 885 is 100 %
-// e-Manual X-series, Position PID Gain: PWM units per count for one register unit of each gain.
+constexpr double kFullPwm = 885.0;  ///< X-series, PWM Limit: 885 is 100 %
+// Position PID Gain: PWM units per count for one unit of each gain.
 constexpr double kPerP = 1.0 / 128.0;
 constexpr double kPerI = 1.0 / 65536.0;
 constexpr double kPerD = 1.0 / 16.0;
@@ -93,8 +93,7 @@ double ServoModel::position_loop(const ServoSetpoint& setpoint) {
   return std::clamp(pwm, -limit, limit) / kFullPwm;
 }
 
-// e-Manual, Velocity PI Gain (76, 78). The e-Manual gives no unit of the error; the register's unit
-// is an estimate.
+// Velocity PI Gain (76, 78); the error's unit is an estimate, the e-Manual gives none.
 double ServoModel::velocity_loop(const ServoSetpoint& setpoint) {
   const double step_ms = joint_.servo.loop_s * 1e3;
   const double limit = std::min(static_cast<double>(setpoint.pwm_limit), kFullPwm);
@@ -136,8 +135,8 @@ double ServoModel::duty(const ServoSetpoint& setpoint) {
   return std::clamp(duty, duty_for(-setpoint.current_limit_a), duty_for(setpoint.current_limit_a));
 }
 
-// The firmware loop runs at its own instants within physics steps. It uses the angle of a little
-// earlier, and its duty holds until the next run.
+// The firmware loop runs at its own instants within physics steps. It uses the angle at that
+// instant, and its duty holds until the next run.
 double ServoModel::mean_duty(const ServoSetpoint& setpoint, double angle_rad, double rate_rad_s,
                              double step_s) {
   constexpr double kSameInstant_s = 1e-9;
@@ -171,7 +170,7 @@ Drive ServoModel::motor_line(double supply_v) const {
   return std::abs(torque) > limit ? Drive{std::copysign(limit, torque), 0} : line;
 }
 
-/// New friction takes hold at the joint's present angle, not at an old one.
+/// New friction holds at the present angle.
 void ServoModel::set_joint_friction(double friction_n_m) {
   joint_.friction_n_m = friction_n_m;
   if (std::abs(rotor_rad_s_) > constants_.still_rad_s) sliding_ = rotor_rad_s_ > 0 ? 1 : -1;
@@ -185,8 +184,8 @@ double ServoModel::friction_budget_n_m(double rate_rad_s, double load_n_m) const
          load_n_m * (gears.l_base + stribeck * gears.l_strib) + gears.f_visc_n_m_s * speed;
 }
 
-// The rotor stays on a flank while that pushes. Inside the play it turns only itself, and its own
-// motion decides whether it reaches a flank.
+// The rotor stays on a flank while that pushes. Inside the play only its own motion decides whether
+// it reaches a flank.
 bool ServoModel::engage(double rate_rad_s, double step_s) {
   const double half = joint_.servo.backlash_rad / 2;
   const double push = push_n_m_ * play_rad_;
@@ -206,7 +205,7 @@ bool ServoModel::engage(double rate_rad_s, double step_s) {
   return meets;
 }
 
-// Where rotor and joint meet they move on together, in the joint's direction.
+// Where they meet, rotor and joint move on in the joint's direction.
 void ServoModel::meet(double angle_rad, double rate_rad_s) {
   const double speed = std::abs(rate_rad_s) > constants_.still_rad_s ? rate_rad_s : rotor_rad_s_;
   const bool still = std::abs(speed) <= constants_.still_rad_s;
@@ -214,10 +213,9 @@ void ServoModel::meet(double angle_rad, double rate_rad_s) {
   stuck_rad_ = angle_rad;
 }
 
-// Stuck: held in place until that takes more than the budget. Sliding: the budget opposes the
-// motion until it ends. If it may end within this step, a line through standstill cannot reverse
-// the motion. If other forces reversed the joint within a step, it slides the other way without
-// sticking.
+// Stuck: held until that exceeds the budget. Sliding: the budget opposes the motion. If it may end
+// within this step, a line through standstill cannot reverse the motion. If other forces reversed
+// the joint, it slides the other way without sticking.
 Drive ServoModel::friction_line(double angle_rad, double rate_rad_s, double rest_n_m,
                                 double budget_n_m, double step_s) {
   if (rate_rad_s * sliding_ < -constants_.still_rad_s) sliding_ = -sliding_;
@@ -278,7 +276,7 @@ void ServoModel::finish(double rate_rad_s, double step_s) {
   if (engaged_) rotor_rad_s_ = rate_rad_s;
   torque_n_m_ = drive_.torque_n_m(rate_rad_s);
   friction_n_m_ = friction_.torque_n_m(rate_rad_s);
-  // For one step, friction that stops a rotor takes all the torque it needs. This does not pull the
+  // Friction that stops a rotor takes all the torque it needs for one step; this does not pull the
   // rotor off a flank.
   push_n_m_ = gear_.torque_n_m(rate_rad_s) - friction_n_m_ +
               std::clamp(friction_n_m_, -budget_n_m_, budget_n_m_);
@@ -287,7 +285,7 @@ void ServoModel::finish(double rate_rad_s, double step_s) {
   const double current = motor_torque / servo.stall_torque_n_m * servo.stall_current_a;
   measurement_.current_a = current * servo.direction;
   measurement_.velocity_rad_s = rate_rad_s * servo.direction;
-  // Power balance of an H-bridge; the other servos use what a braking motor returns.
+  // An H-bridge's power; other servos use a braking motor's current.
   supply_current_a_ = std::max(0.0, duty_ * current);
   const double heat_w = current * current * resistance_ohm_;
   const double loss_w =

@@ -6,14 +6,13 @@
 #include "host/twin/sim/profile.hpp"
 #include "host/twin/sim/random.hpp"
 
-/// One position servo: encoder, position loop, DC motor, gearbox, housing temperature. Independent
-/// of the physics engine: before a step it converts the joint's state to a line in the torque-speed
-/// plane, for any engine with an implicit velocity motor. After the step the caller passes back the
-/// result.
+/// A position servo: encoder, position loop, DC motor, gearbox, housing temperature. Independent of
+/// the physics engine: a step's input is a line in the torque-speed plane, for any implicit
+/// velocity motor; the caller passes back the new speed.
 namespace verp::sim {
 
-/// The joint's drive during one physics step: a line over the joint's speed at the end of the step.
-/// It is linear in the new speed, hence stable at any stiffness and inertia.
+/// One physics step's drive: a line over the joint's new speed, hence stable at any stiffness and
+/// inertia.
 struct Drive {
   double standstill_n_m = 0;
   double slope_n_m_s = 0;  ///< never negative
@@ -26,31 +25,29 @@ struct Drive {
   }
 };
 
-/// Converts a joint angle to encoder counts and back, as the controller does: without zero error,
-/// not rounded.
+/// As the controller does: without zero error, not rounded.
 double count_of(const model::Servo& servo, double angle_rad);
 double angle_of(const model::Servo& servo, double count);
 
-/// Facts from the X-series datasheets and e-Manuals beyond Entity's servo facts, and estimates
-/// where these are silent.
+/// X-series datasheets and e-Manuals beyond Entity's facts, and estimates.
 struct ServoConstants {
   /// Housing of an XM430: 82 g (e-Manual) of mostly aluminium, 0.9 kJ/(kg K); 77 cm2 of surface
-  /// (28.5 x 46.5 x 34 mm) in still air at 10 W/(m2 K). An estimate: it sets how fast a servo
-  /// warms, never whether it walks.
+  /// (28.5 x 46.5 x 34 mm) in still air at 10 W/(m2 K). An estimate: it sets only how fast a servo
+  /// warms.
   double heat_capacity_j_k = 74.0;
   double thermal_resistance_k_w = 13.0;
   double ambient_c = 25.0;
-  /// Copper's temperature coefficient, IEC 60028.
+  /// Of copper, IEC 60028.
   double copper_per_k = 0.00393;
   /// XM430 Current Limit register: 1193 units of 2.69 mA, 1.4 times the stall current at 12 V.
   /// Back-driven motors exceed stall torque up to this limit.
   double current_limit_stalls = 1.4;
-  /// A stuck joint is a stiff line back to where it stuck. At this speed it would carry its whole
-  /// friction, and each step returns this part of its displacement. It does not creep.
+  /// A stuck joint is a stiff line to where it stuck. At this speed it would carry its whole
+  /// friction, and each step returns this part of its displacement.
   double hold_speed_rad_s = 1e-4;
   double hold_return = 0.2;
-  double still_rad_s = 1e-3;  ///< a braked joint slower than this stands
-  /// End stops: a housing's plastic, stiff enough to hold stall torque within half a degree.
+  double still_rad_s = 1e-3;  ///< a slower braked joint stands
+  /// Stiff enough to hold stall torque within half a degree.
   double stop_stiffness_n_m = 500.0;
   double stop_damping_n_m_s = 1.0;
 };
@@ -62,33 +59,32 @@ struct ServoNoise {
 
 class ServoModel {
  public:
-  /// Throws std::invalid_argument with the joint's name if the servo facts cannot drive a motor.
+  /// Throws std::invalid_argument with the joint's name if the facts cannot drive a motor.
   ServoModel(const model::Joint& joint, const ServoNoise& noise, Random encoder_random,
              double initial_rad, const ServoConstants& constants = {});
 
-  /// Runs the firmware loop as often as it falls into this physics step, then motor and gearbox.
-  /// external_n_m is the torque on the joint besides this servo (gravity, ground, other links).
-  /// With the motor's torque it loads the gears.
+  /// Runs the firmware loop as often as it is due, then motor and gearbox. external_n_m: torque on
+  /// the joint besides this servo; with the motor's it loads the gears.
   Drive drive(const ServoSetpoint& setpoint, double angle_rad, double rate_rad_s,
               double external_n_m, double supply_v, double step_s);
-  /// Ends the step; rate_rad_s is the joint's new speed.
+  /// rate_rad_s: the joint's new speed.
   void finish(double rate_rad_s, double step_s);
 
-  /// Servo sense: positive as counts increase.
+  /// Positive as counts increase.
   const ServoMeasurement& measurement() const { return measurement_; }
-  /// Torque of motor and gearbox on the joint in the last step, joint sense.
+  /// On the joint in the last step, joint sense.
   double torque_n_m() const { return torque_n_m_; }
-  /// |motor torque| / stall torque; above 1 when back-driven.
+  /// Share of stall torque; above 1 when back-driven.
   double torque_use() const { return torque_use_; }
-  /// The requested duty reached the limit in the last step.
+  /// In the last step.
   bool saturated() const { return saturated_; }
   double supply_current_a() const { return supply_current_a_; }
-  /// Of the bearing, in addition to the servo's own.
+  /// Of the bearing.
   double joint_damping_n_m_s() const { return joint_.damping_n_m_s; }
   double joint_friction_n_m() const { return joint_.friction_n_m; }
   void set_joint_damping(double damping_n_m_s) { joint_.damping_n_m_s = damping_n_m_s; }
   void set_joint_friction(double friction_n_m);
-  /// Position of the profile as the joint's true angle.
+  /// As the joint's true angle.
   double profile_rad() const {
     return angle_of(joint_.servo, profile_.count()) - noise_.zero_error_rad;
   }
@@ -98,7 +94,7 @@ class ServoModel {
   void follow_profile(const ServoSetpoint& setpoint);
   double position_loop(const ServoSetpoint& setpoint);
   double velocity_loop(const ServoSetpoint& setpoint);
-  /// Duty at which the motor draws that current now.
+  /// At which the motor draws that current now.
   double duty_for(double current_a) const;
   double duty(const ServoSetpoint& setpoint);
   double mean_duty(const ServoSetpoint& setpoint, double angle_rad, double rate_rad_s,
@@ -119,24 +115,24 @@ class ServoModel {
   double resistance_ohm_ = 0;
 
   bool was_on_ = false;
-  double next_loop_s_ = 0;  ///< from the start of the next physics step
+  double next_loop_s_ = 0;  ///< after the next step's start
   Profile profile_{0};
   double integral_ = 0;    ///< PWM units
   double last_error_ = 0;  ///< counts
   bool saturated_ = false;
 
-  double duty_ = 0;         ///< joint sense, mean of the step
-  Drive motor_;             ///< the motor alone, in the last step
-  double rotor_rad_s_ = 0;  ///< seen from the joint; free inside the play
-  double play_rad_ = 0;     ///< motor side ahead of joint side, within +-backlash/2
+  double duty_ = 0;         ///< joint sense, mean
+  Drive motor_;             ///< alone, last step
+  double rotor_rad_s_ = 0;  ///< seen from the joint
+  double play_rad_ = 0;     ///< motor side ahead, within +-backlash/2
   bool engaged_ = true;     ///< not inside the play
-  int sliding_ = 0;         ///< sign of the motion that friction opposes; 0: stuck
-  double stuck_rad_ = 0;    ///< angle at which it stuck
-  Drive friction_, gear_;   ///< in the last step; gear_ is all that comes through the gears
-  Drive drive_;             ///< with end stops and the joint's own damping
+  int sliding_ = 0;         ///< motion's sign; 0: stuck
+  double stuck_rad_ = 0;    ///< where it stuck
+  Drive friction_, gear_;   ///< last step; gear_: all through the gears
+  Drive drive_;             ///< with end stops and bearing
   double friction_n_m_ = 0;
-  double budget_n_m_ = 0;  ///< friction beyond a single step
-  double push_n_m_ = 0;    ///< gear torque with friction limited to the budget
+  double budget_n_m_ = 0;  ///< friction beyond one step
+  double push_n_m_ = 0;    ///< gear torque with budgeted friction
   double torque_n_m_ = 0;
   double torque_use_ = 0;
   double supply_current_a_ = 0;

@@ -12,13 +12,12 @@ namespace verp::sim {
 
 class Shutters {
  public:
-  /// `wanted`: pictures are rendered; otherwise no shutter opens.
+  /// Not `wanted`: no shutter opens.
   Shutters(const model::Entity& entity, bool wanted);
 
-  /// Call after each step. Cameras with the same step and latency share an exposure.
+  /// Call after each step; cameras with equal step and latency share an exposure.
   void sample(const World& world, const Actor& robot);
-  /// Exposures whose pictures became available since the last call. If nobody takes them, the
-  /// oldest are dropped.
+  /// Newly available ones; the oldest are dropped if nobody takes them.
   std::vector<Exposure> take() { return std::exchange(exposures_, {}); }
 
  private:

@@ -5,7 +5,7 @@
 
 #include "host/twin/sim/solver_lanes.hpp"
 
-// ODE's symbols for them: template instances that its library exports.
+// ODE's exported template instances.
 #define VERP_IN_PLACE_OF(name) __asm__(name) __attribute__((visibility("default")))
 extern "C" {
 void verp_solve_lower(const double* l, double* b, unsigned n, unsigned skip)
@@ -47,7 +47,7 @@ constexpr SolverLoops kLoops[] = {
 };
 const std::size_t kFirst = __builtin_cpu_supports("avx2") ? 0 : 1;
 
-/// Scratch of kEach numbers per row.
+/// Scratch, kEach numbers per row.
 template <std::size_t kEach>
 class Room {
  public:
@@ -57,7 +57,7 @@ class Room {
   double* begin() { return more_.empty() ? usual_ : more_.data(); }
 
  private:
-  // A robot's hinges and servos need at most 150 rows; larger systems use more_.
+  // A robot needs at most 150 rows.
   static constexpr std::size_t kUsual = 256;
   double usual_[kEach * kUsual];
   std::vector<double> more_;

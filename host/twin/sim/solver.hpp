@@ -3,14 +3,13 @@
 #include <span>
 #include <string_view>
 
-/// Replacements for three loops of ODE's solver that take most of a world's time. They process
-/// several numbers at a time and skip the zeros at the start of a robot's rows. Each result is the
-/// sum of the same terms in the same order, so no bit differs (tests/host/sim/solver_test.cpp).
+/// Replacements for three loops of ODE's solver, most of a world's time. They process several
+/// numbers at a time and skip zeros at the start of rows. Each result sums the same terms in the
+/// same order, so no bit differs (tests/host/sim/solver_test.cpp).
 ///
-/// A program linked with this file uses them instead of ODE's. The dynamic linker binds the
-/// library's own calls to the first definition it finds; a shared library must export them for that
-/// (host/apps/libverp/exported.map). On another processor, or with an ODE that has other loops,
-/// ODE's own run.
+/// A program linked with this file uses them: the dynamic linker binds ODE's calls to the first
+/// definition, which a shared library must export (host/apps/libverp/exported.map). On another
+/// processor or ODE, ODE's own loops run.
 
 namespace verp::sim {
 
@@ -20,11 +19,11 @@ struct SolverLoops {
   void (*solve_lower)(const double* l, double* b, std::size_t n, std::size_t skip);
   /// Solves L^T x = b. Room: n numbers.
   void (*solve_upper)(const double* l, double* b, std::size_t n, std::size_t skip, double* room);
-  /// Factors A = L D L^T: L in place of A's lower half, 1 / D in d. Room: 8 n numbers.
+  /// Factors A = L D L^T: L over A's lower half, 1 / D in d. Room: 8 n numbers.
   void (*factor)(double* a, double* d, std::size_t n, std::size_t skip, double* room);
 };
 
-/// All variants for this processor, the one in use first; empty: ODE's own run.
+/// All for this processor, the used one first; empty: ODE's own run.
 std::span<const SolverLoops> solver_loops();
 
 }  // namespace verp::sim

@@ -3,16 +3,15 @@
 #include <cstdint>
 #include <cstring>
 
-/// The loops of solver.hpp, independent of the instruction set: the including file inlines them
-/// into one function per set. Rows of a robot's matrix begin with zeros up to the first joint with
-/// which they share a body. The loops skip only products with +0, which change no bit of a sum that
+/// The loops of solver.hpp; the including file inlines them once per instruction set. A robot's
+/// rows begin with zeros. Only products with +0 are skipped, which change no bit of a sum that
 /// began at +0 (non-finite numbers aside).
 namespace verp::sim::lanes {
 
 using Index = std::size_t;
 
 #define VERP_INLINE inline __attribute__((always_inline))
-// A local array stays in registers only if no loop indexes it, so unroll all loops.
+// A local array stays in registers only if no loop indexes it.
 #if defined(__clang__)
 #define VERP_UNROLL _Pragma("unroll")
 #else
@@ -31,8 +30,7 @@ VERP_INLINE void load(Four& out, const double* from) {
   std::memcpy(&out, from, sizeof out);
 }
 
-/// Length of the common run of +0 (all bits zero) at the start of kRows rows, within `count`; a
-/// multiple of four.
+/// Common run of +0 at the start of kRows rows; a multiple of four.
 template <int kRows>
 VERP_INLINE Index leading_zeros(const double* row, Index count, Index skip) {
   Index k = 0;
@@ -49,7 +47,7 @@ VERP_INLINE Index leading_zeros(const double* row, Index count, Index skip) {
   return k;
 }
 
-/// z[g] += rows 4 g to 4 g + 3 of l, times b: four columns, in order.
+/// z[g] += rows 4 g to 4 g + 3 of l, times b: columns in order.
 template <int kGroups>
 VERP_INLINE void add_columns(Four* z, const double* l, const double* b, Index skip) {
   VERP_UNROLL
@@ -67,7 +65,7 @@ VERP_INLINE void add_columns(Four* z, const double* l, const double* b, Index sk
   }
 }
 
-/// Solves the four unknowns whose rows begin at l; z holds the sums over all earlier columns.
+/// The four unknowns at l; z holds all earlier columns' sums.
 VERP_INLINE void finish_lower(const double* l, double* b, const Four& z, Index skip) {
   const double *l1 = l + skip, *l2 = l1 + skip, *l3 = l2 + skip;
   b[0] = b[0] - z[0];
@@ -95,7 +93,7 @@ VERP_INLINE void solve_lower(const double* l, double* b, Index n, Index skip) {
   Index row = 0;
   for (; row + 16 <= n; row += 16) lower_rows<4>(l, b, row, skip);
   for (; row + 4 <= n; row += 4) lower_rows<1>(l, b, row, skip);
-  // The remaining rows one by one, even and odd columns apart.
+  // The remaining rows; even and odd columns apart.
   for (; row < n; ++row) {
     Two z = {};
     const double* of = l + row * skip;
@@ -111,7 +109,7 @@ VERP_INLINE void solve_lower(const double* l, double* b, Index n, Index skip) {
   }
 }
 
-/// Solves the four unknowns from b on; z holds the sums over all rows below.
+/// The four unknowns from b on; z holds the sums of all rows below.
 VERP_INLINE void finish_upper(const double* l, double* b, const Four& z, Index skip) {
   const double *l1 = l + skip, *l2 = l1 + skip, *l3 = l2 + skip;
   b[3] = b[3] - z[3];
@@ -120,8 +118,8 @@ VERP_INLINE void finish_upper(const double* l, double* b, const Four& z, Index s
   b[0] = b[0] - z[0] - l3[0] * b[3] - l2[0] * b[2] - l1[0] * b[1];
 }
 
-/// z += kRows rows of l, last first, each times its b. Covers the columns from the first that is
-/// not zero in all of them up to `columns`.
+/// z += kRows rows of l, last first, each times its b. From the first column that is not zero in
+/// all of them up to `columns`.
 template <int kRows>
 VERP_INLINE void add_rows(double* z, const double* l, const double* b, Index columns, Index skip) {
   for (Index k = leading_zeros<kRows>(l, columns, skip); k < columns; k += 4) {
@@ -153,8 +151,7 @@ VERP_INLINE void solve_upper(const double* l, double* b, Index n, Index skip, do
   }
 }
 
-/// A block of A's rows on its way to L, stored by columns: x[k] is column k of all rows, before
-/// scaling by 1 / D.
+/// A block of A's rows, stored by columns: x[k] is column k before scaling by 1 / D.
 template <int kGroups>
 struct Panel {
   static constexpr Index kLanes = 4 * kGroups;
@@ -174,7 +171,7 @@ struct Panel {
     }
   }
 
-  /// Columns j to j + kColumns - 1 (kColumns is even). Earlier columns are done, and zero up to
+  /// Columns j to j + kColumns - 1, an even number. Earlier columns are done, and zero up to
   /// `from`.
   template <int kColumns>
   VERP_INLINE void solve(Index j, Index from) const {
@@ -182,7 +179,7 @@ struct Panel {
     for (Index k = from; k < j; ++k) add<kColumns>(z, 0, j, k);
     VERP_UNROLL
     for (int c = 0; c < kColumns; c += 2) {
-      // ODE sums up to the pair and subtracts the terms within the pair separately.
+      // ODE subtracts the terms within the pair separately.
       for (Index k = j; k < j + static_cast<Index>(c); ++k) add<2>(z + c, c, j, k);
       const Index column = j + static_cast<Index>(c);
       const double within = row(column + 1)[column];
@@ -213,8 +210,8 @@ struct Panel {
     }
   }
 
-  /// Scales column k of all rows. own: sums of squares. cross: second row of a pair times its
-  /// first, in the second's lane.
+  /// Scales column k. own: sums of squares. cross: a pair's second row times its first, in the
+  /// second's lane.
   VERP_INLINE void scale(Index k, Four* own, Four* cross) const {
     VERP_UNROLL
     for (int g = 0; g < kGroups; ++g) {
@@ -231,7 +228,7 @@ struct Panel {
     }
   }
 
-  /// The pair's own block, after the earlier columns are summed.
+  /// The pair's own block.
   VERP_INLINE void finish(Index r, double z11, double z21, double z22) const {
     for (Index k = first; k < r; ++k) {
       const double p1 = at(k, r), p2 = at(k, r + 1);
@@ -269,7 +266,7 @@ struct Panel {
   }
 };
 
-/// Last row of an odd matrix.
+/// An odd matrix's last row.
 VERP_INLINE void factor_last(double* a, double* d, Index r, Index skip) {
   double* row = a + r * skip;
   for (Index j = 0; j < r; j += 2) {

@@ -12,9 +12,9 @@ namespace verp::sim {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-/// Initial gap below the soles: contact begins in the first milliseconds, without penetration.
+/// Contact begins in the first milliseconds, without penetration.
 constexpr double kStartGap = 0.0002;
-/// Spread of the initial pose, one sigma: the accuracy of a person who places the robot by hand.
+/// One sigma: a robot placed by hand.
 constexpr double kJointSpread = 0.2 * kDegree;
 constexpr double kLeanSpread = 0.2 * kDegree;
 constexpr double kYawSpread = 0.5 * kDegree;
@@ -23,7 +23,7 @@ double uniform(Random& random, double low, double high) {
   return low + (high - low) * 0.5 * (1 + random.uniform(-1, 1));
 }
 
-/// Angles inside their limits at which no links intersect.
+/// Inside their limits, without intersecting links.
 std::vector<double> any_angles(const model::Entity& entity, Random& random) {
   constexpr int kMostDraws = 1000;
   std::vector<double> angle_rad;

@@ -7,7 +7,7 @@ namespace verp::sim {
 
 void FootLoads::add(const Vec3& position_world_m, const Vec3& force_world_n) {
   force_n_ += force_world_n.z();
-  // Penetration moves the points slightly off the plane, so friction has a small lever.
+  // Penetration moves the points off the plane: friction has a small lever.
   moment_n_m_ += force_world_n.z() * position_world_m.head<2>() -
                  position_world_m.z() * force_world_n.head<2>();
 }

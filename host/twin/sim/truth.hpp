@@ -5,7 +5,7 @@
 
 #include "host/twin/sim/world.hpp"
 
-/// The true state, for scoring, plots and pictures. The controller never sees it.
+/// The true state, for scoring and pictures; the controller never sees it.
 namespace verp::sim {
 
 using Vec2 = Eigen::Vector2d;
@@ -24,31 +24,30 @@ struct Truth {
   Transform body_world = Transform::Identity();
   Vec3 body_velocity_world_m_s = Vec3::Zero();
   Vec3 body_rate_world_rad_s = Vec3::Zero();
-  double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;  ///< of the body; Rz(yaw) Ry(pitch) Rx(roll)
+  double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;  ///< body: Rz(yaw) Ry(pitch) Rx(roll)
   Vec3 com_world_m = Vec3::Zero();
   Vec3 com_velocity_world_m_s = Vec3::Zero();
   bool zmp_valid = false;             ///< the feet carry load
-  Vec2 zmp_world_m = Vec2::Zero();    ///< on the plane z = 0, last step
+  Vec2 zmp_world_m = Vec2::Zero();    ///< on z = 0, last step
   std::array<FootTruth, 2> foot;      ///< left, right
-  std::vector<Vec2> support_world_m;  ///< convex, counter-clockwise: soles in contact
+  std::vector<Vec2> support_world_m;  ///< convex, counter-clockwise
   std::vector<double> joint_rad;
   std::vector<double> joint_rad_s;
-  std::vector<double> torque_n_m;  ///< motor, gearbox and end stop, joint sense
-  std::vector<double> torque_use;  ///< |motor torque| / stall torque
+  std::vector<double> torque_n_m;  ///< motor, gearbox, end stop; joint sense
+  std::vector<double> torque_use;  ///< share of stall torque
   bool held = false;
   bool fallen = false;  ///< latched
 };
 
 inline constexpr double kContactForceN = 1.0;
 
-/// Contact forces of the feet, summed over physics steps: their mean and the mean ZMP.
+/// Summed over physics steps: their mean and the mean ZMP.
 class FootLoads {
  public:
   void add(const Vec3& position_world_m, const Vec3& force_world_n);
   void add(const FootLoads& other);
   bool valid() const { return force_n_ > kContactForceN; }
-  /// Point where the moment of the summed forces about the plane z = 0 has no horizontal part. Call
-  /// only if valid().
+  /// On z = 0. Call only if valid().
   Vec2 zmp_world_m() const { return moment_n_m_ / force_n_; }
   double force_n() const { return force_n_; }
 
@@ -57,7 +56,7 @@ class FootLoads {
   Vec2 moment_n_m_ = Vec2::Zero();
 };
 
-/// Counter-clockwise convex hull without collinear points.
+/// Counter-clockwise, without collinear points.
 std::vector<Vec2> convex_hull(std::vector<Vec2> points);
 
 /// (roll, pitch, yaw) of Rz(yaw) Ry(pitch) Rx(roll).

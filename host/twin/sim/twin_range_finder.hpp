@@ -8,8 +8,8 @@
 
 namespace verp::sim {
 
-/// One of a twin's lasers as hal/contract/range_finder.hpp. It takes all of the twin's scans, so
-/// those of other lasers are lost.
+/// A twin's laser as hal/contract/range_finder.hpp. It takes all scans: those of other lasers are
+/// lost.
 class TwinRangeFinder {
  public:
   TwinRangeFinder(TwinRobot& twin, std::size_t laser) : twin_(twin), laser_(laser) {}

@@ -51,8 +51,7 @@ class Drawing {
     const double friction =
         stream(Draw::kVaryFriction).uniform(bands_.friction_low, bands_.friction_high);
     out_.world.ground_surface.friction = friction;
-    // A contact uses the smaller friction of its partners (world.cpp), so the robot's must not hide
-    // it.
+    // The smaller friction counts (world.cpp): the robot's must not hide it.
     for (model::Node& node : out_.entity.nodes) {
       for (model::Collision& shape : node.collisions) shape.friction = friction;
     }

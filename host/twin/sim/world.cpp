@@ -14,11 +14,11 @@
 namespace verp::sim {
 namespace {
 
-/// Replaces ODE's exit from the program.
+/// Instead of ODE's exit().
 struct OdeGaveUp : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-/// Drops ODE's messages about problems after which it continues: nobody can act on them.
+/// Nobody can act on problems after which ODE continues.
 void say_nothing(int, const char*, va_list) {}
 [[noreturn]] void give_up(int, const char* text, va_list arguments) {
   char said[256];
@@ -26,10 +26,10 @@ void say_nothing(int, const char*, va_list) {}
   throw OdeGaveUp(said);
 }
 
-/// ODE's global state: opened by the first world, closed at exit.
+/// Opened by the first world.
 struct OdeRuntime {
   OdeRuntime() {
-    solver_loops();  // or the linker would leave them out
+    solver_loops();  // else the linker leaves them out
     dInitODE2(0);
     dSetErrorHandler(give_up);
     dSetDebugHandler(give_up);
@@ -38,7 +38,7 @@ struct OdeRuntime {
   ~OdeRuntime() { dCloseODE(); }
 };
 
-/// Keeps what cannot be destroyed: ODE was left in the middle of a step, with pending jobs.
+/// Cannot be destroyed: ODE was left in the middle of a step, with pending jobs.
 void keep(dWorldID world, dThreadingImplementationID threading) {
   static std::mutex mutex;
   static auto& kept = *new std::vector<std::pair<dWorldID, dThreadingImplementationID>>;
@@ -46,21 +46,19 @@ void keep(dWorldID world, dThreadingImplementationID threading) {
   kept.emplace_back(world, threading);
 }
 
-/// Per pair of geometries. A box on a plane has four; more would only slow the solver.
+/// Per pair of geometries; a box on a plane has four.
 constexpr int kMaxContacts = 8;
 
-/// ODE's joint error reduction per step and constraint softness (CFM). The first is ODE's default.
-/// The second is so small that no joint visibly gives way, but singular configurations still
-/// factorise.
+/// Error reduction per step and softness (CFM). ODE's default; and so small that no joint visibly
+/// gives way, but singular configurations still factorise.
 constexpr double kErrorReduction = 0.2;
 constexpr double kConstraintSoftness = 1e-9;
-/// Highest speed at which ODE corrects penetration, so that a bad start does not throw the robot
-/// into the air.
+/// So that a bad start does not throw the robot into the air.
 constexpr double kMaxCorrectingVelocity = 1.0;
-/// Slower impacts do not bounce: gravity's gain in a step of 2 ms. Otherwise things never rest.
+/// Gravity's gain in 2 ms; otherwise things never rest.
 constexpr double kLeastBounce_m_s = 0.02;
 
-/// Springs in series; stiffness 0 means rigid.
+/// Springs in series; 0: rigid.
 Surface combine(const Surface& a, const Surface& b) {
   Surface both;
   both.friction = std::min(a.friction, b.friction);
@@ -76,8 +74,7 @@ Surface combine(const Surface& a, const Surface& b) {
   return both;
 }
 
-/// ODE manual, "Joint error and the error reduction parameter": a spring and damper, integrated
-/// implicitly.
+/// ODE manual, "Joint error and the error reduction parameter": an implicit spring and damper.
 void set_surface(dSurfaceParameters& out, const Surface& surface, double step_s) {
   out.mode = dContactApprox1;
   out.mu = surface.friction;
@@ -99,7 +96,7 @@ World::World(const WorldOptions& options) : options_(options) {
   static const OdeRuntime runtime;
   dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll));
   world_ = dWorldCreate();
-  // Own threading: worlds without it share ODE's, which two threads must not step at a time.
+  // Without it, worlds share ODE's, which two threads must not step at a time.
   threading_ = dThreadingAllocateSelfThreadedImplementation();
   dWorldSetStepThreadingImplementation(world_, dThreadingImplementationGetFunctions(threading_),
                                        threading_);
@@ -168,8 +165,7 @@ void World::collide(dGeomID a, dGeomID b) {
   const int count = dCollide(a, b, kMaxContacts, &points[0].geom, sizeof(dContact));
   for (int i = 0; i < count; ++i) {
     dContact& point = points[i];
-    // Put a moving body first, so that ODE's feedback is the force on it, whatever dCollide's
-    // order.
+    // A moving body first: ODE's feedback is then the force on it.
     if (dGeomGetBody(point.geom.g1) == nullptr) {
       std::swap(point.geom.g1, point.geom.g2);
       for (int axis = 0; axis < 3; ++axis) point.geom.normal[axis] = -point.geom.normal[axis];

@@ -126,6 +126,6 @@ for tick in range(int(100 * float(sys.argv[3])) if len(sys.argv) > 3 else 10**6)
         print(f"{twin.now_s:.3f} s: {message[0]} says {says.decode()}")
     goals[HEAD] = middle + LOOKS[says]
     twin.write_all(GOAL, 4, goals)
-twin.write_all(TORQUE, 1, dict.fromkeys(SERVOS, 0))  # torque off, then disconnect: the run ends
+twin.write_all(TORQUE, 1, dict.fromkeys(SERVOS, 0))  # torque off; disconnecting ends the run
 print(f"{sys.argv[2]}: {talks} messages")
 sys.exit(talks == 0)
