@@ -15,7 +15,6 @@ Params robot_named(const char* name) {
   return params;
 }
 
-/// A flash section: a library, its mark, then erased bytes.
 struct Section {
   explicit Section(const Params& params) {
     __builtin_memset(bytes, 0xFF, sizeof bytes);
@@ -83,7 +82,6 @@ TEST(KeptActions, AnyFlippedBitIsAFault) {
   }
 }
 
-// As a power cut leaves an erase or a write.
 TEST(KeptActions, WhatIsCutAnywhereDoesNotCount) {
   const Params params = robot_named("r");
   for (std::size_t whole = 4; whole < Section::kUsed; whole += 4) {

@@ -17,7 +17,6 @@ using test::Shelf;
 constexpr int kJoint = kRightArm;
 constexpr float kThere_rad = 0.8F;
 
-/// A player whose action stays requested until the test withdraws it.
 struct Stage {
   explicit Stage(const Shelf& with) : shelf(with) {
     for (int j = 0; j < kJointCount; ++j) stand_rad[j] = kRobot.joint[j].stand_rad;
@@ -61,7 +60,7 @@ TEST(Player, NeverLeapsFromTickToTick) {
   for (int i = 0; i < 200; ++i) {
     const float now = stage.tick();
     if (stage.state.number == 0) break;
-    // A minimum-jerk curve peaks at 15/8 of its mean speed.
+    // A minimum-jerk curve peaks at 15/8 of its mean.
     EXPECT_LT(math::abs(now - before), 1.9F * kThere_rad / 20);
     before = now;
   }
@@ -163,7 +162,7 @@ TEST(Player, WaitsForItsConditionAndElseGoesTheOtherWay) {
 TEST(Player, AJointThatNoFrameNamesStands) {
   Stage stage(up_and_down());
   stage.ticks(15);
-  stage.stand_rad[kHead] = 0.3F;  // the operator turns the head meanwhile
+  stage.stand_rad[kHead] = 0.3F;
   stage.tick();
   EXPECT_FLOAT_EQ(stage.out.angle_rad[kHead], 0.3F);
 }

@@ -4,7 +4,7 @@
 
 namespace verp::action::test {
 
-/// A handmade library of two actions: one of two frames, one of one frame.
+/// One action of two frames, one of one frame.
 struct Shelf {
   LibraryHeader header;
   Action action[2];
@@ -28,7 +28,6 @@ struct Shelf {
     frame[0].next = 1;
     seal();
   }
-  /// Sends joint `joint` to `angle_rad` in frame `index`.
   void goal(int index, int joint, float angle_rad) {
     frame[index].joints |= 1U << joint;
     frame[index].smooth |= 1U << joint;

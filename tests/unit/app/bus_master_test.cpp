@@ -11,10 +11,10 @@ namespace verp::app {
 namespace {
 
 constexpr std::uint8_t kId = 5;
-constexpr std::uint32_t kLateUs = 1000;  // when the late first reply arrives
+constexpr std::uint32_t kLateUs = 1000;
 constexpr std::uint32_t kSoonUs = 100;
 
-/// Two equal reads of servo 5: the first reply is late, the second on time.
+/// Two equal reads: the first reply is late.
 struct Exchange {
   Exchange() {
     const std::uint8_t old_value[] = {1, 1, 1, 1};
@@ -54,7 +54,7 @@ TEST(BusMaster, ARequestIsNotAnsweredByItsPredecessorsReply) {
   static BusMaster<hal::ScriptedBus> master(exchange.bus);
   EXPECT_FALSE(exchange.ask(master, kLateUs - 1));
   std::uint8_t seen = 0;
-  EXPECT_EQ(exchange.bus.poll(&seen, 1, kLateUs), 1u);  // by now the reply has arrived
+  EXPECT_EQ(exchange.bus.poll(&seen, 1, kLateUs), 1u);
   EXPECT_TRUE(exchange.ask(master, kSoonUs));
   EXPECT_EQ(exchange.value, 2);
   EXPECT_TRUE(exchange.bus.finished());
@@ -91,7 +91,7 @@ TEST(ReadChain, KeepsItsOrderWhenAllAnswer) {
   for (int i = 0; i < 4; ++i) EXPECT_EQ(chain.ids()[i], i + 1);
 }
 
-// Packet sizes of the protocol for 21 servos at 2 Mbaud.
+// Packet sizes for 21 servos at 2 Mbaud.
 TEST(Schedule, CountsTheBytesOfATick) {
   EXPECT_EQ(sync_read_bytes(21, 4), 35u + 21 * 15);
   EXPECT_EQ(fast_sync_read_bytes(21, 4), 35u + 8 + 21 * 8);

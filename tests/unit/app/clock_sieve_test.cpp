@@ -9,7 +9,6 @@ using lockstep::ClockSieve;
 
 constexpr std::size_t kRoom = 4096;
 
-/// The stream, what the sieve passed on, and the sequence numbers it found.
 struct Stream {
   void put(std::uint8_t byte) { bytes[size++] = byte; }
   void put_packet(std::uint8_t id, std::uint32_t mark) {
@@ -47,7 +46,7 @@ TEST(ClockSieve, TakesThePacketsOfTheClockAndPassesTheRest) {
     mixed.size = mixed.count = plain.size = 0;
     mixed.packets = 0;
     for (std::uint32_t i = 0; i < 40; ++i) {
-      const std::uint32_t mark = dice() << 8 | 0xFD;  // often needs stuffing
+      const std::uint32_t mark = dice() << 8 | 0xFD;
       mixed.put_packet(lockstep::kClockId, i % 3 == 0 ? 0xFFFDFFFFu : mark);
       mixed.put_packet(static_cast<std::uint8_t>(dice() % 200), mark);
     }

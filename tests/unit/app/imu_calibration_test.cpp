@@ -7,7 +7,6 @@
 #include "hal/fake/scripted_imu.hpp"
 #include "tests/unit/support/test_robot.hpp"
 
-// One chip's bias and mounting, measured at rest and kept across restarts.
 namespace verp::app {
 namespace {
 
@@ -24,7 +23,6 @@ ImuParams upright() {
   imu.accel_m_s2_per_count = kAccelScale;
   return imu;
 }
-/// The x axis points up.
 ImuParams on_its_side() {
   ImuParams imu = upright();
   const float body_imu[9] = {0, 0, -1, 0, 1, 0, 1, 0, 0};
@@ -36,8 +34,7 @@ std::int16_t counts(float value, float scale) {
   return math::to_int16(value / scale);
 }
 
-/// A chip at rest, mounted as `imu` says, then turned by `tilt_rad` about its axis `about`, with a
-/// bias and up to `noise` counts of noise.
+/// Mounted as `imu` says, then turned about the axis `about`, with up to `noise` counts of noise.
 hal::ImuSample at_rest(const ImuParams& imu, float tilt_rad, int about, const std::int16_t* bias,
                        test::Random& random, int noise = 8) {
   Vec3 up{imu.body_imu[6], imu.body_imu[7], imu.body_imu[8]};
@@ -140,7 +137,6 @@ TEST(ImuCalibration, IsRefusedFromARobotThatMoves) {
   EXPECT_TRUE(measured(calibrator, imu, 0, 0, none, 40) == Outcome::kMoved) << "it trembles";
   const std::int16_t turning[3] = {0, 0, 200};
   EXPECT_TRUE(measured(calibrator, imu, 0, 0, turning) == Outcome::kMoved) << "12 deg/s: it turns";
-  // One push ends the measurement, whenever it comes.
   for (const int when : {0, 100, ImuCalibrator::kSamples - 1}) {
     test::Random random(1);
     calibrator.begin();
@@ -164,7 +160,6 @@ TEST(ImuCalibration, IsRefusedFromARobotThatLeansOrASensorOfAnotherScale) {
   EXPECT_TRUE(measured(calibrator, imu, 0, 1, none) == Outcome::kNotUpright) << "half of gravity";
 }
 
-/// One run of a board whose chip is at rest.
 struct Life {
   explicit Life(hal::MemoryStore& memory, const ImuParams& params) : imu(chip, memory, params) {
     imu.load();
@@ -257,7 +252,7 @@ TEST(CalibratedImu, OfAnotherVersionOrSizeIsNotTaken) {
 }
 
 // A bias belongs to a scale, a turn to a mounting. A robot that differs in either drops the
-// measurement and tells the operator. The robot that measured it finds it again.
+// measurement; the robot that measured it finds it again.
 TEST(CalibratedImu, MeasuredInAnotherScaleOrMountingIsDroppedAndSaid) {
   hal::MemoryStore memory;
   const ImuParams params = upright();
@@ -280,7 +275,7 @@ TEST(CalibratedImu, MeasuredInAnotherScaleOrMountingIsDroppedAndSaid) {
   EXPECT_TRUE(Life(memory, params).imu.state() == Outcome::kDone);
 }
 
-// Only read() gives samples: the chip may fall silent, or the loop may stop reading.
+// Only read() gives samples.
 TEST(CalibratedImu, AMeasurementWithoutSamplesEndsWithAVerdict) {
   constexpr std::uint64_t kBegin_us = 5'000'000;
   for (const int samples : {0, 1, ImuCalibrator::kSamples - 1}) {
@@ -303,7 +298,6 @@ TEST(CalibratedImu, AMeasurementWithoutSamplesEndsWithAVerdict) {
   }
 }
 
-// Slow samples do not cut a measurement short; without an order there is no verdict.
 TEST(CalibratedImu, TheSlowestLoopHasTimeToMeasure) {
   hal::MemoryStore memory;
   const ImuParams params = upright();

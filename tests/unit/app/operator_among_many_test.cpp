@@ -31,7 +31,6 @@ TEST(OperatorAmongMany, TakesItsPartOfWritesToMany) {
   EXPECT_EQ(bench.device.order(2).command.vy_tenth_mm_s, 2);
 }
 
-// The controller answers after the device before it, and stays silent if that one does.
 TEST(OperatorAmongMany, WaitsForItsTurnInAReadOfMany) {
   Bench<>& bench = renewed<Bench<>>(no_images, OperatorSetup{});
   const std::uint8_t first[] = {bench.id, 3};

@@ -14,7 +14,7 @@ namespace verp::app::test {
 
 using verp::test::kRobot;
 
-/// Replaces the last object of its type: it is too large for a microcontroller's stack.
+/// Replaces the last object: it is too large for a microcontroller's stack.
 template <class Thing, class... Arguments>
 Thing& renewed(Arguments&&... arguments) {
   alignas(Thing) static unsigned char place[sizeof(Thing)];
@@ -38,7 +38,7 @@ class Bench {
     state.tuning = kRobot.tuning;
   }
 
-  /// Sends bytes and lets the device serve them. The reply's bytes stay in `raw`.
+  /// Sends bytes and serves them. The reply stays in `raw`.
   Reply send(const std::uint8_t* bytes, std::size_t size) {
     raw_size = 0;
     Reply reply;
@@ -79,7 +79,6 @@ class Bench {
   Reply plain(dxl::Instruction instruction) {
     return send(dxl::encode_plain(frame, sizeof frame, id, instruction));
   }
-  /// The controller wants this before any other request.
   void relax() { EXPECT_TRUE(write(reg("request"), std::uint8_t{0}) == dxl::Error::kNone); }
   void record() { device.record({state.digest, inputs}, state, outputs); }
   void arm(bool on) {
@@ -118,7 +117,7 @@ class Bench {
 inline Bench<>& fresh_bench(const OperatorSetup& setup = {}) {
   return renewed<Bench<>>(no_images, setup);
 }
-/// Already asked to relax, so it accepts any request.
+/// Accepts any request.
 inline Bench<>& relaxed_bench() {
   Bench<>& bench = fresh_bench();
   bench.relax();

@@ -7,8 +7,8 @@
 
 #include "tests/unit/app/operator_bench.hpp"
 
-// The controller on the wire. "Documented" sequences are the examples of ROBOTIS e-Manual,
-// "DYNAMIXEL Protocol 2.0", which address device 1.
+// "Documented" sequences are the examples of ROBOTIS e-Manual, "DYNAMIXEL Protocol 2.0", which
+// address device 1.
 
 namespace verp::app::test {
 namespace {
@@ -34,7 +34,7 @@ TEST(OperatorDevice, NeverGivesTheRestOfAReplyToTheNextOperator) {
   Bench<>& bench = fresh_bench();
   const std::size_t size = dxl::encode_read(bench.frame, sizeof bench.frame, bench.id, 256, 300);
   bench.wire.right().write(bench.frame, size, 0);
-  while (bench.device.poll()) {  // until the wire is full
+  while (bench.device.poll()) {
     if (bench.device.reply_waits()) break;
   }
   ASSERT_TRUE(bench.device.reply_waits());
@@ -52,7 +52,6 @@ TEST(OperatorDevice, NeverGivesTheRestOfAReplyToTheNextOperator) {
   EXPECT_EQ(bench.raw_size, 14u);
 }
 
-// The operator must learn which of twenty servos stopped the bring-up.
 TEST(OperatorDevice, TellsAtWhichDeviceTheBringUpEnded) {
   Bench<>& bench = fresh_bench();
   EXPECT_EQ(bench.value<std::uint8_t>(reg("bring_up")), 0);
@@ -73,7 +72,6 @@ TEST(OperatorDevice, AnswersTheDocumentedPing) {
   ASSERT_EQ(reply.size, 3u);
   EXPECT_EQ(dxl::get_u16(reply.data), table::kModel);
   EXPECT_EQ(reply.data[2], table::kTableVersion);
-  // The documented ping to all devices gives the same answer.
   const std::uint8_t all[] = {0xFF, 0xFF, 0xFD, 0x00, 0xFE, 0x03, 0x00, 0x01, 0x31, 0x42};
   EXPECT_EQ(send(bench, all).packets, 1);
 }
@@ -103,18 +101,18 @@ TEST(OperatorDevice, AcknowledgesAsDocumented) {
 
 TEST(OperatorDevice, RefusesWithTheDocumentedErrors) {
   Bench<>& bench = fresh_bench({.id = 1});
-  // Documented Write of 116, which is read-only here.
+  // Documented Write of 116, read-only here.
   const std::uint8_t write[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x09, 0x00, 0x03,
                                 0x74, 0x00, 0x00, 0x02, 0x00, 0x00, 0xCA, 0x89};
   EXPECT_TRUE(send(bench, write).error == Error::kAccess);
-  // Documented Reg Write of 104, where there is no register.
+  // Documented Reg Write of 104, which is no register.
   const std::uint8_t reg_write[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x09, 0x00, 0x04,
                                     0x68, 0x00, 0xC8, 0x00, 0x00, 0x00, 0xAE, 0x8E};
   EXPECT_TRUE(send(bench, reg_write).error == Error::kAccess);
-  // Documented Action, without a Reg Write before it.
+  // Documented Action.
   const std::uint8_t action[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x03, 0x00, 0x05, 0x02, 0xCE};
   EXPECT_TRUE(send(bench, action).error == Error::kInstruction);
-  // Documented Factory Reset and Clear, which the controller does not support.
+  // Documented Factory Reset and Clear.
   const std::uint8_t reset[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x04, 0x00, 0x06, 0x01, 0xA1, 0xE6};
   EXPECT_TRUE(send(bench, reset).error == Error::kInstruction);
   const std::uint8_t clear[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x08, 0x00, 0x10,
@@ -164,8 +162,7 @@ TEST(OperatorDevice, ArmedItKeepsIdAndSourceAndDoesNotRestart) {
   EXPECT_EQ(bench.read(0, 2).packets, 1);
 }
 
-// A twin that falls silent in mid-walk must not lock out the operator. The next tick locks again,
-// and the earlier order still stands.
+// A twin that falls silent in mid-walk must not lock out the operator.
 TEST(OperatorDevice, WithoutServosItOpensWhatTorqueKeptUntilTheNextTick) {
   Bench<>& bench = fresh_bench();
   bench.relax();
@@ -233,7 +230,7 @@ TEST(OperatorDevice, RegisteredWritesWaitForTheirAction) {
   EXPECT_EQ(bench.value<std::uint8_t>(reg("registered_instruction")), 0);
 }
 
-// The link takes 256 bytes at a time; the longest array needs two pieces.
+// The link takes 256 bytes at a time.
 TEST(OperatorDevice, LongRepliesGoOutInPiecesWithoutWaiting) {
   Bench<>& bench = fresh_bench();
   constexpr std::uint16_t kLength = 400;
@@ -281,7 +278,6 @@ bool in_bounds(Bench<>& bench) {
   return in_range(bench.value<std::uint16_t>(reg("parameter_id")), parameter);
 }
 
-// Good and corrupted packets of any instruction, and noise between them.
 TEST(OperatorDevice, NoBytesLeaveItsRegistersOutOfRange) {
   verp::test::Random random(3);
   const Instruction all[] = {
@@ -313,7 +309,6 @@ TEST(OperatorDevice, NoBytesLeaveItsRegistersOutOfRange) {
       ASSERT_TRUE(in_range(order.parameter_id, value));
     }
   }
-  // Clears noise from the parser and settings that silence the device.
   for (int i = 0; i < 2; ++i) {
     const std::uint8_t zeros[dxl::kMaxPacket] = {};
     bench.send(zeros, sizeof zeros);

@@ -9,7 +9,7 @@ namespace {
 
 using dxl::Error;
 
-// After a stop, only a new write of 0 restores power.
+// Only a new write of 0 restores power.
 TEST(OperatorOrders, ToRelaxIsToldOnceForEachTimeItIsWritten) {
   Bench<>& bench = fresh_bench();
   EXPECT_FALSE(bench.device.take_relax()) << "0 stands there from the start";
@@ -23,8 +23,8 @@ TEST(OperatorOrders, ToRelaxIsToldOnceForEachTimeItIsWritten) {
   EXPECT_FALSE(bench.device.take_relax());
 }
 
-// The core rises on a level. If a watchdog or a sagging supply resets the robot, a program that
-// repeats its order to stand must not raise it. The operator first has to ask it to relax.
+// The core rises on a level. After a reset, a program that repeats its order to stand must not
+// raise the robot.
 TEST(OperatorOrders, ToStandOrWalkAreRefusedAfterEachStartUntilOneToRelaxWasGiven) {
   using Cause = table::ResetCause;
   for (const Cause cause : {Cause::kUnknown, Cause::kPower, Cause::kPin, Cause::kSoftware,
@@ -86,8 +86,7 @@ TEST(OperatorOrders, TheSameOrderAgainIsFreshAgain) {
   }
 }
 
-// Erasing flash stops the processor for up to two seconds. An operator whose order came before or
-// during that may be gone afterwards.
+// Erasing flash stops the processor for up to two seconds. The operator may be gone afterwards.
 TEST(OperatorOrders, DoNotOutliveALoopThatStoodStill) {
   const auto hold_ticks = static_cast<std::uint32_t>(1e6F * kRobot.tuning.safety.command_hold_s /
                                                      static_cast<float>(kRobot.period_us));
@@ -106,7 +105,7 @@ TEST(OperatorOrders, DoNotOutliveALoopThatStoodStill) {
       }
       const bool slept = gap > hold_ticks;
       const OperatorOrder order = bench.device.order(100 + gap);
-      if (in_the_link && !slept) continue;  // the next poll delivers it
+      if (in_the_link && !slept) continue;
       EXPECT_EQ(order.flags, slept ? 0 : kCommandFresh) << gap;
       EXPECT_TRUE(order.command.request == (slept ? Request::kRelax : Request::kStand)) << gap;
       EXPECT_EQ(bench.value<std::uint8_t>(reg("request")), slept ? 0 : 1) << gap;
@@ -117,7 +116,7 @@ TEST(OperatorOrders, DoNotOutliveALoopThatStoodStill) {
   }
 }
 
-// A robot must not rise minutes after it was asked.
+// A robot must not rise minutes later.
 TEST(OperatorOrders, DoNotWaitForABringUp) {
   Bench<>& bench = relaxed_bench();
   bench.write(reg("request"), std::uint8_t{1});
@@ -127,7 +126,7 @@ TEST(OperatorOrders, DoNotWaitForABringUp) {
   EXPECT_TRUE(order.command.request == Request::kRelax);
 }
 
-// A late loop must not make a robot with torque sit down; an emergency stop outlives everything.
+// A late loop must not make a robot with torque sit down.
 TEST(OperatorOrders, OfARobotWithTorqueAndTheStopStandWhateverHappens) {
   Bench<>& bench = relaxed_bench();
   bench.device.order(0);
@@ -161,7 +160,7 @@ TEST(OperatorOrders, TheEmergencyStopStaysPressed) {
 TEST(OperatorOrders, TheHeadTakesAnglesOrAPointWhileWalking) {
   Bench<>& bench = relaxed_bench();
   bench.write(reg("request"), std::uint8_t{2});
-  const std::int16_t angles[] = {250, -100, 1000, 1000, 110};  // the point is level with the head
+  const std::int16_t angles[] = {250, -100, 1000, 1000, 110};
   std::uint8_t bytes[sizeof angles];
   __builtin_memcpy(bytes, angles, sizeof angles);
   EXPECT_TRUE(bench.write_bytes(reg("head_pan"), bytes, sizeof bytes).error == Error::kNone);

@@ -13,7 +13,6 @@ namespace {
 
 using dxl::Error;
 
-// For an operator who connects later.
 TEST(OperatorStart, IsToldInRegisters) {
   const OperatorSetup setup = {
       .self_test = table::SelfTest::kKinematics,
@@ -32,7 +31,6 @@ TEST(OperatorStart, IsToldInRegisters) {
   EXPECT_EQ(bench.value<std::uint32_t>(reg("crash_count")), 3u);
 }
 
-// The counterpart of `verp run --torque`.
 TEST(OperatorTorqueLimit, IsAPercentageThatChangesWithTorqueOffOnly) {
   const OperatorSetup kept = {.torque_limit_percent = 40};
   Bench<>& bench = renewed<Bench<>>(no_images, kept);
@@ -260,7 +258,7 @@ TEST(OperatorDevices, ASkippedTickAgesThemTwice) {
   EXPECT_EQ(bench.value<std::uint16_t>(reg("device_age")), 2);
 }
 
-/// A good image of a robot with another name, and its upload.
+/// A good image of another robot, and its upload.
 class Upload {
  public:
   Upload() : bench(store) {

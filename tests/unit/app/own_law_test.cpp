@@ -54,7 +54,7 @@ TEST(OwnLaw, KeepsTheGoalBeforeOneThatIsNoneOrOutOfRange) {
   }
 }
 
-// The joint's last goal dates from when it was limp; torque would make it snap there.
+// With torque, the joint would snap to its last goal.
 TEST(OwnLaw, LeavesALimpJointLimpWhoseFirstGoalIsNone) {
   Rig rig;
   rig.tick(0, false);

@@ -19,8 +19,7 @@ TEST(Pacer, ALoopInTimeMissesNothing) {
     const app::Beat beat = pacer.next();
     EXPECT_EQ(beat.periods, 1u);
     EXPECT_FALSE(beat.overran);
-    clock.advance(static_cast<std::uint64_t>(random.below(kPeriod_us + 1)));  // at most up to the
-                                                                              // deadline
+    clock.advance(static_cast<std::uint64_t>(random.below(kPeriod_us + 1)));
   }
   EXPECT_EQ(pacer.deadlines().ticks, 1000u);
   EXPECT_EQ(pacer.deadlines().missed, 0u);
@@ -28,7 +27,7 @@ TEST(Pacer, ALoopInTimeMissesNothing) {
   EXPECT_EQ(pacer.deadlines().worst_late_us, 0u);
 }
 
-// Ticks of up to seven periods. Every tick counts for the period in which it began.
+// Every tick counts for the period in which it began.
 TEST(Pacer, TheAccountIsTrueForTicksOfAnyLength) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     hal::ManualClock clock;
@@ -38,7 +37,7 @@ TEST(Pacer, TheAccountIsTrueForTicksOfAnyLength) {
     ASSERT_TRUE(pacer.start(kPeriod_us));
     test::Random random(seed);
     std::uint64_t missed = 0, skipped = 0, worst_us = 0;
-    std::uint64_t period = 1, end_us = 0;  // end of the previous tick
+    std::uint64_t period = 1, end_us = 0;
     std::uint64_t counted = 0;
     for (int i = 0; i < 300; ++i) {
       const app::Beat beat = pacer.next();

@@ -54,8 +54,7 @@ TEST(Panel, StopsWithinThreeTicksOfAnOpenCircuitAndStays) {
   for (int tick = 0; tick < 1000; ++tick) EXPECT_TRUE(bench.stopped());
 }
 
-// At a start the stop counts as pressed until it is known. That alone must not cut the servos'
-// power.
+// Until it is known, the stop counts as pressed. That must not cut the servos' power.
 TEST(Panel, TellsAStopThatIsPressedFromOneThatIsNotYetKnown) {
   Bench closed;
   for (int tick = 0; tick < 1000; ++tick) {

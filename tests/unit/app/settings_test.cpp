@@ -20,7 +20,6 @@ OperatorSetup with_both_sources() {
   return setup;
 }
 
-/// One run of a board, starting with the flash as it is.
 struct Life {
   explicit Life(Flash& flash, const OperatorSetup& defaults = with_both_sources())
       : memory(flash), keeper(memory), setup(defaults) {
@@ -60,7 +59,7 @@ TEST(Settings, OutliveTheNextStarts) {
   EXPECT_TRUE(last.setup.imu_source == ImuSource::kBus);
 }
 
-// A reset during a robot's first steps must not release its full strength.
+// A reset in the first steps must not release full strength.
 TEST(Settings, HoldTheTorqueLimitOverAnyStartUntilTheOperatorLiftsIt) {
   Flash flash;
   Life(flash).keep({17, ImuSource::kBus, 30});
@@ -69,7 +68,7 @@ TEST(Settings, HoldTheTorqueLimitOverAnyStartUntilTheOperatorLiftsIt) {
   EXPECT_EQ(Life(flash).setup.torque_limit_percent, 100);
 }
 
-// Settings kept by firmware before the torque limit: id and source hold, and nothing is limited.
+// Firmware before the torque limit kept these.
 TEST(Settings, OfTheVersionWithoutATorqueLimitStillHold) {
   Flash flash;
   Memory memory(flash);
@@ -104,7 +103,7 @@ TEST(Settings, OfAnotherBoardAreNotObeyed) {
   EXPECT_TRUE(without_chip.setup.imu_source == ImuSource::kBus);
 }
 
-// An emulator has no flash to write; the loop must not retry for ever.
+// An emulator has no flash; the loop must not retry for ever.
 TEST(Settings, GiveUpOnAMemoryThatRefuses) {
   Flash flash;
   flash.refuse(1000000);

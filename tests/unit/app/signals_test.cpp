@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-// The buzzer announces each fault once, a low supply until it recovers, and notes never.
+// The buzzer announces each fault once, a low supply until it recovers.
 namespace verp::app {
 namespace {
 

@@ -5,7 +5,6 @@
 #include "hal/fake/fake_watchdog.hpp"
 #include "hal/fake/manual_clock.hpp"
 
-// A fault at the start: no torque, no silent retry, and a sign that a person can read.
 namespace verp::app {
 namespace {
 
@@ -15,7 +14,7 @@ constexpr StartFault kAll[] = {
     StartFault::kSelfTest, StartFault::kTimer,    StartFault::kOperatorPort, StartFault::kServoPort,
     StartFault::kPeriod,   StartFault::kWatchdog, StartFault::kProtocol};
 
-/// Servos whose port may fail to open. Power comes only after that.
+/// Power comes only after the port.
 struct Servos {
   bool open() {
     EXPECT_FALSE(powered);
@@ -31,7 +30,7 @@ struct Servos {
   }
   bool opens = true;
   bool opened = false;
-  bool powered = true;  ///< whatever was set before
+  bool powered = true;
   int releases = 0;
 };
 
@@ -75,7 +74,7 @@ TEST(LoopGuard, StartsClockAndWatchdogForAsManyLoopsAsThereAre) {
   EXPECT_TRUE(dog.caused_reset()) << "it is armed";
 }
 
-// Reporting a fault takes as long as a person needs to look; the watchdog must not bite meanwhile.
+// A person needs time to look; the watchdog must not bite meanwhile.
 TEST(LoopGuard, AClockThatRefusesIsAFaultAndArmsNothing) {
   hal::ManualClock clock;
   hal::FakeWatchdog dog;
@@ -94,7 +93,6 @@ TEST(LoopGuard, AWatchdogThatRefusesIsAFaultWhereThereIsOne) {
   EXPECT_TRUE(LoopGuard(dog, false).begin(pacer, kPeriod_us, 0) == StartFault::kNone);
 }
 
-/// Flashes, beeps and the longest dark time within a span of milliseconds.
 struct Seen {
   int flashes = 0, beeps = 0, changes = 0;
   std::uint64_t longest_dark_ms = 0;
@@ -123,7 +121,7 @@ TEST(LifeSign, BlinksOnceASecondAndIsSilentWhileAllIsWell) {
   EXPECT_EQ(seen.longest_dark_ms, 500u);
 }
 
-// Wherever the observer begins, he counts the fault's number between two pauses.
+// The observer counts the fault's number between two pauses.
 TEST(LifeSign, CountsTheFaultOutByLightAndSound) {
   for (const StartFault fault : kAll) {
     const auto number = static_cast<int>(fault);

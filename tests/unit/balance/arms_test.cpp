@@ -12,7 +12,7 @@ using test::kRightArm;
 
 const float kRadPerM = test::kRobot.arm_rad_per_m[gait::kLeft];
 
-// The left foot stands `ahead_m` ahead of the right one for a body that looks along `yaw_rad`.
+// The left foot is `ahead_m` ahead of the right one.
 gait::Posture posture(float ahead_m, float yaw_rad) {
   gait::Posture out;
   out.body.rotation = math::rot_z(yaw_rad);

@@ -48,8 +48,8 @@ TEST(Attitude, BiasIsLearntWhileStanding) {
   EXPECT_NEAR(out.roll_rate_rad_s, 0.0F, 1e-3F);
 }
 
-// Steps accelerate a swaying body in time with its sway. If the heading used the accelerometer's
-// tilt it would be off by 12 degrees after this minute.
+// Steps accelerate the body in time with its sway. The accelerometer's tilt would turn the heading
+// by 12 degrees in this minute.
 TEST(Attitude, AccelerationsOfStepsHardlyTurnTheHeading) {
   constexpr float kStride_rad_s = 14.0F;
   AttitudeState state;
@@ -67,7 +67,7 @@ TEST(Attitude, AccelerationsOfStepsHardlyTurnTheHeading) {
   EXPECT_LT(math::abs(out.heading_rad), 0.05F);
 }
 
-// A body that has just risen settles by some tenths of a degree.
+// After a rise, a body settles by some tenths of a degree.
 TEST(Attitude, BiasIsNotLearntFromABodyThatSettles) {
   for (int when = 0; when < 30; when += 5) {
     AttitudeState state;
@@ -80,8 +80,7 @@ TEST(Attitude, BiasIsNotLearntFromABodyThatSettles) {
   }
 }
 
-// Creeping servos take longer: 0.02 rad in all, most of it in the first second, which the mean
-// leaves out.
+// Creep: 0.02 rad, most of it in the first second, which the mean leaves out.
 TEST(Attitude, BiasIsNotLearntFromServosThatCreep) {
   AttitudeState state;
   AttitudeIn in = still();
@@ -105,8 +104,7 @@ TEST(Attitude, BiasIsNotLearntFromMotionNorWhileWalking) {
   EXPECT_EQ(state.gyro_bias_rad_s.x, 0.0F);
 }
 
-// Servos that hunt for their goals shake the body, but it stays put. The bias is learnt as soon as
-// on a still body.
+// Servos that hunt for their goals shake the body in place.
 TEST(Attitude, TremblingDoesNotKeepTheBiasFromBeingLearnt) {
   for (const float frequency_hz : {5.0F, 8.0F, 13.0F, 37.0F}) {
     AttitudeState state;
@@ -139,7 +137,6 @@ TEST(Attitude, OneWrongReadingEndsNoCalibration) {
   }
 }
 
-// A person rocks, carries or slowly turns the robot, which almost stands still most of the time.
 TEST(Attitude, BiasIsNotLearntFromARobotInSomebodysHands) {
   struct Motion {
     float rate_rad_s, frequency_hz;
@@ -169,8 +166,8 @@ TEST(Attitude, CalibrationSurvivesMotion) {
   EXPECT_TRUE(run(state, in, 20).calibrated);
 }
 
-// Half a second at a constant rate, with a matching accelerometer. Positive is to the right about
-// x, nose down about y, to the left about z.
+// Half a second, with a matching accelerometer. Positive is right about x, nose down about y, left
+// about z.
 TEST(Attitude, ConstantRateIntegrates) {
   constexpr float kRate = 0.4F;
   for (int axis = 0; axis < 3; ++axis) {
@@ -195,7 +192,7 @@ TEST(Attitude, ConstantRateIntegrates) {
   }
 }
 
-// Heading after 20 s in which the body sways in roll and pitch, pitch ahead of roll by `lead_rad`.
+// After 20 s of sway, pitch `lead_rad` ahead of roll.
 float heading_after_sway(float lead_rad) {
   constexpr float kSway_rad = 0.03F;
   constexpr float kOmega = 14.0F;
@@ -247,8 +244,7 @@ TEST(Attitude, FirstReadingIsTheTilt) {
   }
 }
 
-// A robot that was just let go still moves when its controller begins. Later readings soon outvote
-// its first, wrong ones.
+// Later readings soon outvote the first, wrong ones.
 TEST(Attitude, FirstReadingsOfABodyInMotionFade) {
   for (const Vec3& wrong : {Vec3(6, 0, 3), Vec3(0, -6, 3), Vec3(3, 3, -2), Vec3(0, 0, 0)}) {
     AttitudeState state;

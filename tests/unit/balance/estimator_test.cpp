@@ -7,7 +7,7 @@ namespace {
 
 using namespace verp::test;
 
-// The reference sums the masses over the tree of all links.
+// The reference sums over all links.
 TEST(Estimator, CentreOfMassOfAStillRobotIsThatOfItsLinks) {
   Led& led = led_robot();
   led.turned = math::rot_y(0.1F) * math::rot_x(-0.05F);
@@ -43,8 +43,8 @@ TEST(Estimator, FollowsASwayWithoutLag) {
   }
 }
 
-// A constant accelerometer offset gives a velocity error of 2 * offset / rate, where `rate` is that
-// at which the legs are believed. 5 mg at 18 per second give 5.6 mm/s. It gives no drift.
+// The velocity error is 2 * offset / rate, where `rate` is that at which the legs are believed: 5.6
+// mm/s for 5 mg at 18 per second.
 TEST(Estimator, OffsetOfTheAccelerometerIsNoDrift) {
   Led& led = led_robot();
   led.rest();
@@ -106,14 +106,14 @@ TEST(Estimator, LiftedRobotComesToRest) {
   led.load_n[0] = led.load_n[1] = 0;
   const Vec3 at_m = led.believed_m();
   for (int i = 0; i < 300; ++i) {
-    led.sole_m[i % 2].x() += 1e-3F;  // the legs dangle
+    led.sole_m[i % 2].x() += 1e-3F;
     led.tick(Vec3(0, 0, 0));
   }
   EXPECT_LT(math::norm(led.believed_m_s()), 1e-3F);
   EXPECT_LT(distance(led.believed_m(), at_m), 0.05F);
 }
 
-// The other leg serves meanwhile; afterwards both agree.
+// The other leg serves meanwhile.
 TEST(Estimator, SilentJointsNeitherStopNorThrowIt) {
   Led& led = led_robot();
   const Vec3 speed(0.05F, 0, 0);
@@ -128,13 +128,12 @@ TEST(Estimator, SilentJointsNeitherStopNorThrowIt) {
   }
   EXPECT_LT(worst_m_s, 0.03F);
   EXPECT_NEAR(led.state.body_m.x, led.body_m.x(), 4e-3F);
-  led.inputs.fresh = 0;  // no joint is heard
+  led.inputs.fresh = 0;
   led.ticks(200, Vec3(0, 0, 0));
   EXPECT_LT(math::norm(led.believed_m_s()), 1e-3F) << "nobody knows of any motion";
   EXPECT_TRUE(struct_is_finite(led.state));
 }
 
-// Finite, and no faster than a robot can be.
 TEST(Estimator, AnyInputsLeaveItFinite) {
   Led& led = led_robot();
   Random random(7);

@@ -14,8 +14,7 @@ float lean_rad(const Led& led) {
   return math::norm(math::cross(math::to_vec(led.state.up_body), up));
 }
 
-// At 0.1 m/s, a body's accelerations tilt the accelerometer's mean by half a degree. The legs show
-// the motion, so up stays up.
+// The body's accelerations tilt the accelerometer's mean by half a degree.
 TEST(Estimator, UpDoesNotLeanWithASwayingBody) {
   Led& led = led_robot();
   led.rest();
@@ -31,8 +30,8 @@ TEST(Estimator, UpDoesNotLeanWithASwayingBody) {
   EXPECT_LT(worst_rad, 0.25F * worst_plain_rad);
 }
 
-// Standing on a floor reveals a quarter of an accelerometer's offset in any direction, less what
-// the encoders are too coarse for. The estimator keeps this while the robot walks on.
+// Standing reveals a quarter of an offset in any direction, less the encoders' resolution. The
+// estimator keeps this while the robot walks.
 TEST(EstimatorUp, AFloorStoodOnTakesAwayPartOfTheAccelerometersOffset) {
   for (const Vec3& way : {Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(-0.6F, 0.8F, 0)}) {
     Led& led = led_robot();
@@ -50,7 +49,7 @@ TEST(EstimatorUp, AFloorStoodOnTakesAwayPartOfTheAccelerometersOffset) {
   }
 }
 
-// A ramp is no accelerometer offset: up stays within a tenth of a degree of the attitude's.
+// Up stays within a tenth of a degree.
 TEST(EstimatorUp, ARampIsNotTakenForLevel) {
   for (const float slope_rad : {0.045F, 0.087F, -0.2F}) {
     Led& led = led_robot();
@@ -61,7 +60,6 @@ TEST(EstimatorUp, ARampIsNotTakenForLevel) {
   }
 }
 
-// A thousandth more of slope turns the up direction by about as little.
 TEST(EstimatorUp, GoesOverFromFloorsToRampsSmoothly) {
   float before_rad = 0;
   for (int i = 0; i <= 50; ++i) {
@@ -76,7 +74,7 @@ TEST(EstimatorUp, GoesOverFromFloorsToRampsSmoothly) {
   }
 }
 
-// The other sole may stand on a pebble and must not decide alone.
+// The other sole may stand on a pebble.
 TEST(EstimatorUp, OneSilentLegIsNoFloor) {
   Led& led = led_robot();
   led.up_offset_m_s2 = Vec3(kOffset_m_s2, 0, 0);

@@ -11,7 +11,7 @@ using test::kRobot;
 
 constexpr float kG = math::kGravityMS2;
 
-// A leg in its walking pose, body at the origin.
+// Walking pose, body at the origin.
 constexpr float kBent_rad[kLegJoints] = {0, 0.02F, -0.63F, 1.26F, -0.63F, -0.02F};
 
 LegLoad carrying(const LegParams& leg, const kinematics::LegChain& chain, float push_n) {
@@ -20,7 +20,7 @@ LegLoad carrying(const LegParams& leg, const kinematics::LegChain& chain, float 
 }
 
 struct Sag {
-  float leg_rad[kLegJoints];  ///< the pose plus the correction
+  float leg_rad[kLegJoints];
   float added_rad[kLegJoints];
   kinematics::LegChain before, after;
 };
@@ -35,7 +35,7 @@ Sag sag_of(const Params& params, const LegParams& leg, const float* pose_rad, fl
   return sag;
 }
 
-// Servos yield under the robot's weight, so their goals lift the body by what it will sag.
+// Servos yield under the weight, so goals lift the body by its sag.
 TEST(Gravity, GoalsOfACarryingLegLiftTheBody) {
   for (const LegParams& leg : kRobot.leg) {
     const Sag sag = sag_of(kRobot, leg, kBent_rad, 30);
@@ -45,7 +45,7 @@ TEST(Gravity, GoalsOfACarryingLegLiftTheBody) {
   }
 }
 
-// In any pose the push does negative work over the correction's displacement.
+// The push does negative work over the displacement.
 TEST(Gravity, CorrectionAlwaysWorksAgainstTheLoad) {
   static const Params massless = test::make_massless_legs_robot();
   test::Random random(1);
@@ -87,7 +87,7 @@ TEST(Gravity, StiffServosNeedNoCorrection) {
   for (int k = 0; k < kLegJoints; ++k) EXPECT_EQ(sag.added_rad[k], 0.0F) << "joint " << k;
 }
 
-// Statics: a force of 10 N, 50 mm beside a knee's axis, and nothing else with weight.
+// A force of 10 N, 50 mm beside the knee's axis.
 TEST(Gravity, SagIsTorqueTimesCompliance) {
   static const Params massless = test::make_massless_legs_robot();
   const float straight_rad[kLegJoints] = {};
@@ -97,11 +97,11 @@ TEST(Gravity, SagIsTorqueTimesCompliance) {
   load.ground_m.x() += 0.05F;
   float leg_rad[kLegJoints] = {};
   add_sag(massless, {}, leg, chain, load, {}, leg_rad);
-  // The push turns the shank nose up (negative about y): the servo must hold with +0.5 N m.
+  // The push turns the shank nose up; the servo holds with +0.5 N m.
   EXPECT_NEAR(leg_rad[3], 0.5F * 0.0263F, 1e-5F);
 }
 
-// Friction follows the speed's sign and grows with load; inertia follows the acceleration.
+// Friction grows with load.
 TEST(Gravity, FrictionAndInertiaAreFedForward) {
   static const Params massless = test::make_massless_legs_robot();
   Params geared = massless;
@@ -114,7 +114,7 @@ TEST(Gravity, FrictionAndInertiaAreFedForward) {
   const float straight_rad[kLegJoints] = {};
   const kinematics::LegChain chain = kinematics::leg_chain(geared, leg, Pose{}, straight_rad);
   LegLoad load = carrying(leg, chain, 10);
-  load.ground_m.x() += 0.05F;  // 0.5 N m on the knee
+  load.ground_m.x() += 0.05F;
   const auto knee_nm = [&](float rate, float accel, float share) {
     LegMotion motion;
     motion.rate_rad_s[3] = rate;
@@ -125,8 +125,7 @@ TEST(Gravity, FrictionAndInertiaAreFedForward) {
     add_sag(geared, tuning, leg, chain, load, motion, leg_rad);
     return leg_rad[3] / knee.compliance_rad_nm;
   };
-  // At the speed where half is left: (0.04 + 2 * 0.2 * 0.5) / 2, less the part whose sign is
-  // unsure.
+  // Half is left: (0.04 + 2 * 0.2 * 0.5) / 2, less the part whose sign is unsure.
   EXPECT_NEAR(knee_nm(1.5F, 0, 1) - 0.5F, 0.12F * 1.5F / 1.6F, 1e-3F);
   EXPECT_NEAR(knee_nm(-1.5F, 0, 1) - 0.5F, -0.12F * 1.5F / 1.6F, 1e-3F);
   EXPECT_NEAR(knee_nm(0, 20, 1) - 0.5F, 0.2F, 1e-3F);

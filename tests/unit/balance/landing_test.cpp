@@ -15,7 +15,7 @@ using test::kRobot;
 constexpr float kStride_m = 0.08F, kHalfStance_m = 0.0356F, kSoleBelowBody_m = 0.2688F;
 constexpr float kWay_m = 2 * kStride_m;
 
-// A straight walk in which each foot that has swung lands one stride ahead of the other.
+// Each foot lands one stride ahead of the other.
 struct Walk {
   gait::GaitState gait;
   gait::GaitOut plan;
@@ -39,7 +39,6 @@ struct Walk {
       inputs.position_count[j] = model::count_of(kRobot.joint[j], solved.angle_rad[k]);
     }
   }
-  // The other foot lands `beyond_m` beyond its plan.
   void land(float beyond_m) {
     landed = 1 - landed;
     const int other = 1 - landed;
@@ -58,7 +57,6 @@ struct Walk {
     plan.carrying = static_cast<std::uint8_t>(landed);
     learn_landing(kRobot, gait, plan, inputs, as_planned, state);
   }
-  // Where a foot planned at `ahead_m` is aimed.
   float aimed_ahead_m(int side, float ahead_m) const {
     gait::FootPose planned;
     planned.on = foothold(side, ahead_m);
@@ -81,7 +79,7 @@ TEST(Landing, FeetThatLandAsPlannedAreAimedAsPlanned) {
   EXPECT_EQ(walk.aimed_ahead_m(walk.landed, kStride_m), kStride_m);
 }
 
-// The servos swing a leg a tenth too far, wherever it is aimed.
+// The servos swing a leg a tenth too far.
 TEST(Landing, AFootThatSwingsTooFarIsAimedShorterUntilItLandsAsPlanned) {
   Walk walk = walking();
   float beyond_m = 0;

@@ -8,13 +8,13 @@ namespace {
 constexpr float kTick_s = 0.01F;
 constexpr float kTicks_per_s = 1.0F / kTick_s;
 
-constexpr float kTrunk_rad = 0.03F;  // planned, nose down
+constexpr float kTrunk_rad = 0.03F;  // nose down
 
 struct Ground {
   float roll_rad = 0, pitch_rad = 0;
 };
 
-// The tilt that remains of a slope when the body leans against it.
+// The tilt that remains of a slope.
 AttitudeOut on(const Ground& ground, const LeanState& state, float sway_rad = 0.0F) {
   AttitudeOut attitude;
   attitude.roll_rad = ground.roll_rad + state.lean_rad.x + sway_rad;
@@ -32,8 +32,7 @@ LeanState walked(const Ground& ground, float time_s, float sway_rad = 0.0F) {
   return state;
 }
 
-// Sensor offsets and the sway of steps are no slope; soles are long enough for a gentle slope
-// ahead.
+// Sensor offsets and sway are no slope.
 TEST(Lean, OnLevelGroundThePlanStaysAsItIs) {
   for (const float share : {-0.8F, 0.0F, 0.8F}) {
     const LeanState state =
@@ -60,7 +59,7 @@ TEST(Lean, AcrossFiveDegreesTheBodyIsUprightButForWhatIsLeft) {
   }
 }
 
-// With its toes on the edge, a robot that leans back takes that for falling and would stay there.
+// With its toes on the edge, the robot would take leaning back for falling.
 TEST(Lean, OnTheEdgeOfACentimetreTheBodyIsUprightButForWhatIsLeft) {
   for (const float slope_rad : {-0.12F, 0.12F}) {
     const LeanState state = walked({.pitch_rad = slope_rad}, 15.0F, 0.02F);
@@ -90,7 +89,6 @@ TEST(Lean, IsBounded) {
   }
 }
 
-// For any heading `yaw_rad`.
 TEST(Lean, TurnsTheBodyAboutTheGroundUnderIt) {
   for (const float yaw_rad : {0.0F, 1.2F, -2.5F}) {
     for (const bool ahead : {false, true}) {

@@ -16,7 +16,6 @@ using test::kRobot;
 
 constexpr float kPeriod_s = 0.01F;
 
-// The estimate for a robot whose DCM is `error_m` off its plan.
 void look(const gait::test::Walker& walker, Xy error_m, EstimatorState& estimator) {
   const gait::Step& step = walker.state.queue[0];
   if (walker.state.queued == 0 || step.swing == gait::kBoth) return;
@@ -30,7 +29,6 @@ void look(const gait::test::Walker& walker, Xy error_m, EstimatorState& estimato
   estimator.sole_from_body_m[side] = {sole_m.x, sole_m.y, 0};
 }
 
-// A walk whose estimated DCM is `error_m` off its plan.
 struct Pushed {
   gait::test::Walker walker{kRobot};
   EstimatorState estimator;
@@ -55,12 +53,11 @@ struct Pushed {
   void ticks(int count) {
     for (int i = 0; i < count; ++i) tick();
   }
-  // Runs to the first tick of the next step in which `side` swings.
+  // To the first tick of the next step of `side`.
   void to_swing_of(int side) {
     while (step().swing == side) tick();
     while (step().swing != side) tick();
   }
-  // Runs to the last tick of this step.
   void to_landing() {
     while (step().duration_us() - walker.state.clock_us > walker.in.period_us) tick();
   }
@@ -92,7 +89,7 @@ TEST(Stepping, WhatAnklesAnswerToMovesNoFoot) {
   EXPECT_TRUE(as_planned(walk.state, 1e-5F));
 }
 
-// Hurried walks correct almost every step, so learning must use corrected steps as well.
+// Hurried walks correct almost every step, so learning must use corrected steps.
 TEST(Stepping, AFootMovedByLessThanServosMissStillTeachesLandings) {
   Pushed walk = ahead();
   walk.error_m = {0.0165F, 0};
@@ -116,7 +113,6 @@ TEST(Stepping, DoesNothingWithoutFeedbackOrEyesOrMassesOfLegsOrWhereJointsLag) {
   }
 }
 
-// Pushes to all four sides, with either foot where it may go there.
 TEST(Stepping, TheSwingFootLandsWhereTheDcmWent) {
   constexpr float kError_m = 0.04F, kAnkles_x_m = 0.29F * 0.052F, kAnkles_y_m = 0.36F * 0.033F;
   for (const int side : {kLeft, kRight}) {
@@ -133,7 +129,7 @@ TEST(Stepping, TheSwingFootLandsWhereTheDcmWent) {
   }
 }
 
-// Towards the carrying foot there is only as much room as a standing robot has.
+// Towards the carrying foot there is less room.
 TEST(Stepping, SolesComeNoNearerThanThoseOfARobotThatStands) {
   Pushed walk = ahead();
   walk.to_swing_of(kLeft);
@@ -151,7 +147,7 @@ TEST(Stepping, SolesComeNoNearerThanThoseOfARobotThatStands) {
             0.005F);
 }
 
-// No goal jumps when the feet change, and within a second the planned walk is back.
+// The planned walk is back within a second.
 TEST(Stepping, GoesOnFromTheFootThatCaughtItWithoutAJump) {
   Pushed walk = ahead();
   walk.to_swing_of(kRight);
@@ -172,7 +168,6 @@ TEST(Stepping, GoesOnFromTheFootThatCaughtItWithoutAJump) {
   EXPECT_LT(gait::test::apart(before_m[kRight], Xy{}), 1e-3F);
 }
 
-// As a pendulum does.
 TEST(Stepping, TheBodyCatchesUpWithoutMovingTheDcm) {
   Pushed walk = ahead();
   walk.to_swing_of(kRight);
@@ -202,7 +197,7 @@ TEST(Stepping, TheLastStepBringsTheFeetSideBySideAgain) {
   EXPECT_TRUE(same(walk.walker.out, walk.planned));
 }
 
-// A standing robot with its DCM `off_m` from the middle of its soles.
+// The DCM is `off_m` from the middle of the soles.
 struct Stander {
   gait::test::Walker walker{kRobot};
   EstimatorState estimator;
@@ -222,7 +217,7 @@ struct Stander {
     estimator.com_from_body_m.y = off_m.y;
     return pushed(kRobot, walker.tuning, {&walker.state, &estimator, 0, kPeriod_s}, state);
   }
-  // Like the core: a push starts steps at once.
+  // A push starts steps at once.
   void tick(Xy error_m) {
     steps = pushed(kRobot, walker.tuning, {&walker.state, &estimator, 0, kPeriod_s}, state);
     walker.in.walk = walker.in.at_once = steps;
@@ -268,7 +263,7 @@ TEST(SteppingWherePushed, NotWhereNothingWouldAnswerIt) {
   }
 }
 
-// If the estimate were wrong by a sole, the robot would trot on the spot for ever.
+// With a wrong estimate it would trot for ever.
 TEST(SteppingWherePushed, TakesAFewStepsAndStandsAgain) {
   Stander stander;
   ASSERT_TRUE(stander.pushed_by({0.05F, 0}));

@@ -13,8 +13,7 @@ using test::kRobot;
 constexpr float kBent_rad[kLegJoints] = {0, 0.02F, -0.63F, 1.26F, -0.63F, -0.02F};
 constexpr float kHalfDegree_rad = 0.0087F;
 
-// A leg whose sole stands flat under a body tilted off the plan, read through encoders with
-// offsets.
+// A flat sole under a tilted body, read through encoders with offsets.
 struct Stand {
   explicit Stand(int foot_side, test::Random& random) : side(foot_side) {
     body.roll_rad = random.between(-0.03F, 0.03F);
@@ -25,7 +24,7 @@ struct Stand {
     planned_rad[5] = -planned_rad[1];
     chain = kinematics::leg_chain(kRobot, leg(), Pose{}, planned_rad);
     inputs.fresh = 0xFFFFFFFFU;
-    // For a level sole the ankle is off its plan by the body's tilt.
+    // The ankle is off its plan by the tilt.
     for (int k = 0; k < kLegJoints; ++k) true_rad[k] = planned_rad[k];
     true_rad[4] -= body.pitch_rad;
     true_rad[5] -= body.roll_rad;
@@ -74,9 +73,7 @@ TEST(Zeros, GoalsWithWhatWasLearntSetTheSoleDownLevel) {
     float goal_rad[kLegJoints];
     for (int k = 0; k < kLegJoints; ++k) goal_rad[k] = stand.planned_rad[k];
     add_zero(stand.leg(), stand.zero, goal_rad);
-    for (int k = 0; k < kLegJoints; ++k)
-      goal_rad[k] -= stand.error_rad[k];  // where the joint
-                                          // really goes
+    for (int k = 0; k < kLegJoints; ++k) goal_rad[k] -= stand.error_rad[k];
     const kinematics::LegChain reached =
         kinematics::leg_chain(kRobot, stand.leg(), Pose{}, goal_rad);
     const Vec3 up = kinematics::sole_pose(stand.leg(), reached).rotation.col(2);
@@ -94,7 +91,7 @@ TEST(Zeros, AJointThatHasNotReportedTeachesNothing) {
   EXPECT_EQ(stand.zero.pitch_rad, 0.0F);
 }
 
-// A servo horn mounted one tooth off is no zero error: learning must not bend an ankle that far.
+// A horn mounted one tooth off is no zero error.
 TEST(Zeros, WhatIsLearntStaysSmall) {
   test::Random random(4);
   Stand stand(0, random);

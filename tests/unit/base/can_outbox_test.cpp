@@ -22,7 +22,7 @@ std::uint32_t next(std::uint32_t& seed) {
   return seed >> 8;
 }
 
-/// The arbitration field bit by bit, as in ISO 11898-1: the order that `can_rank` must give.
+/// The arbitration field bit by bit (ISO 11898-1).
 bool wins(const CanFrame& a, const CanFrame& b) {
   const auto bit = [](const CanFrame& frame, unsigned at) -> unsigned {
     const std::uint32_t base = frame.extended ? frame.id >> 18 : frame.id;
@@ -45,7 +45,7 @@ TEST(CanRank, IsTheOrderOfTheWire) {
     for (CanFrame& frame : pair) {
       const std::uint32_t kind = next(seed);
       frame = with_id(0, (kind & 1u) != 0, (kind & 2u) != 0);
-      // Few identifiers, so that the first eleven bits often match.
+      // The first eleven bits often match.
       frame.id = frame.extended ? (next(seed) & 3u) << 18 | (next(seed) & 3u) : next(seed) & 3u;
     }
     ASSERT_EQ(can_rank(pair[0]) < can_rank(pair[1]), wins(pair[0], pair[1])) << pair[0].id;

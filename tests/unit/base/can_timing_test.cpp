@@ -44,7 +44,7 @@ TEST(CanTiming, FindsWhatCommonClocksCanGive) {
         << mhz << " MHz";
   }
   for (const std::uint32_t mhz :
-       {7u, 23u, 29u}) {  // too slow; sampled too early at best; no division into 8 to 25
+       {7u, 23u, 29u}) {  // too slow; sampled too early; no division into 8 to 25
     EXPECT_FALSE(can_timing(mhz * 1'000'000u, 1'000'000, kMostPrescaler).possible())
         << mhz << " MHz";
   }

@@ -7,8 +7,7 @@
 #include "hal/contract/can_bus.hpp"
 #include "tests/unit/can_app/can_bench_nodes.hpp"
 
-/// A small robot on a simulated CAN bus: seven drives, an IMU and two feet, each a complete CANopen
-/// device.
+/// Seven drives, an IMU and two feet on a simulated CAN bus.
 namespace verp::test {
 
 inline constexpr int kBenchJoints = 7;
@@ -80,18 +79,17 @@ class CanBench {
   SensorNode imu{dxl::kModelImu, kBenchImu};
   SensorNode left{dxl::kModelFoot, kBenchFoot};
   SensorNode right{dxl::kModelFoot, kBenchFoot + 1};
-  bool down = false;          ///< the bus accepts no frame
-  bool babble = false;        ///< a foreign node answers each SYNC with the highest priority
-  CanFrame of_other;          ///< frame that another master sends
-  int others = 0;             ///< how often it sends it, as soon as the wire is free
-  std::uint32_t sent = 0;     ///< frames accepted by the bus
-  std::uint64_t bits = 0;     ///< bits carried by the wire
-  std::uint64_t tick_us = 0;  ///< when the last SYNC 1 started on the wire
-  std::uint32_t deaf_to = 0;  ///< no node receives this identifier from the controller
-  std::uint32_t lost = 0;     ///< the controller does not receive this identifier
-  std::uint32_t trouble = 0;  ///< per mille of frames lost, and of frames received twice
+  bool down = false;    ///< the bus accepts no frame
+  bool babble = false;  ///< a foreign node answers each SYNC with the highest priority
+  CanFrame of_other;
+  int others = 0;  ///< sent as soon as the wire is free
+  std::uint32_t sent = 0;
+  std::uint64_t bits = 0;
+  std::uint64_t tick_us = 0;  ///< start of the last SYNC 1
+  std::uint32_t deaf_to = 0;  ///< the nodes miss this identifier
+  std::uint32_t lost = 0;     ///< the controller misses this identifier
+  std::uint32_t trouble = 0;  ///< per mille of lost frames, and of doubled ones
   std::uint32_t seed = 1;
-  /// A pseudo-random number below `most`.
   std::uint32_t random(std::uint32_t most) {
     seed = seed * 1664525u + 1013904223u;
     return static_cast<std::uint32_t>(std::uint64_t{seed} * most >> 32);
@@ -99,7 +97,7 @@ class CanBench {
 
  private:
   static constexpr int kNodes = kBenchJoints + 4;
-  /// Sends what no node of the robot would: short answers, other PDOs, strange identifiers.
+  /// Sends short answers, other PDOs, strange identifiers.
   struct Stranger : WireNode {
     explicit Stranger(CanBench& of) : bench(of) {}
     void receive(const CanFrame& frame, std::uint64_t) override {
@@ -131,14 +129,12 @@ class CanBench {
   static bool begins_tick(const CanFrame& frame) {
     return frame.id == canopen::kSyncId && frame.size == 1 && frame.data[0] == 1;
   }
-  /// Frames with the same identifier go out in order.
   std::uint64_t ready_us(std::size_t at) const {
     for (std::size_t i = 0; i < at; ++i) {
       if (queue_[i].id == queue_[at].id) return ~std::uint64_t{0};
     }
     return due_us_[at] < free_us_ ? free_us_ : due_us_[at];
   }
-  /// The sender with the lowest identifier when the wire is free next.
   bool next_frame(std::uint64_t& start_us, int& from) {
     std::uint32_t best = 0xFFFFFFFF;
     start_us = ~std::uint64_t{0};

@@ -11,7 +11,6 @@ using canopen::Abort;
 using canopen::Address;
 namespace object = canopen::cia402::object;
 
-/// A node as the wire sees it.
 class WireNode {
  public:
   virtual ~WireNode() = default;
@@ -19,7 +18,6 @@ class WireNode {
   virtual bool next(CanFrame& frame, std::uint64_t now_us) = 0;
 };
 
-/// Numbers at a sensor's own addresses.
 struct SensorObjects {
   struct Number {
     Address at;
@@ -50,13 +48,13 @@ struct SensorObjects {
   void put(Address, std::uint8_t, std::uint64_t) {}
 };
 
-/// A drive that reaches each goal at once.
+/// Reaches each goal at once.
 struct DriveApplication {
   canopen::cia402::DriveObjects objects;
   canopen::cia402::Drive drive;
   std::uint32_t telemetry = 0;
   bool has_telemetry = true;
-  bool forgetful = false;  ///< confirms a write of its following window but does not keep it
+  bool forgetful = false;  ///< confirms a following window but does not keep it
 
   void refresh() {
     const bool enabled = drive.state() == canopen::cia402::State::kOperationEnabled;
@@ -104,7 +102,6 @@ struct DriveApplication {
   }
 };
 
-/// A device with power: on, off, and booting.
 template <class Application>
 class PoweredNode : public WireNode {
  public:
@@ -130,7 +127,6 @@ class PoweredNode : public WireNode {
     if (device.heartbeat_lost(now_us)) on_abandoned();
     return device.next(frame, now_us);
   }
-  /// Loses and regains its power.
   void reboot() {
     forget();
     on_reset();
@@ -142,7 +138,7 @@ class PoweredNode : public WireNode {
   canopen::Device<Application, kSize> device;
   bool off = false;
   int resets = 0;
-  int missed_resets = 0;  ///< resets it will not receive
+  int missed_resets = 0;
 
  protected:
   virtual void on_reset() {}
@@ -154,7 +150,6 @@ class PoweredNode : public WireNode {
                           frame.data[0] == static_cast<int>(canopen::NmtCommand::kResetNode);
     return is_reset && missed_resets > 0 && missed_resets-- > 0;
   }
-  // A device's state before any configuration.
   void forget() {
     auto& objects = device.objects();
     for (unsigned i = 0; i < 3; ++i) {
@@ -178,7 +173,7 @@ class PoweredNode : public WireNode {
 class DriveNode : public PoweredNode<DriveApplication> {
  public:
   static constexpr std::uint32_t kProduct = 1234;
-  bool stuck = false;  ///< a fault whose cause survives a reset
+  bool stuck = false;  ///< the fault survives a reset
   explicit DriveNode(std::uint8_t node, std::uint32_t vendor = canopen::plan::kOurVendor)
       : PoweredNode({0x00020192, "test drive", vendor, kProduct, 1, 1}, node) {
     DriveNode::on_reset();

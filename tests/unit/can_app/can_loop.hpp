@@ -10,7 +10,7 @@ namespace verp::test {
 
 inline constexpr std::uint32_t kAll = (1u << kBenchJoints) - 1;
 
-/// A controller on the bench without a core: the test sets the outputs.
+/// No core: the test sets the outputs.
 struct CanLoop {
   CanBench bench;
   app::CanopenServos<CanBench> servos{bench.params, bench};
@@ -43,7 +43,7 @@ struct CanLoop {
   }
 };
 
-/// Replaces the previous one: a chip's stack is too small for it.
+/// A chip's stack is too small for it.
 inline CanLoop& new_can_loop() {
   alignas(CanLoop) static unsigned char room[sizeof(CanLoop)];
   return *new (room) CanLoop();

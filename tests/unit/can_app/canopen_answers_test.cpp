@@ -19,7 +19,6 @@ AnswerWatch watch_of_group(std::uint8_t group) {
   return watch;
 }
 
-// It was due in the previous tick, in which nothing came.
 TEST(AnswerWatch, ALateAnswerOfTheTickBeforeDoesNotCountWhereverItComes) {
   for (const std::uint8_t comes_in : {std::uint8_t{1}, std::uint8_t{3}, std::uint8_t{4}}) {
     AnswerWatch watch = watch_of_group(2);
@@ -32,7 +31,7 @@ TEST(AnswerWatch, ALateAnswerOfTheTickBeforeDoesNotCountWhereverItComes) {
   }
 }
 
-// Without waiting, the answer would be read a window later and seem to move again.
+// Else the answer would be read a window later and seem to move again.
 TEST(AnswerWatch, IsAlsoWaitedForWhereItCameInThePlaceOfItsOwn) {
   AnswerWatch watch = watch_of_group(5);
   watch.begin();
@@ -61,7 +60,7 @@ TEST(AnswerWatch, OfTwoAnswersInATickNobodyKnowsWhichIsOld) {
   EXPECT_TRUE(watch.take(kNode, 2) == Answer::kFresh) << "for one tick";
 }
 
-// A gateway that delays everything delivers the previous tick's answers where this tick's are due.
+// A gateway delays everything by a tick.
 TEST(AnswerWatch, AfterSilenceNothingCountsUntilTheBusIsPrompt) {
   AnswerWatch watch = watch_of_group(2);
   for (int tick = 0; tick < 20; ++tick) {
@@ -79,8 +78,7 @@ TEST(AnswerWatch, AfterSilenceNothingCountsUntilTheBusIsPrompt) {
   EXPECT_TRUE(watch.take(kNode, 2) == Answer::kFresh);
 }
 
-// If a drive misses the bus for one tick, its answers come a tick late while the bus is full: in
-// their own place, but old.
+// A drive that misses the bus for one tick answers a tick late: in its own place, but old.
 TEST(AnswerWatch, WhoOwesAnAnswerDoesNotCountUntilTheBusIsPrompt) {
   constexpr int kOther = 3;
   AnswerWatch watch = watch_of_group(2);
@@ -133,7 +131,7 @@ std::uint8_t times_on(Loop& loop, int joint) {
   return loop.bench.drives[joint].device.objects().tpdos[0].times_on();
 }
 
-// Too many answers to one SYNC overflow a small controller's FIFO.
+// Too many answers overflow a small controller's FIFO.
 TEST(SyncRepair, ADriveThatMissedASyncIsBroughtBackToItsOwnWhileItHoldsTorque) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -155,8 +153,7 @@ TEST(SyncRepair, ADriveThatMissedASyncIsBroughtBackToItsOwnWhileItHoldsTorque) {
   EXPECT_EQ(times_on(loop, kNode), before + 1) << "once was enough: it is where it should be";
 }
 
-// Nodes being set up take turns, as telemetry does. Waiting for one of them would ask nobody, and
-// nothing would show that the bus is prompt.
+// Nodes being set up take turns. Waiting for one of them would ask no other.
 TEST(DriveTelemetry, PassesOverWhoIsBusy) {
   Params params;
   params.joint_count = 5;
@@ -177,7 +174,6 @@ TEST(DriveTelemetry, PassesOverWhoIsBusy) {
   EXPECT_FALSE(telemetry.next(request, node_bit(5) - 1, missed)) << "all are";
 }
 
-// It has the object, and its temperature is useful.
 TEST(DriveTelemetry, OnlyADriveWithoutTheObjectIsAskedForAnother) {
   using canopen::Abort;
   Params params;

@@ -42,7 +42,6 @@ TEST(CanopenBringUp, AsksForThePeriodToTheNearestTenthOfAMillisecond) {
             4'500u);
 }
 
-// After a reset the controller finds the robot stiff.
 TEST(CanopenBringUp, NamesASilentNodeAndLeavesNobodyStiff) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -59,7 +58,7 @@ TEST(CanopenBringUp, NamesASilentNodeAndLeavesNobodyStiff) {
   }
 }
 
-// A reset would drop the robot of another controller.
+// A reset would drop another controller's robot.
 TEST(CanopenBringUp, SendsNothingWhileSomebodyElseCommandsNodes) {
   for (const std::uint32_t id : {0x000u, 0x080u, 0x77Fu, 0x1FFu, 0x20Bu, 0x60Bu}) {
     Loop& loop = test::new_can_loop();
@@ -69,7 +68,7 @@ TEST(CanopenBringUp, SendsNothingWhileSomebodyElseCommandsNodes) {
     EXPECT_TRUE(report.status == BringUpStatus::kOccupied) << id;
     EXPECT_EQ(report.address, id);
     EXPECT_EQ(loop.bench.sent, 0u) << id;
-    loop.up();  // once the other master has gone
+    loop.up();
   }
 }
 TEST(CanopenBringUp, IsNotKeptFromItByWhatNodesAndDesksSay) {
@@ -81,7 +80,7 @@ TEST(CanopenBringUp, IsNotKeptFromItByWhatNodesAndDesksSay) {
   }
 }
 
-// Nothing that an earlier controller wrote may stay, least of all its lower torque.
+// No earlier setting may stay, least of all a lower torque.
 TEST(CanopenBringUp, ResetsOneAgainThatDidNotHearIt) {
   Loop& loop = test::new_can_loop();
   loop.bench.drives[2].missed_resets = 1;

@@ -16,7 +16,7 @@ using Loop = test::CanLoop;
 
 struct Campaign {
   Loop& loop = test::new_can_loop();
-  std::uint32_t lost_power = 0;  ///< drives that lost power since the robot last relaxed
+  std::uint32_t lost_power = 0;  ///< drives without power since the robot relaxed
 
   explicit Campaign(std::uint32_t seed) {
     loop.bench.seed = seed;
@@ -74,9 +74,8 @@ TEST(CanopenCampaign, NoSeedThrowsADriveAtItsGoalOrLeavesOneOut) {
     for (unsigned i = 0; i < 300; ++i) {
       const std::uint64_t before_us = loop.bench.now_us();
       loop.tick();
-      // A tick without waiting ends before its SYNC goes out, so the next tick contains both waits.
-      // Therefore the time counts from the SYNC (a bus that is down sends none), and over all
-      // ticks.
+      // A tick without waiting ends before its SYNC, so the next one contains both waits. The time
+      // counts from the SYNC, over all ticks.
       const std::uint64_t period_us = loop.bench.params.period_us;
       EXPECT_LE(loop.bench.now_us() - std::max(before_us, loop.bench.tick_us), period_us) << seed;
       EXPECT_LE(loop.bench.now_us() - begun_us, (i + 2) * period_us) << seed;

@@ -55,7 +55,7 @@ TEST(CanopenServos, TakesExactlyOnePeriodForATick) {
   }
 }
 
-// As on the serial bus: strength and goals go first, then all drives get torque together.
+// Strength and goals go first, then all drives get torque together.
 TEST(CanopenServos, GivesTorqueInTheThirdTickAndOnlyWithGoalsKnown) {
   Loop& loop = test::new_can_loop();
   loop.up();
@@ -65,7 +65,7 @@ TEST(CanopenServos, GivesTorqueInTheThirdTickAndOnlyWithGoalsKnown) {
   int ticks = 0;
   for (; ticks < 20; ++ticks) {
     loop.tick();
-    loop.servos.read_positions(loop.inputs);  // so that the sent frames arrive
+    loop.servos.read_positions(loop.inputs);
     if (!loop.all_in(State::kOperationEnabled)) {
       EXPECT_FALSE(loop.bench.drives[0].state() == State::kOperationEnabled ||
                    loop.bench.drives[6].state() == State::kOperationEnabled)
@@ -107,7 +107,7 @@ TEST(CanopenServos, TakesTorqueAtOnceAndOnlyFromWhomItIsTold) {
   EXPECT_TRUE(loop.all_in(State::kSwitchOnDisabled));
 }
 
-// A changed frame is sent in three ticks, and all frames are repeated in turn.
+// A changed frame is sent in three ticks; all frames repeat in turn.
 TEST(CanopenServos, ALostControlwordNeitherLeavesADriveStiffNorLimp) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -161,7 +161,7 @@ TEST(CanopenServos, TellsTheTelemetryOfOneDriveATickInTurn) {
   EXPECT_EQ(seen, kAll);
 }
 
-// In another maker's drive, 2001h may hold anything.
+// Another maker's 2001h may hold anything.
 TEST(CanopenServos, ADriveOfAnotherMakerIsNotAskedForOurTelemetry) {
   Loop& loop = test::new_can_loop();
   test::DriveNode& drive = loop.bench.drives[3];
@@ -189,7 +189,7 @@ TEST(CanopenServos, TellsEachDrivesVelocityAndTorqueInTurnWithItsTelemetry) {
     objects.actual_velocity = j % 2 == 0 ? -100'000 * j : 100'000 * j;
     objects.actual_torque = static_cast<std::int16_t>(-7 * j);
   }
-  // A question never shares a tick with a heartbeat, so it can slip a few ticks.
+  // A question never shares a tick with a heartbeat.
   int told = 0, ticks = 2 * kBenchJoints * (canopen::plan::kEffortTicks + 1);
   for (int i = 0; i < ticks; ++i) {
     loop.tick();
@@ -231,7 +231,7 @@ TEST(CanopenServos, AsksADriveWithAnEmergencyFirstInAnyRound) {
   }
 }
 
-// A vendor's drive has voltage and error code where CiA 402 puts them.
+// Voltage and error code stand where CiA 402 puts them.
 TEST(CanopenServos, TakesVoltageAndErrorOfADriveWithoutOurObject) {
   Loop& loop = test::new_can_loop();
   loop.bench.drives[3].application.has_telemetry = false;
@@ -248,7 +248,6 @@ TEST(CanopenServos, TakesVoltageAndErrorOfADriveWithoutOurObject) {
   EXPECT_TRUE(told);
 }
 
-// Drives watch the controller: its heartbeat is frequent enough, and they stop when it ends.
 TEST(CanopenServos, HoldsByItselfWhenTheControllerIsGone) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -259,7 +258,7 @@ TEST(CanopenServos, HoldsByItselfWhenTheControllerIsGone) {
   loop.bench.send(canopen::classic_frame(0x7FF, 0));
   while (loop.bench.now_us() < end_us && loop.bench.poll(frame, 2'000'000)) {
   }
-  loop.bench.send(canopen::classic_frame(0x7FF, 0));  // asks each node for its pending frames
+  loop.bench.send(canopen::classic_frame(0x7FF, 0));  // asks for pending frames
   while (loop.bench.poll(frame, 1000)) {
   }
   EXPECT_TRUE(loop.all_in(State::kQuickStopActive));
@@ -276,14 +275,14 @@ TEST(CanSchedule, CoversTheBitsOfEveryTick) {
     const std::uint64_t before = loop.bench.bits;
     for (int j = 0; j < kBenchJoints; ++j) loop.outputs.goal_count[j] = -i * 77 * j;
     loop.tick();
-    const std::uint64_t bits = loop.bench.bits - before;  // 1 Mbit/s: a bit is a microsecond
+    const std::uint64_t bits = loop.bench.bits - before;  // a bit is a microsecond
     EXPECT_LE(bits, canopen::plan::tick_us(loop.bench.params));
     EXPECT_GE(bits, canopen::plan::tick_us(loop.bench.params) * 7 / 10)
         << "or it promises too little";
   }
 }
 
-// With an IMU and two feet at 125 Hz, and worst-case stuffing.
+// IMU and feet at 125 Hz, worst-case stuffing.
 TEST(CanSchedule, TwentyOneDrivesTakeAtMostSeventyPercentOfEightMilliseconds) {
   Params params;
   params.baud = 1'000'000;
@@ -299,7 +298,6 @@ TEST(CanSchedule, TwentyOneDrivesTakeAtMostSeventyPercentOfEightMilliseconds) {
   EXPECT_LE(windows_us, 8'000u) << "nor do timeouts of all groups take more than a tick";
 }
 
-// The whole loop on a CanBus.
 struct Desk {
   OperatorOrder order(std::uint32_t) { return {}; }
   void record(const TickRecord& record, const verp::State&, const Outputs&) {

@@ -12,7 +12,7 @@ using Loop = test::CanLoop;
 
 constexpr std::uint32_t kThird = 1u << 2;
 
-// A leg that stiffens before the other one throws the robot.
+// A leg that stiffens first throws the robot.
 TEST(CanopenTrouble, DrivesWaitForEachOtherBeforeTheyGetTorqueButNotForEver) {
   Loop& loop = test::new_can_loop();
   loop.up();
@@ -28,7 +28,7 @@ TEST(CanopenTrouble, DrivesWaitForEachOtherBeforeTheyGetTorqueButNotForEver) {
   }
 }
 
-// The drive's torque limit is lost with its power.
+// The limit is lost with the power.
 TEST(CanopenTrouble, ADriveThatWasSetUpAgainRisesNoStrongerThanAllowed) {
   Loop& loop = test::new_can_loop();
   loop.bench.params.rise_torque_percent = 40;
@@ -100,7 +100,7 @@ TEST(DoubtedDrives, OneThatRebootedCountsOnlyWhenItIsSetUpOrStillHolds) {
   EXPECT_EQ(doubts.all(), 0u);
 }
 
-// Ticks are counted by this time: a timeout must not look like an overrun.
+// A timeout must not look like an overrun.
 TEST(CanopenTrouble, TheTimeOfATickIsThatOfItsBeginning) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -112,7 +112,7 @@ TEST(CanopenTrouble, TheTimeOfATickIsThatOfItsBeginning) {
   }
 }
 
-// The node received one SYNC twice and now answers the tick's last one.
+// The node received one SYNC twice.
 TEST(CanopenTrouble, AnAnswerLaterInTheTickThanPlannedCountsAtOnce) {
   AnswerWatch watch;
   watch.plan(2, 1);
@@ -137,7 +137,6 @@ TEST(CanopenTrouble, ASilentDriveIsMissedAloneAndSoonNotWaitedFor) {
   EXPECT_LT(loop.servos.counters().timeouts, 15u) << "six in the first 60 ms, then every 8th tick";
 }
 
-// It was unreachable but kept its power.
 TEST(CanopenTrouble, ADriveThatKeptItsTorqueCountsAgain) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -152,7 +151,6 @@ TEST(CanopenTrouble, ADriveThatKeptItsTorqueCountsAgain) {
   EXPECT_EQ(loop.bench.drives[2].resets, 1);
 }
 
-// It returns limp and unconfigured.
 TEST(CanopenTrouble, ADriveThatRebootsGetsNoTorqueBeforeTheRobotWasLetGo) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -173,7 +171,7 @@ TEST(CanopenTrouble, ADriveThatRebootsGetsNoTorqueBeforeTheRobotWasLetGo) {
   EXPECT_TRUE(loop.all_in(State::kOperationEnabled));
 }
 
-// Setting up a drive's 50 objects takes longer than a tick.
+// 50 objects take longer than a tick.
 TEST(CanopenTrouble, SettingUpAgainNeverHoldsATick) {
   Loop& loop = test::new_can_loop();
   loop.up();
@@ -205,7 +203,7 @@ TEST(CanopenTrouble, ASensorThatRebootsIsSetUpAgainWhileTheRobotStands) {
   EXPECT_TRUE(loop.all_in(State::kOperationEnabled));
 }
 
-// Nothing acknowledges a start command, so a lost one shows only as silence.
+// No node acknowledges a start command.
 TEST(CanopenTrouble, ANodeThatIsNotOperationalIsStartedAgain) {
   Loop& loop = test::new_can_loop();
   loop.up();
@@ -241,7 +239,7 @@ TEST(CanopenTrouble, AFaultTakesADriveOutUntilTheRobotWasLetGo) {
   EXPECT_TRUE(loop.bench.drives[2].state() == State::kSwitchOnDisabled);
 }
 
-// CiA 301: a node that missed a SYNC answers another one from then on.
+// CiA 301: it answers another SYNC from then on.
 TEST(CanopenTrouble, ADriveThatMissedASyncIsFoundWhereItAnswersNow) {
   Loop& loop = test::new_can_loop();
   loop.enable();

@@ -3,8 +3,6 @@
 #include "tests/unit/can_app/objects_node.hpp"
 #include "tests/unit/images/actions_board.hpp"
 
-// Object 5002h, as through the operator's window (unit/images/operator_actions_test.cpp).
-
 namespace verp::app::test {
 namespace {
 
@@ -82,9 +80,7 @@ TEST(ControllerActions, ATransferThatWasCutComesToNothingAndTheNextOneIsWhole) {
       for (int sent = 0; sent < frames; ++sent) {
         if (sender.node.client.next(frame, 0)) sender.node.device.receive(frame, 0);
         while (sender.node.device.next(frame, 0)) sender.node.client.receive(frame, 0);
-        if (sender.node.client.state() != SdoClient::State::kBusy)
-          return;  // the transfer was
-                   // whole
+        if (sender.node.client.state() != SdoClient::State::kBusy) return;
       }
       EXPECT_FALSE(sender.took_them()) << frames;
       EXPECT_TRUE(sender.send() == Abort::kNone) << frames;

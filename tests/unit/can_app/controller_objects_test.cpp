@@ -101,7 +101,6 @@ TEST(ControllerObjects, RefusalsSayWhy) {
   EXPECT_TRUE(node.write({index("id"), 0}, &one, 1) == Abort::kDeviceState) << "armed";
 }
 
-// So PDOs can steer a walk.
 TEST(ControllerObjects, CommandCanStandInARpdo) {
   auto& node = renewed<Node<NoImages>>(no_images);
   constexpr std::uint16_t kVx = table::find("walk_vx")->object_index();
@@ -124,7 +123,6 @@ TEST(ControllerObjects, CommandCanStandInARpdo) {
   EXPECT_TRUE((order.flags & kCommandFresh) != 0);
 }
 
-// A reader may still choose what to show.
 TEST(ControllerObjects, ALoopThatObeysSomebodyElseRefusesEveryOrder) {
   auto& node = renewed<Node<NoImages>>(no_images, OperatorSetup{.takes_orders = false});
   const std::uint8_t zeros[8] = {}, one = 1;
@@ -149,7 +147,7 @@ TEST(ControllerObjects, ALoopThatObeysSomebodyElseRefusesEveryOrder) {
   }
 }
 
-/// 4 KB each, plus the staged one: too much for a microcontroller's stack.
+/// Too large for a microcontroller's stack.
 struct Exchange {
   explicit Exchange(std::uint32_t new_period_us) {
     now.params = next.params = kRobot;

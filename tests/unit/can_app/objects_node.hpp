@@ -24,7 +24,6 @@ struct Node {
     outputs.torque_enable = on ? 1 : 0;
     registers.record({state.digest, inputs}, state, outputs);
   }
-  /// Runs the client's transfer to its end.
   canopen::Abort run() {
     canopen::Frame frame;
     for (std::uint64_t now_us = 0; client.state() == canopen::SdoClient::State::kBusy;

@@ -3,7 +3,7 @@
 #include "firmware/app/sync_round.hpp"
 #include "tests/unit/can_app/can_loop.hpp"
 
-// Nodes count SYNCs: a doubled or lost one shifts their answers.
+// A doubled or lost SYNC shifts a node's answers.
 
 namespace verp::app {
 namespace {
@@ -14,7 +14,7 @@ using Loop = test::CanLoop;
 constexpr std::uint8_t kGroups = 3;
 constexpr int kInGroup = 4;
 
-/// Three groups of four nodes; all answered in the previous tick.
+/// Four nodes each; all answered in the previous tick.
 struct Round {
   AnswerWatch answers;
   SyncRound round{kGroups};
@@ -109,7 +109,6 @@ TEST(SyncRound, GroupsAreWaitedForInTheirPlacesAgain) {
   EXPECT_EQ(round.answers.astray(), 0u);
 }
 
-/// How often SyncRepair switched on a node's TPDO.
 int times_on(Loop& loop) {
   int times = 0;
   for (test::DriveNode& each : loop.bench.drives) {
@@ -118,7 +117,7 @@ int times_on(Loop& loop) {
   return times;
 }
 
-// As after an error in the last bit but one of the frame, or from a foreign node.
+// As after an error in the last bit but one of the frame.
 TEST(SyncRound, AfterASyncTooManyAllNodesAreBackInTwoTicks) {
   for (const int extra : {1, 2}) {
     Loop& loop = test::new_can_loop();

@@ -8,8 +8,7 @@
 namespace verp::canopen {
 namespace {
 
-// From the literature: 47 + 8 n bits for 11-bit identifiers, at worst (34 + 8 n - 1) / 4 more; 67
-// and 54 for 29 bits.
+// 47 + 8 n bits for 11-bit identifiers, at worst (34 + 8 n - 1) / 4 more; 67 and 54 for 29 bits.
 TEST(BusLoad, ClassicFramesHaveTheKnownLengths) {
   for (std::uint8_t size = 0; size <= 8; ++size) {
     EXPECT_EQ(classic_bits(size, Stuffing::kNone).all(), 47u + 8 * size);
@@ -22,8 +21,8 @@ TEST(BusLoad, ClassicFramesHaveTheKnownLengths) {
   static_assert(classic_bits(8, Stuffing::kWorst, true).all() == 160);
 }
 
-// From Linux's include/linux/can/length.h: header 22, CRC field 28 or 33 with its delimiter, footer
-// 9, intermission 3.
+// Linux, include/linux/can/length.h: header 22, CRC 28 or 33 with delimiter, footer 9, intermission
+// 3.
 TEST(BusLoad, FdFramesHaveTheKnownLengths) {
   EXPECT_EQ(fd_bits(8, Stuffing::kNone, false).all(), 22u + 64 + 28 + 9 + 3);
   EXPECT_EQ(fd_bits(16, Stuffing::kNone, false).all(), 22u + 128 + 28 + 9 + 3);
@@ -42,7 +41,7 @@ TEST(BusLoad, FdFramesHaveTheKnownLengths) {
   }
 }
 
-// A classic frame's bits from start to CRC, as in ISO 11898-1.
+// From start to CRC, as in ISO 11898-1.
 unsigned draw(const Frame& frame, unsigned* bits) {
   unsigned count = 0;
   const auto put = [&](std::uint32_t value, unsigned width) {
@@ -51,7 +50,7 @@ unsigned draw(const Frame& frame, unsigned* bits) {
   put(0, 1);
   put(frame.extended ? frame.id >> 18 : frame.id, 11);
   if (frame.extended) put(3, 2), put(frame.id & 0x3FFFF, 18);
-  put(0, 3);  // RTR, then IDE and FDF; or FDF and r0
+  put(0, 3);
   put(frame.size, 4);
   for (unsigned i = 0; i < frame.size; ++i) put(frame.data[i], 8);
   put(classic_crc(frame), 15);
@@ -69,8 +68,7 @@ unsigned stuff_bits(const unsigned* bits, unsigned count) {
   return stuffed;
 }
 
-// Frame and CRC divide by the polynomial without a remainder. The exact length adds one stuff bit
-// after each five equal bits.
+// Frame and CRC divide by the polynomial. One stuff bit follows each five equal bits.
 TEST(BusLoad, ClassicFramesAreCountedBitByBit) {
   test::Dice dice(1);
   for (int run = 0; run < 400; ++run) {
@@ -84,7 +82,7 @@ TEST(BusLoad, ClassicFramesAreCountedBitByBit) {
     unsigned bits[39 + 64 + 15];
     const unsigned count = draw(frame, bits);
     ASSERT_EQ(exact_bits(frame).all(), count + stuff_bits(bits, count) + 13);
-    // Long division by x^15 + x^14 + x^10 + x^8 + x^7 + x^4 + x^3 + 1.
+    // By x^15 + x^14 + x^10 + x^8 + x^7 + x^4 + x^3 + 1.
     for (unsigned i = 0; i + 15 < count; ++i) {
       if (bits[i] == 0) continue;
       for (const unsigned power : {15u, 14u, 10u, 8u, 7u, 4u, 3u, 0u}) bits[i + 15 - power] ^= 1u;
@@ -102,7 +100,7 @@ TEST(BusLoad, AnExactFrameLiesBetweenNoneAndWorst) {
     frame.extended = dice.one_in(3);
     frame.id = dice.below(frame.extended ? 0x20000000 >> 8 : 0x800);
     frame.size = frame.fd ? can_fd_size(dice.below(65)) : static_cast<std::uint8_t>(dice.below(9));
-    const bool quiet = dice.one_in(2);  // long runs of equal bits
+    const bool quiet = dice.one_in(2);
     for (unsigned i = 0; i < frame.size; ++i) {
       frame.data[i] =
           quiet ? (dice.one_in(9) ? 0x0F : 0) : static_cast<std::uint8_t>(dice.below(256));
@@ -117,7 +115,7 @@ TEST(BusLoad, AnExactFrameLiesBetweenNoneAndWorst) {
   }
 }
 
-// "Expected" is about random bits; the largest frames round it least.
+// The largest frames round least.
 TEST(BusLoad, RandomFramesTakeTheExpectedStuffBits) {
   test::Dice dice(3);
   constexpr std::uint32_t kRuns = 4000;
@@ -141,15 +139,15 @@ TEST(BusLoad, RandomFramesTakeTheExpectedStuffBits) {
   }
 }
 
-// All data bits equal: a stuff bit after each five bits, but none after the last of an FD frame.
+// None after the last bit of an FD frame.
 TEST(BusLoad, EqualDataBitsAreStuffedEachFive) {
   Frame frame = classic_frame(0x555, 8);
   frame.fd = true;
-  // 0 10101010101 0 0 1 0 0 0 | 1000 | zeros: only the data add runs of five to the header.
+  // 0 10101010101 0 0 1 0 0 0 | 1000 | zeros: only data add runs of five.
   const std::uint32_t none = fd_bits(8, Stuffing::kNone, false).all();
-  // After the length code's 1 come 3 + 64 = 67 zeros: stuff bits after 5, 10, ... 65.
+  // After the length code's 1 come 67 zeros.
   EXPECT_EQ(exact_bits(frame).all(), none + 13);
-  // Five bytes: 40 zeros follow the length code 0101, and the last run of five ends the data.
+  // 40 zeros follow the length code 0101.
   frame.size = 5;
   EXPECT_EQ(exact_bits(frame).all(), fd_bits(5, Stuffing::kNone, false).all() + 7);
 }
@@ -163,8 +161,7 @@ TEST(BusLoad, TimesAndSharesAreRoundedUp) {
   EXPECT_EQ(load_permille({501, 0}, {1'000'000, 1}, 8000), 63u);
 }
 
-// Six bytes each way and a SYNC with its counter stay under 70 % of 1 Mbit/s, even with worst-case
-// stuffing.
+// Six bytes each way and a counted SYNC stay under 70 % of 1 Mbit/s, worst-case stuffing.
 TEST(BusLoad, TwentyOneDrivesFitAt125HzAndNotAt200) {
   FrameBits tick = classic_bits(6, Stuffing::kWorst) * 42;
   tick += classic_bits(1, Stuffing::kWorst);

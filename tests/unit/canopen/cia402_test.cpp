@@ -16,7 +16,7 @@ constexpr State kAll[] = {State::kNotReady,
 constexpr std::int16_t kLeaves = 2;  // quick stop option codes: ends in switch on disabled
 constexpr std::int16_t kStays = 6;   // stays in quick stop active
 
-// A drive in this state, last controlword 0, whose fault may be reset.
+// Last controlword 0.
 Drive in(State state) {
   Drive drive;
   if (state == State::kNotReady) return drive;
@@ -36,20 +36,19 @@ Drive in(State state) {
   return drive;
 }
 
-// The standard's commands: masked bits of the controlword and their values.
+// Masked bits of the controlword.
 struct Command {
   std::uint8_t mask;
   std::uint8_t value;
   std::uint8_t transitions[5];
 };
 constexpr Command kCommands[] = {
-    {0x87, 0x06, {2, 6, 8}},       // shutdown
-    {0x8F, 0x07, {3, 5}},          // switch on; disable operation
-    {0x8F, 0x0F, {3, 4, 16}},      // enable operation; from ready to switch on, switch on first
+    {0x87, 0x06, {2, 6, 8}},  // shutdown
+    {0x8F, 0x07, {3, 5}},         {0x8F, 0x0F, {3, 4, 16}},
     {0x82, 0x00, {7, 9, 10, 12}},  // disable voltage
     {0x86, 0x02, {7, 10, 11}},     // quick stop
 };
-// The standard's transitions by controlword: from, to.
+// Transitions by controlword.
 struct Arrow {
   State from;
   State to;
@@ -72,7 +71,6 @@ constexpr Arrow kArrows[17] = {{},
                                {State::kFault, State::kSwitchOnDisabled},
                                {State::kQuickStopActive, State::kOperationEnabled}};
 
-// For a controlword after a controlword of 0.
 std::uint8_t expected(State state, unsigned word, bool stays) {
   if ((word & 0x80) != 0) return state == State::kFault ? 15 : 0;
   for (const Command& command : kCommands) {
@@ -92,7 +90,7 @@ TEST(Drive, EveryControlwordInEveryStateMakesTheStandardsTransitionAndNoOther) {
       for (const bool stays : {true, false}) {
         Drive drive = in(state);
         ASSERT_TRUE(drive.state() == state);
-        // Disable voltage first makes a fault reset an edge; it affects only these states.
+        // Disable voltage makes a fault reset an edge.
         const std::uint8_t number =
             drive.control(static_cast<std::uint16_t>(word), stays ? kStays : kLeaves);
         ASSERT_EQ(number, expected(state, word, stays)) << state_text(state) << ", " << word;
@@ -162,7 +160,7 @@ TEST(Drive, ALostConnectionDoesWhatItsOptionSays) {
   }
 }
 
-// The standard's patterns, xxxx xxxx x0xx 0000 and so on, with any other bits.
+// The standard's patterns, with any other bits.
 TEST(Statusword, TellsTheStateWhateverItsOtherBits) {
   for (const State state : kAll) {
     const Drive drive = in(state);
@@ -174,7 +172,6 @@ TEST(Statusword, TellsTheStateWhateverItsOtherBits) {
   }
   const std::uint16_t known[] = {0x0000, 0x0040, 0x0021, 0x0023, 0x0027, 0x0007, 0x000F, 0x0008};
   for (unsigned i = 0; i < kStates; ++i) EXPECT_EQ(state_bits(kAll[i]), known[i]);
-  // In these states the quick-stop bit does not matter.
   EXPECT_TRUE(state_of(0x0028) == State::kFault);
   EXPECT_TRUE(state_of(0x002F) == State::kFaultReactionActive);
   EXPECT_TRUE(state_of(0x0060) == State::kSwitchOnDisabled);
@@ -183,7 +180,7 @@ TEST(Statusword, TellsTheStateWhateverItsOtherBits) {
 
 using Result = EnableSequence::Result;
 
-// Master and drive exchange one word each way per millisecond; returns the master's result.
+// One word each way per millisecond.
 Result enable(Drive& drive, std::uint64_t& now_us) {
   EnableSequence master;
   master.begin(now_us);
@@ -230,7 +227,7 @@ TEST(EnableSequence, WaitsForASlowDriveAsLongAsItMoves) {
 
 TEST(EnableSequence, ResetsAFaultAFewTimesAndThenSaysSo) {
   Drive drive = in(State::kSwitchedOn);
-  drive.event(Trigger::kFault, kLeaves);  // the cause stays
+  drive.event(Trigger::kFault, kLeaves);
   std::uint64_t now_us = 0;
   EXPECT_TRUE(enable(drive, now_us) == Result::kFaulty);
   EXPECT_TRUE(drive.state() == State::kFault);

@@ -108,7 +108,7 @@ TEST(Device, BootsAndTakesPdosOnlyWhenOperational) {
   EXPECT_TRUE(events.sync && events.put);
   EXPECT_EQ(node.drive.objects.target_position, 100);
   EXPECT_EQ(node.drive.objects.controlword, 0xF);
-  node.drive.objects.actual_position = 66;  // later than the SYNC
+  node.drive.objects.actual_position = 66;
   EXPECT_TRUE(node.only(frame));
   EXPECT_EQ(frame.id, 0x184u);
   EXPECT_EQ(frame.size, 6);
@@ -126,7 +126,7 @@ TEST(Device, SpeaksSdoUnlessStopped) {
   EXPECT_TRUE(node.client.state() == SdoClient::State::kBusy) << "nobody answers";
 }
 
-// In the standard's order, as any configuration tool does it.
+// In the standard's order.
 TEST(Device, IsRemappedThroughSdo) {
   Node node;
   node.operate();
@@ -147,7 +147,7 @@ TEST(Device, IsRemappedThroughSdo) {
   EXPECT_EQ(get_le(frame.data, 2), 0xFFFDu);
 }
 
-// CiA 301; so a node that missed a SYNC returns to its planned ones.
+// CiA 301.
 TEST(Device, WaitsForItsSyncStartValueAgainWhenItsPdoIsSwitchedOffAndOn) {
   Node node;
   constexpr std::uint8_t kGroups = 3, kStart = 2;
@@ -167,7 +167,7 @@ TEST(Device, WaitsForItsSyncStartValueAgainWhenItsPdoIsSwitchedOffAndOn) {
     EXPECT_EQ(answers(counter), counter == kStart);
   }
   answers(1);
-  for (int counter = 3; counter <= kGroups; ++counter) answers(counter);  // SYNC 2 is lost
+  for (int counter = 3; counter <= kGroups; ++counter) answers(counter);
   for (int counter = 1; counter <= kGroups; ++counter) {
     EXPECT_EQ(answers(counter), counter == kStart + 1) << "astray";
   }
@@ -255,7 +255,7 @@ TEST(Device, ReportsWhatIsWrongOnTheBus) {
   EXPECT_EQ(newest, 0x8210u);
 }
 
-// A wrong SYNC reaches every node in each tick: one EMCY each time would fill the bus.
+// Each tick brings a wrong SYNC to every node: an EMCY each would fill the bus.
 TEST(Device, SaysOnceThatTheCommunicationIsWrongAndOnceThatItIsWell) {
   Node node;
   node.operate();
@@ -272,7 +272,6 @@ TEST(Device, SaysOnceThatTheCommunicationIsWrongAndOnceThatItIsWell) {
     }
   }
   EXPECT_EQ(said, 2);
-  // A fault of the drive itself is independent of that.
   node.device.receive(classic_frame(kSyncId, 1), 0);
   node.device.report(ErrorCode::kOverTemperature, kErrorTemperature);
   node.device.receive(classic_frame(kSyncId, 0), 0);
@@ -285,7 +284,7 @@ TEST(Device, SaysOnceThatTheCommunicationIsWrongAndOnceThatItIsWell) {
 TEST(Device, NoticesAMasterThatFallsSilent) {
   Node node;
   node.operate();
-  EXPECT_TRUE(node.write({0x1016, 1}, 0x007F0032, 4) == Abort::kNone);  // node 127, 50 ms
+  EXPECT_TRUE(node.write({0x1016, 1}, 0x007F0032, 4) == Abort::kNone);
   EXPECT_FALSE(node.device.heartbeat_lost(1'000'000)) << "not before its first heartbeat";
   node.device.receive(heartbeat_frame(127, NmtState::kOperational), 1'000'000);
   EXPECT_FALSE(node.device.heartbeat_lost(1'049'999));

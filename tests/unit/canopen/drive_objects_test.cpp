@@ -96,7 +96,6 @@ TEST(FollowingMonitor, TellsADistanceThatLastsLongerThanAllowed) {
   EXPECT_FALSE(monitor.update(objects, 3'012'000)) << "its time begins anew";
 }
 
-// The controller's SDO server serves it, too.
 struct DriveDictionary {
   DriveObjects objects;
   Abort find(Address at, Entry& entry) { return find_object(at, entry); }

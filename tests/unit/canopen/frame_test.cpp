@@ -22,7 +22,7 @@ TEST(Frame, LittleEndianNumbersComeBack) {
   }
 }
 
-// ISO 11898-1's table of data length codes.
+// ISO 11898-1's data length codes.
 TEST(Frame, FdSizesAreThoseWithACode) {
   const std::uint8_t sizes[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, 64};
   for (std::uint8_t code = 0; code < 16; ++code) {
@@ -37,7 +37,7 @@ TEST(Frame, FdSizesAreThoseWithACode) {
   EXPECT_EQ(can_fd_size(49), 64);
 }
 
-// First and last identifiers of CiA 301's predefined connection set.
+// First and last of CiA 301.
 TEST(CobId, IsThatOfThePredefinedConnectionSet) {
   EXPECT_EQ(emcy_id(1), 0x081);
   EXPECT_EQ(emcy_id(127), 0x0FF);
@@ -77,7 +77,7 @@ TEST(CobId, EveryIdentifierLeadsBackToItsService) {
   EXPECT_TRUE(connection_of(0x7E5).service == Service::kOther);
 }
 
-// No PDO may use the identifiers of NMT, SDO or heartbeat; those of PDOs are free.
+// PDOs may not use those of NMT, SDO or heartbeat.
 TEST(CobId, RestrictedIdentifiersAreThoseOfTheFixedServices) {
   for (unsigned i = 1; i <= kMaxNode; ++i) {
     const auto node = static_cast<std::uint8_t>(i);

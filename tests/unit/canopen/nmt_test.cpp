@@ -13,7 +13,7 @@ NmtSlave started() {
   return slave;
 }
 
-// From CiA 301's state diagram.
+// CiA 301's state diagram.
 TEST(NmtSlave, ObeysEachCommandFromEachState) {
   const NmtCommand ways[] = {NmtCommand::kStart, NmtCommand::kStop,
                              NmtCommand::kEnterPreOperational};

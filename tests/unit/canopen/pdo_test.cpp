@@ -11,7 +11,7 @@ namespace {
 
 using test::Dice;
 
-// Index 2000h and up, in the mapping's order, distinguishes the objects.
+// Index 2000h and up, in order.
 template <std::size_t kEntries>
 PdoMapping<kEntries> random_mapping(Dice& dice, unsigned max_bits) {
   PdoMapping<kEntries> mapping;
@@ -37,7 +37,7 @@ void expect_round_trips(bool fd, std::uint32_t seed) {
     }
     Frame frame;
     frame.fd = fd;
-    for (std::uint8_t& each : frame.data) each = 0xFF;  // earlier content does not matter
+    for (std::uint8_t& each : frame.data) each = 0xFF;
     pack_pdo(mapping, frame, [&](Address at, unsigned) { return values[at.index - 0x2000]; });
     ASSERT_EQ(frame.size, fd ? can_fd_size(mapping.bytes()) : mapping.bytes());
     unsigned seen = 0;
@@ -61,7 +61,7 @@ TEST(Pdo, UnpackingIsTheInverseOfPackingForAnyMapping) {
   expect_round_trips<64>(true, 2);
 }
 
-// Controlword and target position, as in the first RPDO of each CiA 402 drive.
+// As in the first RPDO of CiA 402 drives.
 TEST(Pdo, BytesAreLittleEndianInTheOrderOfTheMapping) {
   PdoMapping<> mapping;
   EXPECT_TRUE(mapping.add(Mapped::from(0x60400010)));
@@ -185,12 +185,12 @@ TEST(SyncSchedule, AnswersEveryNthSync) {
   EXPECT_FALSE(schedule.on_sync(kEventProfile, 0, 0, true)) << "not synchronous";
 }
 
-// 21 drives answer every fifth SYNC, at most five drives per SYNC, whenever they joined.
+// 21 drives answer every fifth SYNC, at most five per SYNC.
 TEST(SyncSchedule, StartValuesShareTheSyncs) {
   constexpr int kDrives = 21;
   SyncSchedule drives[kDrives];
   int answers[kDrives] = {};
-  std::uint8_t counter = 3;  // the drives join in the middle
+  std::uint8_t counter = 3;
   for (int sync = 0; sync < 100; ++sync) {
     counter = counter == 5 ? std::uint8_t{1} : static_cast<std::uint8_t>(counter + 1);
     int together = 0;

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-// A controller publishes what a listener cannot hear otherwise.
 namespace verp::canopen::published {
 namespace {
 
@@ -28,13 +27,13 @@ Inputs random_inputs(std::uint32_t tick) {
   return inputs;
 }
 
-/// The next tick's inputs: what the flags call fresh is new, and so are a few words.
+/// Fresh inputs and a few words are new.
 Inputs next_inputs(const Inputs& before, bool bus_imu, int words) {
   Inputs now = before;
   copy_heard(now, random_inputs(before.tick + 1), bus_imu);
   auto* bytes = reinterpret_cast<std::uint8_t*>(&now);
   for (int i = 0; i < words; ++i) {
-    const std::size_t at = sizeof(std::uint64_t) + 2;  // behind tick, fresh and flags
+    const std::size_t at = sizeof(std::uint64_t) + 2;
     bytes[at + random_bits() % (sizeof(Inputs) - at)] ^= static_cast<std::uint8_t>(random_bits());
   }
   return now;

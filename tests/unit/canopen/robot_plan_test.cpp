@@ -16,7 +16,7 @@ Params robot(int joints, bool sensors) {
   return params;
 }
 
-// A receiver may have room for only five.
+// A receiver may have room for five.
 TEST(RobotPlan, AtMostFiveFramesAnswerOneSync) {
   for (int joints = 0; joints <= kMaxJoints; ++joints) {
     for (const bool sensors : {false, true}) {
@@ -67,7 +67,7 @@ TEST(RobotPlan, DrivesOfASharedFrameMapDisjointPlaces) {
   }
 }
 
-// If two frames shared an identifier, one would be lost on the wire.
+// One of them would be lost.
 TEST(RobotPlan, NoTwoSharedFramesHaveOneIdentifier) {
   const Params params = robot(kMaxJoints, true);
   std::uint16_t seen[64] = {};

@@ -67,7 +67,6 @@ TEST(SdoServer, AbortsWhatGrowsTooLongWithoutAnnouncingIt) {
   EXPECT_EQ(bench.dictionary.writes, 0);
 }
 
-// A block upload whose first block has been sent.
 void send_a_block(Bench& bench) {
   bench.dictionary.small[0].size = 50;
   bench.server.receive(frame_of({true, {0xA4, 0x00, 0x20, 0, 4}}), 0);
@@ -116,7 +115,7 @@ TEST(SdoClient, IgnoresTheRemainsOfAnEarlierTransfer) {
   EXPECT_EQ(byte, 7);
 }
 
-// The client's reason when these lines answer an upload into four bytes.
+// The client's reason, for an upload into four bytes.
 template <std::size_t kLines>
 Abort upload_refusal(const Line (&lines)[kLines], int& requests) {
   SdoClient client(2);

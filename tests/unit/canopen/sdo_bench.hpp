@@ -6,7 +6,7 @@
 
 namespace verp::canopen::test {
 
-/// A frame between client and server as documents write it.
+/// A frame as documents write it.
 struct Line {
   bool request;
   std::uint8_t bytes[8];
@@ -32,8 +32,8 @@ class Dice {
   std::uint32_t state_;
 };
 
-/// 2000h: up to 100 bytes, whole. 3000h: up to kLarge bytes, in pieces. 2001h: read only, 4 bytes.
-/// 2002h: write only, 2 to 4 bytes.
+/// 2000h: up to 100 bytes, whole. 3000h: up to kLarge bytes, in pieces. 2001h: read only. 2002h:
+/// write only, 2 to 4 bytes.
 struct BenchDictionary {
   static constexpr std::uint32_t kSmall = 100;
   static constexpr std::uint32_t kLarge = 2000;
@@ -98,17 +98,17 @@ struct BenchDictionary {
   std::uint8_t large_bytes[kLarge] = {};
   std::uint8_t incoming_bytes[kLarge] = {};
   int writes = 0;
-  int misuses = 0;  ///< calls that the contract forbids
+  int misuses = 0;  ///< calls against the contract
 };
 static_assert(StreamingDictionary<BenchDictionary>);
 
-/// One direction of a bus. On CAN, frames of one identifier never overtake each other, but gateways
-/// and careless drivers reorder them; `swap` allows it.
+/// Frames of one identifier never overtake each other on CAN, but gateways and drivers reorder
+/// them; `swap` allows it.
 class Channel {
  public:
-  std::uint32_t lose = 0;       ///< one frame in `lose` is lost; 0: none
+  std::uint32_t lose = 0;       ///< one frame in `lose`; 0: none
   std::uint32_t duplicate = 0;  ///< one in so many arrives twice
-  std::uint32_t swap = 0;       ///< one in so many overtakes the one before
+  std::uint32_t swap = 0;       ///< one in so many overtakes another
 
   void push(const Frame& frame, Dice& dice) {
     if (dice.one_in(lose)) return;
@@ -135,7 +135,6 @@ class Channel {
   std::uint32_t size_ = 0;
 };
 
-/// Client, server, and the bus between them, in bus time.
 struct Bench {
   static constexpr std::uint8_t kNode = 2;
   static constexpr int kMaxSteps = 20'000;
@@ -158,7 +157,7 @@ struct Bench {
   bool step(Dice& dice) {
     Frame frame;
     bool moved = false;
-    // Now and then a sender is faster than the wire, so that frames can overtake.
+    // A sender faster than the wire lets frames overtake.
     const std::uint32_t burst = 1 + dice.below(3);
     for (std::uint32_t i = 0; i < burst && up.has_room() && client.next(frame, now_us);
          ++i, moved = true, ++frames) {
@@ -173,7 +172,7 @@ struct Bench {
     now_us += moved ? 200 : 20'000;
     return moved;
   }
-  /// Runs until the client's transfer has ended and the bus is quiet; false if it does not end.
+  /// False if the transfer does not end or the bus stays busy.
   bool run(Dice& dice) {
     int steps = 0;
     while (client.state() == SdoClient::State::kBusy) {
@@ -187,7 +186,6 @@ struct Bench {
   }
 };
 
-/// The only one: memory has no room for more.
 inline Bench& fresh_bench() {
   static Bench bench;
   bench.reset();

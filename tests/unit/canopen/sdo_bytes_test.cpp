@@ -2,8 +2,8 @@
 
 #include "tests/unit/canopen/sdo_bench.hpp"
 
-// Exchanges on which vendors' documents and other projects' tests of CiA 301 agree; our client and
-// our server each play their part.
+// Exchanges on which vendors' documents and other projects' tests of CiA 301 agree, for client and
+// server.
 namespace verp::canopen {
 namespace {
 
@@ -12,7 +12,6 @@ using test::Line;
 using Mode = SdoClient::Mode;
 using State = SdoClient::State;
 
-// Any index reads as this value, and takes any value.
 struct OneObject {
   const std::uint8_t* bytes = nullptr;
   std::uint32_t size = 0;
@@ -35,7 +34,7 @@ struct OneObject {
 };
 static_assert(Dictionary<OneObject> && !StreamingDictionary<OneObject>);
 
-// The machine must send its own lines; it receives the others.
+// It receives the other lines.
 template <class Machine>
 void play(Machine& machine, bool requests, const Line* lines, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -167,7 +166,7 @@ TEST(SdoBytes, BlockUpload) {
   expect_upload(lines, kName, "Tiny Node - Mega Domains !", 26, Mode::kBlock);
 }
 
-// Some devices do not say how many of the four bytes are valid.
+// Some devices give no size.
 TEST(SdoBytes, ExpeditedUploadWithoutASizeFillsWhatWasAskedFor) {
   std::uint8_t buffer[8] = {};
   SdoClient client(2);

@@ -51,7 +51,7 @@ void transfer(Bench& bench, Dice& dice, bool write, std::uint32_t size, Mode mod
   const bool done = bench.client.state() == State::kDone;
   done ? ++tally.done : ++tally.aborted;
   if (write) {
-    // A lost confirmation leaves the client in doubt, never wrong data in the server.
+    // A lost confirmation leaves the client in doubt, not wrong data.
     const bool written = bench.dictionary.writes != writes;
     ASSERT_TRUE(written || !done) << "done, but never written";
     ASSERT_EQ(theirs.size, written ? size : before_size);
@@ -68,7 +68,7 @@ TEST(SdoTransfer, OfAnySizeArrivesOverAGoodChannel) {
   Dice dice(1);
   Tally tally;
   int transfers = 0;
-  // Sizes around each limit: expedited, one segment, the server's buffer, one block, two blocks.
+  // Around each limit: expedited, one segment, the server's buffer, one block, two blocks.
   for (const std::uint32_t size :
        {0u,   1u,   3u,   4u,   5u,   6u,   7u,   8u,    14u,   15u,   99u,
         100u, 127u, 128u, 129u, 888u, 889u, 890u, 1777u, 1778u, 1779u, 2000u}) {
@@ -107,8 +107,7 @@ void spoil(Bench& bench, std::uint32_t lose, std::uint32_t duplicate, std::uint3
   }
 }
 
-// Plain transfers have only one toggle bit. So this channel loses and doubles frames as CAN does,
-// but keeps the order of each identifier.
+// One toggle bit: frames may be lost and doubled but keep their order.
 TEST(SdoTransfer, PlainOverALossyDuplicatingChannelIsRightOrAborted) {
   Bench& bench = test::fresh_bench();
   Tally tally;
@@ -238,7 +237,6 @@ TEST(SdoClient, TakesNoMoreThanItsBufferHolds) {
   }
 }
 
-// The server keeps the dictionary's contract and is idle after a long enough silence.
 TEST(SdoServer, SurvivesAnyFrames) {
   Bench& bench = test::fresh_bench();
   Dice dice(4);

@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-/// Both arms and a knee there and back in 0.4 s; and one of the head.
+/// Both arms and a knee, 0.4 s; and one of the head.
 action::test::Shelf shelf() {
   action::test::Shelf shelf;
   for (const int joint : {kLeftArm, kRightArm, kLeftLeg + 3}) {
@@ -28,7 +28,7 @@ struct ActingLoop : Loop {
   }
   void stand() {
     until(Mode::kStanding, 1000);
-    ticks(400);  // by then the gyro's bias is learnt
+    ticks(400);
   }
 };
 
@@ -118,7 +118,7 @@ TEST(Acting, ALibraryThatNobodyAsksOfChangesNoBit) {
   }
 }
 
-// Changes with kCoreVersion, unless no action's numbers change.
+// Changes with kCoreVersion.
 constexpr std::uint64_t kPlayed = 0xeb25c7a64e47a6d8;
 
 TEST(Acting, IsTheSameBitsOnEveryCore) {

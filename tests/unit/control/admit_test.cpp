@@ -26,7 +26,7 @@ struct Telemetry {
     ++inputs.tick;
     return last = admit(kRobot, state, tuning, inputs);
   }
-  /// A round of all servos; those in `bad` are too hot or report an error.
+  /// Servos in `bad` are too hot or report an error.
   AdmitOut round(std::uint32_t bad, bool error = false) {
     for (int j = 0; j < kJointCount; ++j) {
       const bool is_bad = (bad >> j & 1U) != 0;
@@ -65,7 +65,6 @@ TEST(Admit, AllServosButOneThatStayBadAreFound) {
   EXPECT_TRUE(telemetry.power_bad());
 }
 
-// One from each servo in turn, or one now and then.
 TEST(Admit, BadReadingsThatAreNotOneServosInARowAreNoise) {
   Telemetry telemetry;
   for (int n = 1; n < kAlarmReadings; ++n) telemetry.round(~0U);
@@ -109,7 +108,6 @@ TEST(Admit, TelemetryOfNoServoIsIgnored) {
   }
 }
 
-// Through the whole tick.
 TEST(Admit, OneHotServoEndsTheWalk) {
   Loop& loop = test::fresh_loop();
   loop.walk(1000);
@@ -150,7 +148,7 @@ struct Senses {
   Tuning tuning = kRobot.tuning;
   Inputs inputs;
   AdmitOut last;
-  bool noise = true;  ///< the IMU's noise
+  bool noise = true;
 };
 
 TEST(Admit, FirstTickMayHaveAnyNumberAndTheCountMayWrap) {
@@ -165,7 +163,6 @@ TEST(Admit, FirstTickMayHaveAnyNumberAndTheCountMayWrap) {
   }
 }
 
-// Even if all report afterwards.
 TEST(Admit, ControllerThatStoodStillIsStale) {
   for (const std::uint32_t skipped : {0U, 1U, 4U, 5U, 6U, 49U, 50U, 300U, 100'000U, 0xFFFFFFF0U}) {
     Senses senses;
@@ -197,7 +194,7 @@ TEST(Admit, AgesAreTimesNotTicks) {
   }
 }
 
-// A stopped clock does not stop the ages; a clock that runs backwards is invalid.
+// A clock that runs backwards is invalid.
 TEST(Admit, TickThatDoesNotComeIsNoReasonToBeYoung) {
   Senses stopped;
   stopped.tick();
@@ -220,7 +217,7 @@ TEST(Admit, AgesOfAnOperatorWhoIsGoneForEverDoNotWrap) {
   }
 }
 
-// Noise moves a live IMU by at least one count now and then; any of the six axes will do.
+// Noise moves a live IMU by at least one count on any of six axes.
 TEST(Admit, ImuThatRepeatsItselfIsSilentAndOneThatStirsIsNot) {
   for (int axis = 0; axis < 6; ++axis) {
     Senses senses;
@@ -261,7 +258,6 @@ TEST(Admit, FrozenImuStopsTheWalk) {
   EXPECT_GE(loop.until(safety::Mode::kSitting, 100), 0);
 }
 
-// Through the whole tick: it holds, then rises anew.
 TEST(Admit, WalkEndsWhereTheControllerStoodStill) {
   Loop& loop = test::fresh_loop();
   loop.walk(1000);

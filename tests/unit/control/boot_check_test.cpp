@@ -13,7 +13,7 @@ namespace {
 Params robot;
 State state;
 
-// Static, because a microcontroller's stack could not hold them.
+// Too large for a microcontroller's stack.
 ParamsImage& sealed_image() {
   static ParamsImage image;
   image = ParamsImage{};
@@ -33,7 +33,7 @@ BootVerdict verdict_on(const ParamsImage& image, std::size_t size = sizeof(Param
   return check_boot(&image, size, robot, state).verdict;
 }
 
-// A change of the core's arithmetic changes kCoreVersion and this number.
+// Changes with kCoreVersion.
 TEST(BootCheck, BuiltInRobotWalksTheSameBitsInEveryBuild) {
   const std::uint64_t digest = built_in_digest(robot, state);
   EXPECT_EQ(static_cast<std::uint32_t>(digest >> 32),
@@ -74,7 +74,6 @@ TEST(BootCheck, DamagedTruncatedOrMissingImageIsRefused) {
   EXPECT_TRUE(verdict_on(image) == BootVerdict::kSound);
 }
 
-// The seal is whole; only the answers tell.
 TEST(BootCheck, AnswersOfAnotherCoreAreRefused) {
   ParamsImage& image = sealed_image();
   image.golden[3].legs_digest ^= 1;
@@ -91,7 +90,7 @@ TEST(BootCheck, AnswersOfAnotherCoreAreRefused) {
   EXPECT_TRUE(verdict_on(image) == BootVerdict::kControl);
 }
 
-// NaN gives the same answers everywhere.
+// NaN answers the same everywhere.
 TEST(BootCheck, ImageWithANumberThatIsNoneIsRefusedByName) {
   ParamsImage& image = sealed_image();
   image.params.joint[14].velocity_limit_rad_s = test::quiet_nan();

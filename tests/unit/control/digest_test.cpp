@@ -90,7 +90,6 @@ TEST(StepDigest, ChainRemembersADifference) {
   }
 }
 
-// A micrometre in a thigh changes the plan's digest.
 TEST(StepDigest, AnotherRobotIsSeen) {
   static Params other = kRobot;
   other.leg[0].thigh_m += 1e-6F;

@@ -7,7 +7,7 @@
 
 namespace verp::control::test {
 
-/// A fall with the left arm at 1 rad; a rise from the front in 0.9 s with both arms at 0.5 rad.
+/// A fall with the left arm at 1 rad; a rise in 0.9 s with both arms at 0.5 rad.
 inline action::test::Shelf falling_shelf() {
   action::test::Shelf shelf;
   __builtin_memcpy(shelf.action[0].name, action::kGetUpFront, kNameLength);
@@ -33,8 +33,7 @@ struct FallingLoop : Loop {
     inputs.accel_count[0] = x;
     inputs.accel_count[2] = z;
   }
-  /// Topples nose down at 3 rad/s and stays down. Returns the tilt, rad, at which `mode` began; -1
-  /// if never.
+  /// Topples at 3 rad/s and stays down. Returns the tilt, rad, at which `mode` began; -1 if never.
   double topple(Mode mode) {
     constexpr double kRate_rad_s = 3, kGyro_rad_s = 0.00106, kOne = 8172;
     double tilt_rad = 0, entered_rad = -1;

@@ -103,7 +103,7 @@ TEST(GettingUp, FromPowerUpOnTheFloor) {
   EXPECT_GE(loop.until(Mode::kGettingUp, 200), 0);
 }
 
-// The shelf has no action to get up from the back.
+// No action rises from the back.
 TEST(GettingUp, OnASideWithoutAnActionItStaysDown) {
   FallingLoop loop;
   loop.hold_up(8172, 0);

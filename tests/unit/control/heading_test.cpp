@@ -16,7 +16,7 @@ Loop& walking() {
   return loop;
 }
 
-// Held by hand and told to turn, the robot later turns back only the slip.
+// Held by hand, the robot later turns back only the slip.
 TEST(Heading, AnOrderThatStepsCannotFollowIsNoSlip) {
   Loop& loop = walking();
   loop.command.wz_mrad_s = 1500;
@@ -24,7 +24,7 @@ TEST(Heading, AnOrderThatStepsCannotFollowIsNoSlip) {
   EXPECT_LT(math::abs(loop.state.steer.slip_rad), 0.05F);
 }
 
-// 0.02 rad/s to the right for ten seconds.
+// 0.02 rad/s, ten seconds.
 TEST(Heading, ASlipThatGoesOnIsSummed) {
   Loop& loop = walking();
   loop.inputs.gyro_count[2] = -19;
@@ -32,8 +32,7 @@ TEST(Heading, ASlipThatGoesOnIsSummed) {
   EXPECT_GT(loop.state.steer.slip_rad, 0.1F);
 }
 
-// If a cycle had whole ticks, the gyro would see every step at the same moments and take motion
-// between them for a turn.
+// With whole ticks in a cycle, the gyro would see every step at the same moments.
 TEST(Heading, HurriedStepsBeginAtAllMomentsOfATick) {
   Loop& loop = walking();
   const auto tick_us = static_cast<std::int32_t>(test::kRobot.period_us);
@@ -56,7 +55,6 @@ TEST(Heading, HurriedStepsBeginAtAllMomentsOfATick) {
   for (int i = 0; i < 10; ++i) EXPECT_TRUE(tenths[i]) << i << " tenths of a tick";
 }
 
-// The arms counter the legs' turn, one forward as the other goes back.
 TEST(Heading, ArmsSwingAsTheRobotWalksAndRestAsItStands) {
   Loop& loop = walking();
   std::int32_t most = 0, both = 0;
@@ -68,7 +66,7 @@ TEST(Heading, ArmsSwingAsTheRobotWalksAndRestAsItStands) {
              model::count_of(test::kRobot.joint[j], test::kRobot.joint[j].stand_rad);
     };
     most = off(test::kLeftArm) > most ? off(test::kLeftArm) : most;
-    // The right arm counts the other way, so goals of arms that move apart have the same sign.
+    // The right arm counts the other way.
     both += off(test::kLeftArm) * off(test::kRightArm) < 0 ? 1 : 0;
   }
   EXPECT_GT(most, 30) << "counts of 1.5 mrad";

@@ -6,7 +6,7 @@
 namespace verp::control {
 namespace {
 
-/// Lean about y after 10 s with this trunk pitch, planned or not.
+/// About y, after 10 s.
 float leans_rad(float pitch_rad, float planned_rad, safety::Mode mode, bool imu_fresh) {
   State& walker = test::fresh_loop().state;
   walker.machine.mode = mode;
@@ -28,7 +28,6 @@ TEST(LeanStage, ItIsTheTiltOffThePlanThatIsLeanedAgainst) {
   EXPECT_GT(leans_rad(0.0F, kPitch_rad, walks, true), 0.02F);
 }
 
-// A standing robot learns the gyro's bias instead.
 TEST(LeanStage, WhoStandsOrHasNoImuLearnsNothing) {
   EXPECT_EQ(leans_rad(0.2F, 0.0F, safety::Mode::kStanding, true), 0.0F);
   EXPECT_EQ(leans_rad(0.2F, 0.0F, safety::Mode::kWalking, false), 0.0F);

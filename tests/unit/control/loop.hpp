@@ -8,8 +8,7 @@ namespace verp::control::test {
 using namespace verp::test;
 using safety::Mode;
 
-/// step() with servos that always reach their goals, an IMU at rest and an operator. The
-/// accelerometer has minimal noise, which does not tilt.
+/// Servos reach every goal, the IMU rests. The accelerometer's minimal noise does not tilt.
 struct Loop {
   Loop() {
     command.request = Request::kRelax;
@@ -32,7 +31,7 @@ struct Loop {
   void ticks(int count) {
     for (int i = 0; i < count; ++i) tick();
   }
-  /// Returns the number of ticks until `mode`, at most `most`; -1 if it never came.
+  /// Ticks until `mode`, at most `most`; -1 if never.
   int until(Mode mode, int most) {
     for (int i = 0; i < most; ++i) {
       tick();
@@ -51,10 +50,10 @@ struct Loop {
   Outputs outputs;
   Command command;
   action::Library actions;
-  bool noise = true;  ///< the IMU's noise
+  bool noise = true;
 };
 
-/// One for all tests, reset: a small board's RAM has no room for one each.
+/// One for all tests: a small board has no RAM for more.
 inline Loop& fresh_loop() {
   static Loop loop;
   return loop = Loop{};
@@ -66,7 +65,7 @@ inline void write_parameter(int id, float value, Inputs& inputs) {
   inputs.parameter_bits = std::bit_cast<std::uint32_t>(value);
 }
 
-/// Random bits everywhere but in the tick, mostly plausible enough to get the robot up.
+/// Mostly plausible enough to get the robot up; `tick` is not touched.
 inline void wild(Random& random, bool fully, Inputs& inputs) {
   std::uint32_t words[sizeof(Inputs) / 4];
   for (std::uint32_t& word : words) word = random.bits();

@@ -13,9 +13,9 @@ using test::kRobot;
 using test::Loop;
 using test::Random;
 
-constexpr int kWildTicks = 2000;  // soft float on an emulated core does these in seconds
+constexpr int kWildTicks = 2000;  // seconds on an emulated core
 
-/// One for all tests: a small board's RAM has no room for one each.
+/// One for all tests: a small board has no RAM for more.
 State& fresh_state() {
   static State state;
   state = State{};
@@ -36,7 +36,7 @@ void expect_safe(const State& state, const Outputs& outputs, int tick) {
   }
 }
 
-// For any input bits the outputs are safe: inside limits, and never NaN.
+// Outputs are inside limits, never NaN.
 void expect_total(bool fully, std::uint32_t seed) {
   State& state = fresh_state();
   Random random(seed);
@@ -216,14 +216,12 @@ TEST(Step, FallMakesItLimpAndIsLatchedUntilAcknowledged) {
   EXPECT_EQ(loop.outputs.faults & safety::kFaultFall, 0u) << "acknowledged";
 }
 
-/// The IMU of a robot that lies on its belly, back, sides or head.
 void lie(int way, Loop& loop) {
   constexpr std::int16_t kWays[5][3] = {
       {8172, 0, 0}, {-8172, 0, 0}, {0, 8172, 0}, {0, -8172, 0}, {0, 300, -8166}};
   for (int axis = 0; axis < 3; ++axis) loop.inputs.accel_count[axis] = kWays[way][axis];
 }
 
-// The stand is requested from the first tick, and the estimate begins upright.
 TEST(Step, RobotThatLiesDoesNotBeginToRise) {
   Loop& loop = test::fresh_loop();
   for (int way = 0; way < 5; ++way) {
@@ -240,7 +238,7 @@ TEST(Step, RobotThatLiesDoesNotBeginToRise) {
   }
 }
 
-// The robot fell meanwhile and relaxed; its tilt is from before the silence.
+// Its tilt is from before the silence.
 TEST(Step, RobotThatFellWhileItsImuWasSilentDoesNotRise) {
   Loop& loop = test::fresh_loop();
   loop.command.request = Request::kStand;
@@ -255,7 +253,7 @@ TEST(Step, RobotThatFellWhileItsImuWasSilentDoesNotRise) {
   }
 }
 
-// Putting the joint back by hand is enough: the fault only reports the reason.
+// Putting the joint back by hand is enough.
 TEST(Step, JointBeyondItsLimitsIsNotThrownBack) {
   Loop& loop = test::fresh_loop();
   for (int j = 0; j < test::kJointCount; ++j) {
@@ -274,7 +272,6 @@ TEST(Step, JointBeyondItsLimitsIsNotThrownBack) {
   }
 }
 
-/// Supply low whenever the robot has torque.
 void tick_with_sagging_supply(Loop& loop) {
   loop.inputs.flags |= kSlowFresh;
   loop.inputs.slow_joint =
@@ -284,7 +281,6 @@ void tick_with_sagging_supply(Loop& loop) {
   loop.tick();
 }
 
-// Else it would walk and stop for ever.
 TEST(Step, SupplyThatSagsUnderLoadSitsTheRobotDownOnce) {
   Loop& loop = test::fresh_loop();
   loop.walk(1000);
@@ -322,7 +318,6 @@ TEST(Step, RobotWhosePowerIsBadDoesNotRise) {
   }
 }
 
-// Goals must not begin at count 0.
 TEST(Step, RobotWaitsForEveryServosFirstReport) {
   Loop& loop = test::fresh_loop();
   for (int j = 0; j < test::kJointCount; ++j) {
@@ -373,11 +368,11 @@ TEST(Step, TurnsTheHeadWhereToldWithinLimits) {
   EXPECT_EQ(loop.state.limit.goal_rad[test::kHead + 1], kRobot.joint[test::kHead + 1].lower_rad);
 }
 
-// The right leg mirrors the left one half a cycle later: no stage treats the sides differently. A
-// cycle of 440 ms is 44 ticks; without heading control all steps last equally long.
+// The right leg mirrors the left one half a cycle later. A cycle is 44 ticks; without heading
+// control all steps last equally long.
 TEST(Step, WalkIsPeriodic) {
   constexpr int kCycle = 44;
-  constexpr float kMirror[kLegJoints] = {-1, -1, 1, 1, 1, -1};  // yaw and roll change their sign
+  constexpr float kMirror[kLegJoints] = {-1, -1, 1, 1, 1, -1};
   Loop& loop = test::fresh_loop();
   get_walking(loop);
   test::write_parameter(0, 0.44F, loop.inputs);

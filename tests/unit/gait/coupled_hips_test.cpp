@@ -11,7 +11,7 @@ namespace {
 
 using namespace verp::test;
 
-// Both hips' yaws as the legs want them, and how well one motor serves both.
+// As the legs want them, and how well one motor serves both.
 struct Yaws {
   float most_rad = 0;  ///< of the driving joint
   float most_off_rad = 0;
@@ -51,8 +51,7 @@ Yaws walk(const Params& params, const VelocityIn& wanted, bool turned_to_hips) {
   return yaws;
 }
 
-// Closed-form and Newton legs, straight and in a curve. One motor serves both yaws to within 0.2
-// mrad, and the trunk turns by less than a degree.
+// One motor serves both yaws to 0.2 mrad; the trunk turns by less than a degree.
 TEST(CoupledHips, BodyTurnsUntilOneMotorFitsBothLegs) {
   for (const Params& robot : {kRobot, make_offset_robot()}) {
     const Params params = with_coupled_hips(robot, -1.0F);
@@ -70,7 +69,6 @@ TEST(CoupledHips, BodyTurnsUntilOneMotorFitsBothLegs) {
   }
 }
 
-// The trunk's heading is then nearer to one foot's.
 TEST(CoupledHips, AnyRatioThatTurnsTheFeetOppositeWaysWalks) {
   for (const float ratio : {-0.5F, -2.0F}) {
     const Params params = with_coupled_hips(kRobot, ratio);

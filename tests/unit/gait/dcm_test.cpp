@@ -26,7 +26,7 @@ Step step_to(Xy zmp_begin_m, Xy zmp_end_m, float double_support_s) {
   return step;
 }
 
-// `count` steps of 4 cm, the ZMP alternately left and right; the last DCM as if walking continued.
+// Steps of 4 cm; the last DCM as if walking continued.
 void lay_walk(Step* steps, int count, float double_support_s) {
   Xy from_m{0, 0};
   for (int i = 0; i < count; ++i) {
@@ -57,7 +57,7 @@ TEST(Dcm, EndsAStepWhereThePlanSays) {
   }
 }
 
-// Forward integration alone would diverge exponentially.
+// Forward integration would diverge.
 TEST(Dcm, ComStaysBoundedOverALongWalk) {
   Step steps[40];
   for (const float support_s : {0.0F, 0.011F, 0.1F}) {
@@ -82,7 +82,7 @@ TEST(Dcm, ContinuesFromStepToStep) {
   }
 }
 
-// x' = omega (xi - x) and xi' = omega (xi - zmp), in steps of 0.1 ms by the midpoint rule.
+// x' = omega (xi - x), xi' = omega (xi - zmp), steps of 0.1 ms, midpoint rule.
 TEST(Dcm, ClosedFormMatchesNumericIntegration) {
   Step steps[3];
   for (const float support_s : {0.0F, 0.02F, 0.1F}) {
@@ -115,7 +115,6 @@ TEST(Dcm, TwoStretchesMakeTheWhole) {
   }
 }
 
-// An endless walk converges to periodic_dcm.
 TEST(Dcm, PeriodicEndIsAFixedPointOfTwoSteps) {
   for (const float support_s : {0.0F, 0.011F, 0.1F, 0.2F}) {
     const Xy one_m{0.04F, 0.08F}, other_m{0.03F, -0.07F};

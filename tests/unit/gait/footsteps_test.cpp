@@ -41,8 +41,8 @@ TEST(Footsteps, FeetTakeTurns) {
   }
 }
 
-// The gyro is read once per period and must not always see the same moment of a landing. With each
-// landing as an angle within the period, the mean per foot vanishes.
+// The gyro is read once per period and must not always see the same moment of a landing. Over the
+// period, the mean angle of landing vanishes.
 TEST(Footsteps, EachFootLandsInBothHalvesOfAControlPeriod) {
   Walk walk;
   walk.tuning.cycle_s = 0.45F;
@@ -85,7 +85,7 @@ TEST(Footsteps, TheSwingFootLiftsAsHighAsIsTunedAndTheOtherStands) {
   }
 }
 
-// Hurried servos lag and the robot sags: at 0.42 m/s a foot would scrape the ground.
+// At 0.42 m/s a sagging robot's foot would scrape.
 TEST(Footsteps, AHurriedFootLiftsHigherAndStartsSooner) {
   Walk slow, fast;
   slow.tuning.max_step_m = fast.tuning.max_step_m = 0.1F;
@@ -160,7 +160,6 @@ TEST(Footsteps, TooFastIsLimitedAndNoted) {
   EXPECT_LE(math::abs(stride.turn_rad), walk.tuning.max_turn_rad + 1e-6F);
 }
 
-// Also while x shrinks and y grows.
 TEST(Footsteps, NoStepIsLongerThanTheLongestAdmittedOnTheWayToAnother) {
   test::Random random(5);
   Walk walk;
@@ -234,7 +233,6 @@ TEST(Footsteps, HeadingErrorTurnsTheNextSteps) {
   EXPECT_LT(walk.state.body.yaw_rad, 0.4F);
 }
 
-// Strides shrink, the feet come level, then the ZMP returns to the middle.
 TEST(Footsteps, StopBringsTheFeetLevelThenTheWeightBack) {
   for (const VelocityIn& wanted :
        {VelocityIn{.vx_m_s = 0.3F}, VelocityIn{.vx_m_s = -0.1F, .vy_m_s = 0.05F},
@@ -279,7 +277,7 @@ TEST(Footsteps, ZmpStaysInsideTheSoleWhateverIsTuned) {
   }
 }
 
-// Outward from the midline, equally for both feet.
+// Outward from the midline.
 TEST(Footsteps, ZmpUnderBothFeetIsMirrored) {
   GaitTuning tuning;
   const Xy left = zmp_under(kRobot, tuning, kLeft, {{0, 0.036F}, 0});

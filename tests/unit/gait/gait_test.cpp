@@ -11,21 +11,19 @@ namespace {
 using test::apart;
 using test::Walker;
 
-constexpr float kPaper_m_s = 0.1777F;  // 4 cm steps, 450 ms cycles
+constexpr float kPaper_m_s = 0.1777F;  // 4 cm steps, 450 ms
 
-// Over both feet, relative to the body, in one tick.
+// Both feet relative to the body, in one tick.
 float largest_move(const Pose* before, const Walker& walker) {
   return math::max(test::distance(before[kLeft].position_m, walker.sole(kLeft).position_m),
                    test::distance(before[kRight].position_m, walker.sole(kRight).position_m));
 }
 
-// Relative to the body. A quintic peaks at 15/8 of its mean, and a swing foot travels at most twice
-// its step against the body's motion.
+// A quintic peaks at 15/8 of its mean; a swing foot travels at most twice its step.
 float fastest_m_s(float velocity_m_s) {
   return 0.25F + 4.5F * math::abs(velocity_m_s);
 }
 
-// The paper's phases within 20 s.
 TEST(Gait, WholeWalkIsContinuousAndItsPhasesFollowEachOther) {
   Walker walker(test::kRobot);
   walker.set_off({.vx_m_s = kPaper_m_s});
@@ -47,8 +45,7 @@ TEST(Gait, WholeWalkIsContinuousAndItsPhasesFollowEachOther) {
   EXPECT_EQ(int{walker.state.queued}, 0);
 }
 
-// Weighing takes most of a standing tick. It runs again only after arms, head or tuning have moved;
-// a lump without mass shows whether it ran.
+// Weighing takes most of a standing tick. A lump without mass shows whether it ran.
 TEST(Gait, StandsUnweighedUntilSomethingMoves) {
   Walker walker(test::kRobot);
   walker.run(1.5F);
@@ -116,7 +113,6 @@ TEST(Gait, SteadyWalkGoesAtTheVelocityWanted) {
     const Pose before = walker.sole(kLeft);
     const bool carried = walker.state.queue[0].swing == kRight;
     walker.tick();
-    // Relative to the standing foot: half of the time, half of the way.
     if (carried && walker.state.queue[0].swing == kRight) {
       way_m += before.position_m.x() - walker.sole(kLeft).position_m.x();
     }
@@ -127,7 +123,7 @@ TEST(Gait, SteadyWalkGoesAtTheVelocityWanted) {
 TEST(Gait, RightStepsMirrorLeftSteps) {
   constexpr int kTicksPerStep = 45;
   Walker walker(test::kRobot, 5000);
-  walker.tuning.gait.heading_gain = 0.0F;  // steps of equal length in time
+  walker.tuning.gait.heading_gain = 0.0F;  // steps last equally long
   walker.set_off({.vx_m_s = kPaper_m_s});
   walker.run(6.0F);
   static Pose sole[kTicksPerStep][kFeet];
@@ -145,8 +141,7 @@ TEST(Gait, RightStepsMirrorLeftSteps) {
   }
 }
 
-// Gait time is continuous. The remaining error is how far the head was ahead when a key point was
-// fixed.
+// What remains is how far the head was ahead when a key point was fixed.
 TEST(Gait, AnyPeriodGivesTheSameWalk) {
   constexpr int kSamples = 100;  // every 40 ms
   static Pose wanted[kSamples][kFeet];
@@ -167,7 +162,7 @@ TEST(Gait, AnyPeriodGivesTheSameWalk) {
   }
 }
 
-// Distance of a ground point from a sole's rectangle; 0 inside.
+// To a sole's rectangle; 0 inside.
 float outside_of(const LegParams& leg, const Foothold& foot, Xy point_m) {
   const Xy at = turned(point_m - foot.at_m, -foot.yaw_rad);
   const float x = math::max(at.x - leg.sole_front_m, -leg.sole_back_m - at.x);
@@ -175,8 +170,7 @@ float outside_of(const LegParams& leg, const Foothold& foot, Xy point_m) {
   return math::hypot(math::max(x, 0.0F), math::max(y, 0.0F));
 }
 
-// In single support inside the sole by the margin, in double support between the points under both
-// feet.
+// By the margin in single support, between the points under both feet in double support.
 TEST(Gait, PlannedZmpStaysInsideTheSupportPolygon) {
   constexpr VelocityIn kOrders[] = {
       {.vx_m_s = kPaper_m_s}, {.vx_m_s = -0.1F, .vy_m_s = 0.05F}, {.wz_rad_s = 0.6F}};
@@ -217,7 +211,7 @@ TEST(Gait, WeightIsSharedAndGoesToTheCarryingFoot) {
   }
 }
 
-// For any double support and any end of a step within a period.
+// For any double support and end of step.
 TEST(Gait, AFootThatLandedTakesTheWeightOverInNoLessThanEightMilliseconds) {
   for (const float double_support : {0.0F, 0.006F, 0.2F}) {
     Walker walker(test::kRobot);
@@ -247,7 +241,6 @@ Walker walked(float step_m, float cycle_s, float multibody_enable, float lift_m 
   return walker;
 }
 
-// A plan like the paper's stays unchanged.
 TEST(Gait, PlanWhoseZmpWouldLeaveTheSoleIsShortenedOrRefused) {
   for (const float multibody : {0.0F, 1.0F}) {
     const Walker paper = walked(0.04F, 0.45F, multibody);
@@ -270,7 +263,7 @@ TEST(Gait, PlanWhoseZmpWouldLeaveTheSoleIsShortenedOrRefused) {
   }
 }
 
-// The reason for shortening may end: a slower walk, or more margin.
+// A slower walk or more margin ends the reason.
 TEST(Gait, ShortenedPlanGrowsAgainWhenThereIsRoomAndOnlyThen) {
   Walker walker = walked(0.12F, 0.45F, 1.0F);
   walker.run(20.0F);
@@ -289,7 +282,6 @@ TEST(Gait, ShortenedPlanGrowsAgainWhenThereIsRoomAndOnlyThen) {
   EXPECT_NEAR(walker.state.footsteps.stride.by_m.x, 0.1F * 0.5F * 0.45F, 1e-6F);
 }
 
-// The paper's 16 states.
 TEST(Gait, CycleStatesCountFromZeroToFifteen) {
   Walker walker(test::kRobot, 5000);
   walker.set_off({.vx_m_s = 0.1F});
@@ -319,7 +311,6 @@ TEST(Gait, WalksAgainAfterStopping) {
   }
 }
 
-// The operator withdraws the request before the first step.
 TEST(Gait, StopBeforeTheFirstStepIsHonoured) {
   for (int ticks = 1; ticks < 80; ticks += 7) {
     Walker walker(test::kRobot);
@@ -331,7 +322,7 @@ TEST(Gait, StopBeforeTheFirstStepIsHonoured) {
   }
 }
 
-// Kept key points are never read after they are overwritten, however short the cycle.
+// However short the cycle, no overwritten key point is read.
 TEST(Gait, DelayedJointsSeeTheRecentPast) {
   constexpr int kTicks = 400;
   static Vec3 sole_m[kTicks];
@@ -343,7 +334,7 @@ TEST(Gait, DelayedJointsSeeTheRecentPast) {
       walker.tick();
       sole_m[tick] = walker.sole(kLeft).position_m;
       if (walker.state.moving == 0 || tick < 60) continue;
-      // Of this step and the previous one, whose key points may lie closer together.
+      // The previous step's key points may lie closer together.
       constexpr std::int32_t kKept = kFixed - 4;
       const std::int32_t key_us = walker.state.queue[0].key_us, clock_us = walker.state.clock_us;
       const std::int32_t passed = clock_us / key_us;
@@ -399,7 +390,7 @@ void expect_total(const Tuning& tuning, const VelocityIn& wanted, int what) {
   }
 }
 
-// The hip is higher than the leg is long.
+// The hip is too high.
 TEST(Gait, WalkIsRefusedWhereTheLegsDontReachTheFloor) {
   Walker walker(test::kRobot);
   walker.tuning.gait.hip_height_m = 0.21F;
@@ -409,7 +400,7 @@ TEST(Gait, WalkIsRefusedWhereTheLegsDontReachTheFloor) {
   EXPECT_NE(walker.state.footsteps.notes & kPlanRefused, 0);
 }
 
-// One number at a time, under bold orders.
+// One at a time, under bold orders.
 TEST(Gait, EndsOfEveryTuningRangeGiveFinitePlans) {
   for (int id = 0; id < kTuningCount && id < static_cast<int>(sizeof(GaitTuning) / 4); ++id) {
     for (const float value : {kTuningRanges[id].low, kTuningRanges[id].high}) {

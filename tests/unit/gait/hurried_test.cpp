@@ -3,7 +3,6 @@
 #include "common/gait/dcm.hpp"
 #include "tests/unit/gait/walker.hpp"
 
-// A robot that must step at once (GaitIn::at_once) cannot wait for a walk's preview.
 namespace verp::gait {
 namespace {
 
@@ -35,7 +34,7 @@ TEST(HurriedStart, SwingsAFootWithinATenthOfASecond) {
   EXPECT_GE(ticks_to_swing(walk), 60) << "as a walk begins";
 }
 
-// With one key point fewer, the ZMP would be outside.
+// One key point fewer would be outside.
 TEST(HurriedStart, TheZmpStaysInsideTheSolesAndTheStartIsAsShortAsTheyAllow) {
   for (const float cycle_s : kCycles_s) {
     test::Walker walker = hurrying(cycle_s);
@@ -53,7 +52,7 @@ TEST(HurriedStart, TheZmpStaysInsideTheSolesAndTheStartIsAsShortAsTheyAllow) {
   }
 }
 
-// The DCM begins over the middle of the soles, and the next step's ends where this one's begins.
+// The DCM begins over the middle of the soles.
 TEST(HurriedStart, ThrowsThePendulumFromRestToWhereTheFirstStepWantsIt) {
   for (const float cycle_s : kCycles_s) {
     test::Walker walker = hurrying(cycle_s);

@@ -14,15 +14,14 @@ Xy last_miss(const PreviewState& preview) {
   return preview.ring[static_cast<std::uint8_t>(preview.head - 1) % kRing].zmp_miss_m;
 }
 
-// The robot is then the planned pendulum. Double support is long, because key points 15 ms apart
-// resolve the ZMP's corners worst.
+// The robot is then the planned pendulum. Key points 15 ms apart resolve the ZMP's corners worst.
 TEST(Preview, MasslessLegsLeaveNothingToCorrect) {
   static const Params robot = test::make_massless_legs_robot();
   Walker walker(robot);
   walker.tuning.gait.double_support = 0.5F;
-  walker.tuning.gait.heading_gain = 0.0F;  // all 15 ms apart
+  walker.tuning.gait.heading_gain = 0.0F;
   walker.set_off({.vx_m_s = 0.1F});
-  walker.run(1.5F);  // the CoM starts from rest with a jerk that no key point resolves
+  walker.run(1.5F);  // the first jerk is too fast for key points
   float worst_m = 0;
   for (int i = 0; i < 400; ++i) {
     walker.tick();
@@ -107,7 +106,7 @@ TEST(Preview, StandingBodyHasNoAcceleration) {
   PreviewState state;
   for (Xy& fixed : state.fixed_m) fixed = {0.01F, 0.02F};
   EXPECT_EQ(apart(body_acceleration(state, 5, 0.3F, 0.015F), {}), 0.0F);
-  for (int i = 0; i < kFixed; ++i) {  // x = t^2 / 2, in steps of 1 s
+  for (int i = 0; i < kFixed; ++i) {  // x = t^2 / 2
     state.fixed_m[i] = {0.5F * static_cast<float>(i * i), 0};
   }
   EXPECT_NEAR(body_acceleration(state, 5, 0.3F, 1.0F).x, 1.0F, 1e-5F);

@@ -19,15 +19,13 @@ inline Corners corners_of(const LegParams& leg, const Foothold& foot) {
   return corners;
 }
 
-// Two convex shapes are apart if one side of either has the other shape wholly beyond it. The
-// distance is the largest that any side gives.
+// Separating axis: the largest distance that any side gives.
 inline float apart_m(const Corners& a, const Corners& b) {
   float most_m = -1;
   for (int shape = 0; shape < 2; ++shape) {
     const Corners &own = shape == 0 ? a : b, &other = shape == 0 ? b : a;
     for (int i = 0; i < 4; ++i) {
       const Xy side = own.at[(i + 1) % 4] - own.at[i];
-      // Corners run counterclockwise.
       const Xy out = (1.0F / math::hypot(side.x, side.y)) * Xy{side.y, -side.x};
       float least_m = 1;
       for (const Xy& corner : other.at) least_m = math::min(least_m, dot(corner - own.at[i], out));
@@ -37,7 +35,7 @@ inline float apart_m(const Corners& a, const Corners& b) {
   return most_m;
 }
 
-// Samples the swing foot's whole way every 4 ms, because it rises only a few millimetres.
+// Every 4 ms of the swing.
 inline float least_apart_m(const Params& params, const Step& step) {
   constexpr std::int32_t kTick_us = 4000;
   float least_m = 1;
@@ -50,7 +48,6 @@ inline float least_apart_m(const Params& params, const Step& step) {
   return least_m;
 }
 
-/// More than any robot can do; the plan limits it.
 inline VelocityIn any_order(Random& random) {
   return {.vx_m_s = random.between(-0.8F, 0.8F),
           .vy_m_s = random.between(-0.5F, 0.5F),
@@ -58,7 +55,7 @@ inline VelocityIn any_order(Random& random) {
           .heading_error_rad = random.between(-1, 1)};
 }
 
-/// Over random orders, each lasting one to a dozen steps.
+/// Random orders of one to a dozen steps.
 inline float least_apart_of_jumps_m(const Params& params, const GaitTuning& tuning,
                                     std::uint32_t seed, int orders) {
   Random random(seed);

@@ -2,7 +2,6 @@
 
 #include "tests/unit/gait/soles.hpp"
 
-/// Seen from above.
 namespace verp::gait {
 namespace {
 
@@ -53,8 +52,7 @@ TEST(Soles, PassBesideEachOtherWhereABodyGoesOrTurns) {
   }
 }
 
-// The straight way to a landing would cross the other sole, by 0.6 mm at 0.25 m/s with 1 rad/s and
-// by 5 mm at 0.4 m/s.
+// A straight way would cross the other sole by up to 5 mm.
 TEST(Soles, PassBesideEachOtherInCurves) {
   for (const float vx : {-0.3F, -0.05F, 0.05F, 0.1F, 0.17F, 0.25F, 0.4F}) {
     for (const float vy : {0.0F, -0.1F, 0.15F}) {
@@ -70,7 +68,7 @@ TEST(Soles, PassBesideEachOtherInCurves) {
   }
 }
 
-// 26 mm of overlap if the plan ignores the way.
+// 26 mm overlap if the plan ignores the way.
 TEST(Soles, PassBesideEachOtherHoweverOrdersJump) {
   for (std::uint32_t seed = 1; seed <= 12; ++seed) {
     GaitTuning tuning;
@@ -80,14 +78,14 @@ TEST(Soles, PassBesideEachOtherHoweverOrdersJump) {
   }
 }
 
-// Before this rule soles overlapped by 1.8 mm at 0.3 rad/s and by 29 mm at 1.55.
+// Without the rule soles overlap by 29 mm at 1.55 rad/s.
 TEST(Soles, TurningFeetLandFurtherOutAndTurnLessWhereThatIsNotEnough) {
   float turned_rad = 0;
   for (const float wz : {0.05F, 0.1F, 0.3F, 0.6F, 1.0F, 1.55F, 3.0F}) {
     for (const float sign : {1.0F, -1.0F}) {
       Walk walk;
       walk.tuning.max_turn_rad = 0.6F;
-      walk.tuning.half_stance_m += 0.001F;  // 2.2 mm further apart than soles have to be
+      walk.tuning.half_stance_m += 0.001F;
       for (int i = 0; i < kSteps; ++i) {
         ASSERT_GT(least_apart_m(kRobot, walk.take({.wz_rad_s = sign * wz})), kLeastApart_m) << wz;
       }

@@ -19,7 +19,7 @@ struct Walker {
       tick();
     }
   }
-  /// Stands until the body is over the middle of the soles, then asks to walk.
+  /// Waits for the body over the middle, then walks.
   void set_off(const VelocityIn& wanted) {
     in.walk = false;
     run(1.5F);

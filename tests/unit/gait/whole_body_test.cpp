@@ -64,7 +64,6 @@ TEST(WholeBody, ComShareIsHowFarTheComFollowsTheBody) {
   }
 }
 
-// From zero, Newton ends with the knee pressed against its stop.
 TEST(WholeBody, HyperextendedZeroIsNoPlaceToStartFrom) {
   static const Params robot = test::make_hyperextended_robot();
   const Lump lump{2, {}};
@@ -121,7 +120,7 @@ TEST(Swing, WayBendsAroundTheOtherFoot) {
   EXPECT_GT(foot_at(step, kLeft, 0.25F * step.duration_s()).on.at_m.y, 0.045F);
 }
 
-// The body sags while one foot carries, so the swing sole comes down only once it carries.
+// The body sags over one foot.
 TEST(Swing, SoleTouchesDownHighAndSettles) {
   Step step;
   step.key_us = 15000;

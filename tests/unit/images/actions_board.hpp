@@ -18,7 +18,6 @@ struct SentActions {
 };
 static_assert(sizeof(SentActions) == sizeof(action::test::Shelf) + sizeof(action::KeptMark));
 
-/// An ActionPlace in memory, as slow and as small as a test wants.
 struct FakePlace {
   static constexpr std::size_t kBytes = sizeof(SentActions) + 100;
   std::size_t room() const { return kBytes; }
@@ -31,7 +30,7 @@ struct FakePlace {
   bool write(std::size_t offset, const std::uint8_t* from, std::size_t count) {
     if (blocks_taken == 0) return false;
     --blocks_taken;
-    for (std::size_t i = 0; i < count; ++i) byte[offset + i] &= from[i];  // as flash does
+    for (std::size_t i = 0; i < count; ++i) byte[offset + i] &= from[i];
     return true;
   }
 

@@ -4,8 +4,8 @@
 
 #include "tests/unit/app/operator_bench.hpp"
 
-// Blocks of actions over the operator port: the board takes whole ones of its own robot, refuses
-// others with a reason, and then keeps its old ones.
+// The board takes whole blocks of its own robot, refuses others with a reason, and keeps its old
+// ones.
 
 namespace verp::app::test {
 namespace {
@@ -85,7 +85,6 @@ TEST(OperatorActions, ReadsThoseInForceAndThatCostsNoErase) {
   EXPECT_EQ(session.board.place.begun, 0);
 }
 
-// The cable is pulled after any block.
 TEST(OperatorActions, RefusesWhatIsNotWhole) {
   for (std::size_t missing = 0; missing < sizeof(SentActions); missing += table::kWindowBytes) {
     Session& session = fresh_session();
@@ -128,7 +127,6 @@ TEST(OperatorActions, RefusesThoseOfAnotherRobot) {
   EXPECT_FALSE(session.took_them());
 }
 
-// Without a sound robot the board cannot tell whose actions they are.
 TEST(OperatorActions, RefusesAllWhereNoRobotIs) {
   Session& session = fresh_session();
   session.board.robot.params.joint_count = 200;
@@ -146,7 +144,7 @@ TEST(OperatorActions, TakesNoBlockBeyondItsRoom) {
   EXPECT_TRUE(session.bench.write_bytes(reg("window_offset"), block, 7).error == Error::kNone);
 }
 
-// A block writes and may erase flash.
+// A block may erase flash.
 TEST(OperatorActions, TakesNoBlockWhileAnyServoHoldsTorque) {
   Session& session = fresh_session();
   session.bench.arm(true);

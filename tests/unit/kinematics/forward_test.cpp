@@ -10,7 +10,7 @@ namespace {
 using test::kRobot;
 using test::Random;
 
-// No result may depend on the body standing at the origin.
+// No result may depend on the body's pose.
 Pose some_body() {
   return {math::rotation_rpy(0.1F, -0.2F, 0.7F), Vec3(0.3F, -0.2F, 0.25F)};
 }
@@ -29,7 +29,7 @@ Params all_axes_robot() {
   return params;
 }
 
-// p = p0 + R0 p1 and R = R0 R1 (the paper), by Rodrigues' formula alone.
+// p = p0 + R0 p1, R = R0 R1, by Rodrigues' formula alone.
 Pose by_chain_rule(const Params& params, const Pose& body, const float* angle_rad, int node) {
   if (node == 0) return body;
   const JointParams& joint = params.joint[node - 1];
@@ -125,7 +125,7 @@ TEST(CenterOfMass, OfARobotWithoutMassIsItsBody) {
   EXPECT_TRUE(center_of_mass(params, some_body(), zero) == some_body().position_m);
 }
 
-// Central differences: the error of float32 is about 1e-7 m / 2e-2 rad.
+// Central differences in float32: 1e-7 m / 2e-2 rad.
 TEST(Jacobian, IsTheDerivativeOfTheSolesPose) {
   const Params params = all_axes_robot();
   constexpr float kStep_rad = 1e-2F;

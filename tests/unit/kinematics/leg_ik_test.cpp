@@ -32,7 +32,7 @@ void expect_within_limits(const Params& params, const LegParams& leg, const LegA
   }
 }
 
-// The line from hip to ankle has length `down_m` and is tilted by roll and pitch.
+// Hip to ankle is `down_m` long, tilted by roll and pitch.
 Pose sole_under_hip(const LegParams& leg, float down_m, float roll_rad, float pitch_rad,
                     const Mat3& sole) {
   const Vec3 hip_ankle = math::rot_x(roll_rad) * (math::rot_y(pitch_rad) * Vec3(0, 0, -down_m));
@@ -59,7 +59,7 @@ TEST(LegIk, ClosedFormUndoesForwardKinematics) {
   }
 }
 
-// The returned sines place the sole to float32 accuracy, so chains need not compute them again.
+// Chains take these sines, so they must place the sole to float32 accuracy.
 void expect_sines(const Params& params, const LegParams& leg, const LegAngles& solved) {
   for (int k = 0; k < kLegJoints; ++k) {
     const math::SinCos turn = math::sincos(solved.angle_rad[k]);
@@ -87,13 +87,13 @@ TEST(LegIk, SinesAreThoseOfTheAngles) {
       const LegParams& other = offset.leg[&leg - kRobot.leg];
       expect_sines(offset, other, solve_leg_closed_form(offset, other, sole));
       expect_sines(kRobot, leg, solve_leg_newton(kRobot, leg, sole, leg_rad));
-      sole.position_m.z() -= 0.1F;  // out of reach, or beyond a limit
+      sole.position_m.z() -= 0.1F;  // or beyond a limit
       expect_sines(kRobot, leg, solve_leg_closed_form(kRobot, leg, sole));
     }
   }
 }
 
-// Any roll solves it, but the solver must return one.
+// Any roll solves it.
 TEST(LegIk, HipOnTheAnklesRollAxisIsReached) {
   constexpr float kAsked_rad[][kLegJoints] = {
       {-0.211472511F, 0.356358171F, -1.83568692F, 1.61554754F, 0.763026237F, 0.447418749F},
@@ -160,7 +160,7 @@ TEST(LegIk, NewtonAgreesWithTheClosedForm) {
   }
 }
 
-// Along a swing foot's way, each solution starts the next.
+// Each solution starts the next.
 TEST(LegIk, NewtonFollowsAPathWhereAxesDoNotMeet) {
   const Params params = test::make_offset_robot();
   for (const LegParams& leg : params.leg) {
@@ -182,7 +182,7 @@ TEST(LegIk, NewtonFollowsAPathWhereAxesDoNotMeet) {
   }
 }
 
-// The nearest pose: same direction from the hip, same orientation.
+// Same direction from the hip, same orientation.
 TEST(LegIk, BeyondReachTheLegIsStraightTowardsTheTarget) {
   for (const LegParams& leg : kRobot.leg) {
     for (const float roll : {-0.2F, 0.0F, 0.2F}) {
@@ -215,7 +215,6 @@ TEST(LegIk, TooNearIsFlagged) {
   EXPECT_EQ(solved.angle_rad[3], params.joint[test::kLeftLeg + 3].upper_rad);
 }
 
-// The knee's speed is infinite at full reach.
 TEST(LegIk, StraightKneeIsNoSingularity) {
   const LegParams& leg = kRobot.leg[0];
   const float reach_m = leg.thigh_m + leg.shank_m;

@@ -33,7 +33,6 @@ void expect_saturation() {
   const float beyond = 2.0F * static_cast<float>(Limits::max() / 2 + 1);
   EXPECT_EQ(round_to<Integer>(beyond), Limits::max());
   EXPECT_EQ(round_to<Integer>(Limits::is_signed ? -beyond : -0.4F), Limits::min());
-  // The largest float below the limit converts exactly if it is a whole number.
   const float inside = std::bit_cast<float>(std::bit_cast<std::uint32_t>(beyond) - 1U);
   if (sizeof(Integer) >= 4) {
     EXPECT_EQ(static_cast<float>(round_to<Integer>(inside)), inside);
@@ -93,7 +92,7 @@ TEST(MathConvert, Int64ToFloatRoundsOnceToNearestEven) {
   EXPECT_EQ(to_float(std::int64_t{16777219}), 16777220.0F);
   EXPECT_EQ(to_float(std::numeric_limits<std::int64_t>::max()), 0x1p+63F);
   EXPECT_EQ(to_float(std::numeric_limits<std::int64_t>::min()), -0x1p+63F);
-  // Just above a tie, where double rounding would go to the other side.
+  // Just above a tie: double rounding would go wrong.
   EXPECT_EQ(to_float((std::int64_t{1} << 60) + (std::int64_t{1} << 36) + 1), 0x1.000002p+60F);
   EXPECT_EQ(to_float((std::int64_t{1} << 60) + (std::int64_t{1} << 36)), 0x1p+60F);
 }

@@ -3,8 +3,7 @@
 
 #include "tests/unit/math/golden_inputs.hpp"
 
-/// Printed by `verp_exhaustive --golden`, then formatted. Other bits on any target break the
-/// floating-point contract; there is no tolerance.
+/// Printed by `verp_exhaustive --golden`, then formatted. There is no tolerance.
 namespace verp::math::golden {
 
 inline constexpr std::uint32_t kResults[kFunctionCount][kArgumentCount] = {

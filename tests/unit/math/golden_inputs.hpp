@@ -4,8 +4,7 @@
 
 #include "common/math/elementary.hpp"
 
-/// Arguments of the golden tables, shared by the test and by `verp_exhaustive --golden`, which
-/// prints the tables.
+/// Shared by the test and by `verp_exhaustive --golden`.
 namespace verp::math::golden {
 
 inline float from_bits(std::uint32_t bits) {
@@ -35,7 +34,7 @@ inline constexpr Function kFunctions[] = {{"sin", sin},
                                           {"sincos.cos", cos_of_both}};
 inline constexpr int kFunctionCount = sizeof kFunctions / sizeof kFunctions[0];
 
-/// Chosen one by one: seams, cancellations, worst cases, special values.
+/// Seams, cancellations, worst cases, special values.
 inline constexpr float kArguments[] = {0.0F,
                                        -0.0F,
                                        0x1p-149F,
@@ -79,7 +78,6 @@ inline constexpr float kArguments[] = {0.0F,
                                        -0x1.fffffep+127F};
 inline constexpr int kArgumentCount = sizeof kArguments / sizeof kArguments[0];
 
-/// (y, x), chosen in the same way.
 struct Point {
   float y;
   float x;
@@ -112,8 +110,7 @@ inline constexpr std::uint64_t hash_word(std::uint64_t hash, std::uint32_t word)
   return (hash ^ word) * 0x100000001B3U;  // FNV-1a, word-wise
 }
 
-/// Hash of the results at `count` bit patterns; an odd stride spreads them over all 2^32 and every
-/// exponent.
+/// An odd stride reaches every exponent.
 inline std::uint64_t hash_of(float (*call)(float), std::uint32_t count) {
   std::uint64_t hash = kHashStart;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -122,7 +119,7 @@ inline std::uint64_t hash_of(float (*call)(float), std::uint32_t count) {
   return hash;
 }
 
-/// The same for arguments between -bound and bound.
+/// For arguments within +-bound.
 inline std::uint64_t hash_within(float (*call)(float), float bound, std::uint32_t count) {
   std::uint64_t hash = kHashStart;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -138,7 +135,7 @@ inline std::uint64_t hash_of_atan2(std::uint32_t count) {
     const float y = from_bits(i * 2654435769U);
     const float x = from_bits(i * 2246822519U + 3266489917U);
     hash = hash_word(hash, to_bits(atan2(y, x)));
-    // Also with exponents close together, where the quotient matters.
+    // Close exponents, where the quotient matters.
     const std::uint32_t close = 0x3F000000U + ((i & 3U) << 23);
     const float near_y = from_bits((to_bits(y) & 0x807FFFFFU) | 0x3F000000U);
     hash = hash_word(hash, to_bits(atan2(near_y, from_bits((to_bits(x) & 0x807FFFFFU) | close))));

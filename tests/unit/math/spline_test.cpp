@@ -5,7 +5,7 @@
 namespace verp::math {
 namespace {
 
-/// Central differences: good to 1e-3 in float.
+/// Good to 1e-3 in float.
 template <class Curve>
 void expect_derivative(Curve curve) {
   constexpr float kStep = 1.0F / 256.0F;
@@ -63,7 +63,7 @@ TEST(MathSpline, QuinticMeetsPositionsAndSlopes) {
   EXPECT_EQ(curve(1.0F).value, -0.7F);
   EXPECT_NEAR(curve(0.0F).derivative, 0.3F, 1e-6F);
   EXPECT_NEAR(curve(1.0F).derivative, 0.2F, 1e-6F);
-  EXPECT_NEAR(curve(1.0F / 64.0F).derivative, 0.3F, 1e-2F);  // no acceleration at the end
+  EXPECT_NEAR(curve(1.0F / 64.0F).derivative, 0.3F, 1e-2F);
   expect_derivative(curve);
 }
 

@@ -34,7 +34,7 @@ TEST(Coupling, DriversTakeTheirFollowersAlongAndBearTheirCorrections) {
   float plain_rad[kMaxJoints] = {}, angle_rad[kMaxJoints] = {};
   plain_rad[kLeftLeg] = angle_rad[kLeftLeg] = 0.2F;
   plain_rad[kFollower] = 0.4F;
-  angle_rad[kFollower] = 0.41F;  // sags by 0.01 rad: half of that at the driver
+  angle_rad[kFollower] = 0.41F;  // sags by 0.01 rad
   share_corrections(params, plain_rad, angle_rad);
   lead(params, angle_rad);
   EXPECT_NEAR(angle_rad[kLeftLeg], 0.205F, 1e-6F);
@@ -70,7 +70,7 @@ TEST(Coupling, ImagesWhoseFollowersFollowNobodyOrHangInACircleAreRefused) {
   lost.joint[kFollower].servo_id = 99;
   EXPECT_FALSE(is_well_formed(lost));
   Params circle = params;
-  circle.joint[kFollower].parent = kRightLeg + 1;  // the hip roll, which is the follower's child
+  circle.joint[kFollower].parent = kRightLeg + 1;  // the hip roll, the follower's child
   EXPECT_FALSE(is_well_formed(circle));
   Params many = params;
   many.followers = kJointCount + 1;

@@ -10,7 +10,7 @@
 namespace verp {
 namespace {
 
-ParamsImage image;  // 4 KB: too much for a microcontroller's stack
+ParamsImage image;  // too large for a microcontroller's stack
 
 void make_image() {
   image = ParamsImage{};
@@ -59,7 +59,7 @@ TEST(Image, DamageIsFound) {
   EXPECT_TRUE(check_image(&image, 4) == ImageFault::kTruncated);
   image.header.core_version = kCoreVersion + 1;
   seal_image(image);
-  EXPECT_TRUE(check() == ImageFault::kNone);  // sealing writes this core's version
+  EXPECT_TRUE(check() == ImageFault::kNone);
   image.header.core_version = kCoreVersion + 1;
   EXPECT_TRUE(check() == ImageFault::kOtherCore);
   image.header.image_version = kImageVersion + 1;
@@ -68,7 +68,7 @@ TEST(Image, DamageIsFound) {
   EXPECT_TRUE(check() == ImageFault::kNotAnImage);
 }
 
-// A sound CRC does not make an index valid: another program may have made the image.
+// A sound CRC does not make an index valid.
 TEST(Image, IndicesOutsideTheirTablesAreFound) {
   make_image();
   image.params.joint[1].parent = 2;
@@ -114,7 +114,7 @@ TEST(Image, ABusThatCannotBeIsFound) {
 
 constexpr float kNan = __builtin_nanf("");
 
-/// The first bad number after one change; empty if all fit.
+/// Empty if all fit.
 template <class Change>
 std::string bad_with(Change change) {
   make_image();
@@ -127,7 +127,6 @@ std::string bad_with(Change change) {
   return bad.text;
 }
 
-// A sound CRC does not make a number valid.
 TEST(Image, NumbersThatAreNoneOrNoRobotsAreNamed) {
   EXPECT_EQ(bad_with([](Params&) {}), "");
   EXPECT_EQ(bad_with([](Params& p) { p.joint[2].lower_rad = kNan; }), "joint[2].lower_rad");
@@ -176,7 +175,6 @@ TEST(Image, EveryNumberOfAJointIsLookedAt) {
   }
 }
 
-// A micrometre changes the result of kinematics.
 TEST(Image, GoldenVectorsNoticeAnotherRobot) {
   make_image();
   image.params.joint[0].origin_parent_m.z = 0.100001F;

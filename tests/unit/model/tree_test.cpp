@@ -25,7 +25,7 @@ TEST(Tree, SubtreeOfTheBodyIsAllJoints) {
   EXPECT_EQ(subtree(kRobot, 0), (1u << test::kJointCount) - 1);
 }
 
-// Joint j moves node j + 1. The left knee carries knee, ankle pitch and ankle roll.
+// Joint j moves node j + 1.
 TEST(Tree, SubtreeIsTheJointAndAllBeyondIt) {
   const int knee = find_joint(kRobot, "l_knee");
   EXPECT_EQ(subtree(kRobot, knee + 1), 7u << knee);

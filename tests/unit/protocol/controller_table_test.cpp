@@ -33,7 +33,7 @@ TEST(ControllerTable, NamesAreUniqueAndSayEverythingInOneCase) {
   EXPECT_TRUE(find("") == nullptr);
 }
 
-// Then two reads of aligned blocks never tear a word.
+// So reads of aligned blocks never tear a word.
 TEST(ControllerTable, ElementsStandOnMultiplesOfTheirSize) {
   for (const Register& each : kTable) {
     if (each.address == address::kModelInformation) continue;
@@ -53,8 +53,7 @@ TEST(ControllerTable, WhatEveryDynamixelHasStandsWhereItIsExpected) {
 }
 
 TEST(ControllerTable, EachRegisterCanBeReadAndWrittenInOnePacket) {
-  constexpr std::size_t kOverhead = kStatusBytes + 2;  // a write's address field is longer than an
-                                                       // error field
+  constexpr std::size_t kOverhead = kStatusBytes + 2;  // an address is longer than an error
   for (const Register& each : kTable) {
     EXPECT_LE(each.bytes() + each.bytes() / 3 + kOverhead, kMaxPacket) << each.name;
   }
@@ -77,7 +76,7 @@ TEST(ControllerTable, RulesAreTheTableWithoutItsWords) {
     ASSERT_EQ(rule->minimum, expected->minimum);
     ASSERT_EQ(rule->maximum(), expected->minimum < 0 ? static_cast<std::int32_t>(expected->maximum)
                                                      : std::int64_t{expected->maximum});
-    if (address > kTableBytes + 8u) address += 97;  // the rest is empty
+    if (address > kTableBytes + 8u) address += 97;
   }
 }
 
@@ -92,7 +91,7 @@ TEST(ControllerTable, WritableRangesFitTheirTypes) {
   }
 }
 
-// CiA 301: manufacturer objects are 2000h to 5FFFh; an array has at most 254 elements.
+// CiA 301: 2000h to 5FFFh; at most 254 elements.
 TEST(ControllerTable, MakesAnObjectDictionary) {
   for (const Register& each : kTable) {
     EXPECT_GE(each.object_index(), 0x2000) << each.name;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <initializer_list>
 
-// Byte sequences are the examples of ROBOTIS e-Manual, "DYNAMIXEL Protocol 2.0".
+// Sequences are the examples of ROBOTIS e-Manual, "DYNAMIXEL Protocol 2.0".
 
 namespace verp::dxl {
 namespace {
@@ -121,7 +121,7 @@ TEST(DeviceEnd, NoEntryReachesPastThePacket) {
   }
 }
 
-// A signed byte pair at 10 within [-5, 300] and a read-only byte at 12.
+// Signed at 10 within [-5, 300], read-only at 12.
 WriteRule two_registers(std::uint16_t address) {
   if (address == 10) return {2, true, -5, 300};
   if (address == 12) return {1, false, 0, 255};

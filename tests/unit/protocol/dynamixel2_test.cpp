@@ -7,8 +7,7 @@
 
 #include "common/protocol/control_table.hpp"
 
-// Byte sequences marked "documented" are the examples of ROBOTIS e-Manual, "DYNAMIXEL
-// Protocol 2.0".
+// "Documented" sequences are the examples of ROBOTIS e-Manual, "DYNAMIXEL Protocol 2.0".
 
 namespace verp::dxl {
 namespace {
@@ -22,7 +21,7 @@ bool equal(const std::uint8_t* bytes, std::size_t size, const std::uint8_t (&exp
   return true;
 }
 
-// Returns the number of packets found, the last one in `last`.
+// Returns the packets found, the last one in `last`.
 int feed(Parser& parser, const std::uint8_t* bytes, std::size_t size, Packet& last) {
   int packets = 0;
   for (std::size_t i = 0; i < size; ++i) {
@@ -34,7 +33,7 @@ int feed(Parser& parser, const std::uint8_t* bytes, std::size_t size, Packet& la
   return packets;
 }
 
-// xorshift32: any generator would do that is the same on every core.
+// xorshift32, the same on every core.
 struct Random {
   std::uint32_t state = 2463534242u;
   std::uint32_t next() {
@@ -50,8 +49,7 @@ TEST(Crc16, DetectsTheDocumentedValues) {
   const std::uint8_t ping[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x03, 0x00, 0x01};
   EXPECT_EQ(crc16(ping, sizeof ping), 0x4E19);
   EXPECT_EQ(crc16(ping, 0), 0);
-  // Polynomial 0x8005, not reflected, initial value 0 ("CRC-16/UMTS"): check value over
-  // "123456789".
+  // CRC-16/UMTS (0x8005, initial value 0) over "123456789".
   const std::uint8_t check[] = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};
   EXPECT_EQ(crc16(check, sizeof check), 0xFEE8);
 }
@@ -192,7 +190,6 @@ TEST(Stuffing, InsertsOneByteAfterEachHeaderPattern) {
   EXPECT_TRUE(equal(bytes + 9, sizeof stuffed, stuffed));
 }
 
-// No packet contains a header inside.
 TEST(Stuffing, RoundTripsAnyBytes) {
   Random random;
   const std::uint8_t alphabet[] = {0xFF, 0xFF, 0xFD, 0x00, 0x55};
@@ -247,7 +244,7 @@ TEST(Parser, FindsAGoodPacketAfterNoise) {
     std::uint8_t good[32];
     const std::uint8_t data[] = {1, 2, 3, 4};
     const std::size_t length = encode_status(good, sizeof good, 9, 0, data, sizeof data);
-    // A false header may claim bytes of the good packet. Its check fails, but the packet survives.
+    // A false header may claim bytes of the good packet.
     int packets = feed(parser, good, length, packet);
     for (int filler = 0; packets == 0 && filler < static_cast<int>(kMaxPacket); ++filler) {
       const std::uint8_t zero = 0;
@@ -301,7 +298,7 @@ TEST(Parser, IgnoresLengthsThatCannotBe) {
   EXPECT_EQ(parser.noise_bytes(), 14u);
 }
 
-// One block per device. Each block's CRC covers all bytes before it, and there is no stuffing.
+// Each block's CRC covers all bytes before it; there is no stuffing.
 TEST(FastSyncRead, BlocksOfAllDevicesMakeOnePacket) {
   std::uint8_t bytes[64];
   const std::uint8_t first[] = {0xFF, 0xFF, 0xFD, 0x00};

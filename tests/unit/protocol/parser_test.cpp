@@ -5,8 +5,7 @@
 
 #include "common/protocol/dynamixel2.hpp"
 
-// Compares the parser with a reference that sees the whole stream: what it finds, when, and at what
-// cost.
+// Compares the parser with a reference that sees the whole stream.
 
 namespace verp::dxl {
 namespace {
@@ -43,7 +42,7 @@ void add_packet(Stream& stream, Random& random, bool spoilt) {
   std::uint8_t data[64];
   const std::size_t count = random.below(sizeof data);
   for (std::size_t i = 0; i < count; ++i) {
-    // Many bytes that need stuffing, and the header itself.
+    // Many bytes need stuffing.
     data[i] = static_cast<std::uint8_t>(random.below(3) == 0 ? random.next() : 0xFD + i % 3);
   }
   const std::size_t size = encode_status(packet, sizeof packet, 1, 0, data, count);
@@ -51,7 +50,7 @@ void add_packet(Stream& stream, Random& random, bool spoilt) {
   for (std::size_t i = 0; i < size; ++i) stream.add(packet[i]);
 }
 
-/// Packets, corrupted ones, false headers and pieces of headers in noise.
+/// Good and corrupted packets, false headers, noise.
 void fill(Stream& stream, Random& random) {
   stream.size = 0;
   while (stream.size < kStream) {
@@ -64,7 +63,7 @@ void fill(Stream& stream, Random& random) {
         add_packet(stream, random, true);
         break;
       case 3:
-        stream.add_header(random.below(700));  // some longer than any packet
+        stream.add_header(random.below(700));
         break;
       case 4:
         for (std::uint32_t i = random.below(60); i > 0; --i) stream.add(random.next() >> 16);
@@ -75,13 +74,11 @@ void fill(Stream& stream, Random& random) {
   }
 }
 
-/// Tries each byte in turn.
 struct Reference {
   std::size_t at = 0;     ///< search position
-  std::size_t known = 0;  ///< bytes the parser needs to get there
+  std::size_t known = 0;  ///< bytes the parser needs
   std::uint32_t crc_errors = 0, noise = 0;
 
-  /// Finds the next packet; false if at most its beginning is there.
   bool next(const Stream& stream, std::size_t& start, std::size_t& end) {
     for (;; ++at, ++noise) {
       const std::uint8_t* from = stream.bytes + at;
@@ -140,7 +137,7 @@ std::uint32_t steps_of(Parser& parser, const std::uint8_t* bytes, std::size_t si
   return parser.steps() - before;
 }
 
-// A false header that announces a long packet, then noise: the worst line of a real robot.
+// A long false packet, then noise: the worst line of a real robot.
 TEST(Parser, PaysAFewStepsForEachByteOfNoise) {
   static Stream stream;
   Random random;
@@ -154,8 +151,7 @@ TEST(Parser, PaysAFewStepsForEachByteOfNoise) {
   }
 }
 
-// Headers stand at least seven bytes apart, and each costs at most one sum over, and one move of,
-// what follows.
+// Headers are at least seven bytes apart; each costs at most one sum and one move of the rest.
 TEST(Parser, HasABoundForTheWorstOfStreams) {
   static Stream stream;
   constexpr std::uint32_t kMost = 2 + 2 * (kMaxPacket / kHeaderBytes + 1);
@@ -163,7 +159,7 @@ TEST(Parser, HasABoundForTheWorstOfStreams) {
   for (std::uint32_t step = 0; step < 3; ++step) {
     stream.size = 0;
     for (std::uint32_t k = 0; stream.size < kStream; ++k) {
-      // All end at the same byte, or one by one, or as far away as possible.
+      // All end at the same byte, one by one, or far away.
       const std::uint32_t length = step == 2 ? 505 : 498 - (step == 0 ? 7 * (k % 71) : k % 71);
       stream.add_header(length);
     }

@@ -13,7 +13,6 @@ std::uint32_t digest_of(const Inputs& inputs) {
   return digest.value();
 }
 
-// The contract between builds: yesterday's trace holds today's bits.
 TEST(Digest, HasTheSameValueOnEveryMachine) {
   Digest32 digest(0x12345678);
   digest.add(0xDEADBEEF);

@@ -84,7 +84,7 @@ TEST(Limit, WithinSpeedTheGoalIsTheWish) {
   EXPECT_TRUE(joints.run(Mode::kWalking, 0).slowed) << "slowed down, and said so";
 }
 
-// From the pose found, on a minimum-jerk curve, exactly to the target.
+// On a minimum-jerk curve, exactly to the target.
 void expect_arrives(Mode mode, float duration_s) {
   test::Random random(2);
   Joints joints;
@@ -118,7 +118,6 @@ TEST(Limit, SittingDownEndsInTheCrouch) {
   expect_arrives(Mode::kSitting, SafetyTuning{}.sit_s);
 }
 
-// No joint is too fast or slowed down on its way.
 TEST(Limit, RiseTakesAsLongAsItsLongestWayNeeds) {
   for (const Mode mode : {Mode::kRising, Mode::kSitting}) {
     static Params slow;
@@ -154,7 +153,7 @@ TEST(Limit, ShortWaysTakeTheTimeThatTheTuningGivesThem) {
   EXPECT_EQ(joints.way_ms, 1500) << "sit_s";
 }
 
-// A joint slightly beyond lies against its stop.
+// It lies against its stop.
 TEST(Limit, JointBeyondItsLimitsIsNamed) {
   for (int j = 0; j < kRobot.joint_count; ++j) {
     const JointParams& joint = kRobot.joint[j];

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-/// Each test is named after its row's promise and states the row, so any added, removed or moved
-/// row fails here first.
+/// Each test is named after its row's promise and states the row.
 namespace verp::safety {
 namespace {
 
@@ -20,8 +19,8 @@ constexpr std::uint32_t modes(Modes... each) {
   return (bit(each) | ...);
 }
 
-// The row at `index`: exactly its conditions lead to `to`. With one missing, or an excluded one
-// present, it does not match.
+// Exactly these conditions lead from row `index` to `to`; with one missing or one excluded it does
+// not match.
 void expect_row(int index, std::uint32_t from, std::uint32_t all_of, std::uint32_t none_of,
                 Mode to) {
   ASSERT_LT(index, kRows);
@@ -147,7 +146,6 @@ TEST(SafetyTable, HasNoOtherRows) {
   EXPECT_EQ(kRows, 26);
 }
 
-// The following holds for every combination of conditions.
 template <class Check>
 void for_all(Check check) {
   for (std::uint32_t conditions = 0; conditions < kAllConditions; ++conditions) {
@@ -165,13 +163,13 @@ TEST(SafetyMachine, EmergencyAlwaysWins) {
   EXPECT_EQ(wrong, 0);
 }
 
-// Except on the way down, which is short, and on the requested way up.
+// Except on the way down and the requested way up.
 TEST(SafetyMachine, FallenRobotNeverKeepsTorque) {
   constexpr std::uint32_t kOnTheFloor = modes(Mode::kFalling, Mode::kGettingUp);
   int wrong = 0;
   for_all([&](Mode from, std::uint32_t conditions, Mode to) {
     if ((conditions & kFell) == 0 || !has_torque(to) || (bit(to) & kOnTheFloor) != 0) return;
-    const bool silent = from == Mode::kGettingUp && to == Mode::kHolding;  // limp in the next tick
+    const bool silent = from == Mode::kGettingUp && to == Mode::kHolding;  // limp next tick
     if (!silent) ++wrong;
   });
   EXPECT_EQ(wrong, 0);
@@ -190,7 +188,6 @@ TEST(SafetyMachine, TorqueComesOnlyByRisingAndByGettingUpAndWhenAsked) {
   EXPECT_EQ(wrong, 0);
 }
 
-// Only in a fall, by the e-stop, or at the end of sitting down.
 TEST(SafetyMachine, StandingRobotIsNeverDropped) {
   int wrong = 0;
   for_all([&](Mode from, std::uint32_t conditions, Mode to) {
@@ -210,7 +207,6 @@ TEST(SafetyMachine, WalkingStopsOnlyOnBothFeetUnlessItMust) {
   EXPECT_EQ(wrong, 0);
 }
 
-// Lasting trouble leads down and nowhere else.
 TEST(SafetyMachine, PowerTroubleNeverBeginsARiseAWalkAnActionOrGettingUp) {
   int wrong = 0;
   for_all([&](Mode from, std::uint32_t conditions, Mode to) {
@@ -239,7 +235,7 @@ TEST(SafetyMachine, TorqueIsOnInTheModesThatNeedIt) {
   }
 }
 
-// All modes within one transition of those in `from`, under any conditions.
+// All modes one transition away, under any conditions.
 std::uint32_t reach(std::uint32_t from) {
   std::uint32_t result = from;
   for_all([&](Mode mode, std::uint32_t, Mode to) {
@@ -264,7 +260,7 @@ TEST(SafetyMachine, NoModeIsWithoutAWayOutBackToRelaxed) {
 
 TEST(SafetyMachine, NoConditionsNoChange) {
   for (int m = 0; m < kModes; ++m) {
-    if (mode_of(m) == Mode::kHolding) continue;  // silence is over: it rises
+    if (mode_of(m) == Mode::kHolding) continue;
     EXPECT_TRUE(next_mode(mode_of(m), 0) == mode_of(m)) << kModeNames[m];
   }
 }

@@ -72,7 +72,7 @@ const Table kTables[] = {
     usart_v2::kTable,
 };
 
-// A named array: a braced list would need a header that the target does not use.
+// A braced list would need a header.
 constexpr Family kFamilies[] = {Family::kF405, Family::kF446, Family::kF746};
 
 TEST(Tables, RegistersAreWordsInOrderWithoutOverlap) {

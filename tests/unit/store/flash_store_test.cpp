@@ -15,7 +15,7 @@ using hal::WorkState;
 
 constexpr std::uint8_t kValue[64] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
 
-/// Works, torque off, until the store is idle or wants something.
+/// Until the store is idle or wants something.
 WorkState settle(Store& store, bool may_erase = true) {
   WorkState state = WorkState::kWorking;
   for (int i = 0; i < 100 && state == WorkState::kWorking; ++i) state = store.work(may_erase);
@@ -68,7 +68,6 @@ TEST(FlashStore, NeverErasesWhileTheTorqueIsOn) {
   EXPECT_EQ(old[0], value[0]);
 }
 
-// So that updates while walking find a place.
 TEST(FlashStore, MakesRoomBeforeItIsNeeded) {
   Flash flash;
   Store store(flash);
@@ -114,7 +113,7 @@ TEST(FlashStore, AFullStoreKeepsWhatItHasAndCanBeEmptied) {
   EXPECT_EQ(store.put(5, kValue, 1), PutResult::kAccepted);
 }
 
-// A refused word costs its place, not a value. A permanent refusal is reported.
+// A refused word costs its place, not a value.
 TEST(FlashStore, SurvivesFlashThatRefuses) {
   for (std::uint32_t refusals = 1; refusals < 6; ++refusals) {
     Flash flash(refusals);
@@ -157,8 +156,7 @@ TEST(FlashStore, AFlippedBitCostsOneRecordAtMost) {
       for (std::size_t i = 0; i < size; ++i) EXPECT_EQ(value[i], kValue[key + i]);
     }
     EXPECT_EQ(lost, 1) << "byte " << offset;
-    EXPECT_TRUE(found.damaged() == 1 || offset >= 88)
-        << "byte " << offset;  // the last one is a cut
+    EXPECT_TRUE(found.damaged() == 1 || offset >= 88) << "byte " << offset;
   }
 }
 

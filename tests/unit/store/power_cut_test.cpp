@@ -5,8 +5,8 @@
 #include "firmware/store/flash_store.hpp"
 #include "hal/fake/fake_flash.hpp"
 
-// A power cut may come at any write, even half-way through a word or an erase. Every value is then
-// the old or the new one, and later starts find the same.
+// A power cut may come at any write, even within a word or an erase. Every value is then the old or
+// the new one, at every later start.
 
 namespace verp {
 namespace {
@@ -26,7 +26,7 @@ struct Random {
   }
 };
 
-/// A value, and the expected content of the whole store.
+/// The store's expected content.
 struct Value {
   std::size_t size = 0;
   std::uint8_t bytes[kMaxValue] = {};
@@ -48,7 +48,7 @@ Update random_update(Random& random) {
   Update update;
   update.key = static_cast<std::uint16_t>(1 + random(kKeys));
   update.value.size = random(8) == 0 ? 0 : random(kMaxValue + 1);
-  const bool blank = random(8) == 0;  // a value that looks like erased flash
+  const bool blank = random(8) == 0;  // looks erased
   for (std::size_t i = 0; i < update.value.size; ++i) {
     update.value.bytes[i] = blank ? std::uint8_t{0xFF} : static_cast<std::uint8_t>(random(256));
   }
@@ -65,7 +65,7 @@ Value value_of(const Store& store, std::uint16_t key) {
 template <class Flash>
 using StoreOf = store::FlashStore<Flash, kKeys, kMaxValue>;
 
-/// True if the update became durable, false if the power failed or the flash gave up.
+/// False if the power failed or the flash gave up.
 template <class Store>
 bool apply(Store& store, const Update& update, bool may_erase = true) {
   if (store.put(update.key, update.value.bytes, update.value.size) != hal::PutResult::kAccepted) {
@@ -79,8 +79,7 @@ bool apply(Store& store, const Update& update, bool may_erase = true) {
   return false;
 }
 
-/// Every other key has its old value, and the next start finds the same. Sets `became` to the
-/// updated value.
+/// Every other key keeps its value, at the next start too. `became` gets the updated one.
 template <class Flash>
 bool is_sound_after_cut(Flash& flash, const Value (&expected)[kKeys + 1], const Update& update,
                         Value& became) {
@@ -99,7 +98,7 @@ bool is_sound_after_cut(Flash& flash, const Value (&expected)[kKeys + 1], const 
   return sound;
 }
 
-/// Repeats each update from the same state, cut one write later each time.
+/// Each time from the same state, cut one write later.
 template <std::size_t kUnit>
 void cut_at_every_write(int updates) {
   using Flash = hal::FakeFlash<kPage, kUnit>;
@@ -142,7 +141,7 @@ TEST(PowerCut, AtEveryWriteOfBytesHalfWordsAndDoubleWords) {
   cut_at_every_write<8>(kUpdates / 10);
 }
 
-// Also while the store recovers: the doubts that cuts leave must not add up.
+// Also during recovery: doubts must not add up.
 template <std::size_t kUnit>
 void cut_after_cut() {
   using Flash = hal::FakeFlash<kPage, kUnit>;
@@ -178,7 +177,7 @@ TEST(PowerCut, AfterPowerCutLosesNothing) {
   cut_after_cut<8>();
 }
 
-// If a later start happened to read it as whole, later updates would be lost.
+// A start that read it as whole would lose later updates.
 TEST(PowerCut, NoHalfMadePageComesBack) {
   using Flash = hal::FakeFlash<kPage, 4>;
   using Store = StoreOf<Flash>;
@@ -198,8 +197,7 @@ TEST(PowerCut, NoHalfMadePageComesBack) {
         ASSERT_TRUE(apply(store, filler));
       }
       flash.cut_after(i % 30);
-      for (int step = 0; step < 30; ++step)
-        store.work(true);  // moves the values while there is time
+      for (int step = 0; step < 30; ++step) store.work(true);
     }
     for (int boot = 0; boot < 3; ++boot) {
       flash.power_up();

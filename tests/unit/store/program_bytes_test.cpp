@@ -10,9 +10,9 @@ namespace verp {
 namespace {
 
 using Flash = hal::FakeFlash<512, 8>;
-constexpr std::size_t kSize = 203;  ///< begins and ends within a unit
+constexpr std::size_t kSize = 203;  ///< ends within a unit
 constexpr std::size_t kAt = 13;
-constexpr std::uint32_t kUnits = 26;  ///< touched by these bytes
+constexpr std::uint32_t kUnits = 26;
 
 struct Nothing {
   void operator()() const {}
@@ -41,7 +41,7 @@ TEST(ProgramBytes, ArePutWhereTheyBelongAndNothingElseIsTouched) {
   EXPECT_EQ(flash.misuses(), 0u);
 }
 
-// CAN delivers seven bytes at a time, some twice.
+// CAN delivers seven bytes, some twice.
 TEST(ProgramBytes, MayComeInPiecesOfAnySizeAndOrderAndAgain) {
   for (const std::size_t piece : {1u, 7u, 13u, 100u}) {
     Flash flash;

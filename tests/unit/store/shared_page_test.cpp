@@ -7,8 +7,8 @@
 #include "firmware/store/flash_store.hpp"
 #include "hal/fake/fake_flash.hpp"
 
-// A robot and its actions share a flash page and are replaced together or not at all. A pending
-// replacement never costs the log a value.
+// A robot and its actions share a page and are replaced together or not at all. A replacement never
+// costs the log a value.
 
 namespace verp {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kFirst = 99, kSecond = 128, kSecondBytes = 117, kRoom = 120;
 constexpr std::uint16_t kKey = 7;
 
-/// Two memories on one supply: when one loses power, the other stops writing, too.
+/// When one memory loses power, the other stops, too.
 template <class Own, class Peer>
 struct Wired {
   static constexpr std::size_t kUnit = Own::kUnit;
@@ -37,7 +37,6 @@ struct Nothing {
   void operator()() const {}
 };
 
-/// Content of a generation's first or second image.
 template <std::size_t kSize>
 struct Bytes {
   explicit Bytes(int generation) {
@@ -125,7 +124,6 @@ TEST(SharedPage, TheFirstIsReplacedAndTheSecondStays) {
   const First first(1);
   EXPECT_TRUE(board.room->replace(first.byte, kFirst, 0, kSecondBytes, Nothing{}));
   EXPECT_TRUE(board.holds(1, 0));
-  // Also after a half-sent second image, which never counted.
   ASSERT_TRUE(board.send(2));
   EXPECT_TRUE(board.room->replace(First(3).byte, kFirst, 0, kSecondBytes, Nothing{}));
   EXPECT_TRUE(board.holds(3, 0));
@@ -139,7 +137,7 @@ TEST(SharedPage, BothAreReplaced) {
   EXPECT_TRUE(board.holds(1, 1));
 }
 
-// Cuts at any write of either memory, and once more at the next start.
+// At any write, and once more at the next start.
 TEST(SharedPage, APowerCutLeavesTheOldOrTheNew) {
   int old_ones = 0, new_ones = 0;
   for (const bool at_home : {false, true}) {
@@ -203,10 +201,9 @@ TEST(SharedPage, ErasesOnceForEachNewOneAndOnlyWhenItMay) {
   }
 }
 
-// Else the caller would wait for ever.
 TEST(SharedPage, ThatCannotBeErasedIsTold) {
   Board board;
-  board.other_flash.cut_after(0);  // unpowered flash cannot be erased
+  board.other_flash.cut_after(0);  // needs power to erase
   EXPECT_FALSE(board.send(1));
   EXPECT_TRUE(board.room->ready());
   board.room->begin();
@@ -233,7 +230,6 @@ TEST(SharedPage, TheLogComesFirst) {
   EXPECT_EQ(board.misuses(), 0u);
 }
 
-// At every step of the log's move.
 TEST(SharedPage, IsFoundBesideALogThatMoves) {
   for (int steps = 0; steps < 8; ++steps) {
     Board board;

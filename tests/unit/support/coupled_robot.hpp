@@ -5,8 +5,8 @@ namespace verp::test {
 
 inline constexpr int kFollower = kJointCount - 1;  ///< the right hip's yaw
 
-/// Without a servo for the right hip yaw: the left one turns it `ratio` times as far. It is last in
-/// the list, after the leg that it carries.
+/// The left hip yaw's servo turns the right one `ratio` times as far. That joint is last, after the
+/// leg that it carries.
 inline Params with_coupled_hips(const Params& robot, float ratio) {
   Params params = robot;
   const auto place = [](int joint) {

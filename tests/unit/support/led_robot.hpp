@@ -14,10 +14,9 @@ using balance::EstimatorIn;
 using balance::EstimatorState;
 
 inline constexpr float kPeriod_s = 0.01F;
-inline constexpr float kStandHeight_m = 0.26F;  // height of the body's origin over level soles
+inline constexpr float kStandHeight_m = 0.26F;  // of the body over level soles
 
-/// A robot whose soles stay in place while its body is led through the room. Its sensors are exact
-/// but for the counts; it looks along x.
+/// The soles stay while the body is led. Sensors are exact but for the counts; it looks along x.
 struct Led {
   Params params = kRobot;
   AttitudeState attitude;
@@ -29,9 +28,9 @@ struct Led {
   Vec3 body_m{0, 0, kStandHeight_m}, velocity_m_s{0, 0, 0};
   Mat3 turned = Mat3::Identity();
   float load_n[kFeet] = {15, 15};
-  Vec3 accel_offset_m_s2{0, 0, 0};  ///< beyond the attitude's idea of up
-  Vec3 up_offset_m_s2{0, 0, 0};     ///< included in the attitude's idea of up
-  Mat3 ground = Mat3::Identity();   ///< the soles' orientation
+  Vec3 accel_offset_m_s2{0, 0, 0};  ///< beyond the attitude's up
+  Vec3 up_offset_m_s2{0, 0, 0};     ///< within the attitude's up
+  Mat3 ground = Mat3::Identity();
 
   Led() {
     float angle_rad[kMaxJoints] = {};
@@ -45,7 +44,7 @@ struct Led {
     in.on_feet = true;
   }
 
-  /// Bends the legs to reach the soles; false if they cannot.
+  /// False if the legs cannot reach the soles.
   bool place_legs() {
     bool reached = true;
     const float bent[kLegJoints] = {0, 0, -0.6F, 1.2F, -0.6F, 0};
@@ -62,7 +61,6 @@ struct Led {
     return reached;
   }
 
-  /// One tick later the body has that velocity.
   bool tick(const Vec3& next_m_s) {
     const Vec3 accel_m_s2 = (next_m_s - velocity_m_s) / kPeriod_s;
     body_m += (0.5F * kPeriod_s) * (velocity_m_s + next_m_s);
@@ -83,7 +81,6 @@ struct Led {
     balance::update(params, state, in);
     return reached;
   }
-  /// Waits until the attitude has settled.
   void rest() { ticks(120); }
   void ticks(int count, const Vec3& velocity = Vec3(0, 0, 0)) {
     for (int i = 0; i < count; ++i) ASSERT_TRUE(tick(velocity)) << "tick " << i;
@@ -96,7 +93,7 @@ struct Led {
   Vec3 believed_m_s() const { return math::to_vec(state.body_velocity_m_s); }
 };
 
-/// The only robot, reset: it holds pointers into itself.
+/// It holds pointers into itself.
 inline Led& led_robot() {
   static Led led;
   led = Led{};

@@ -4,11 +4,11 @@
 #include "common/math/linear.hpp"
 #include "common/model/params.hpp"
 
-/// A handmade humanoid of 21 joints with the numbers of generic21, because the core's tests also
-/// run on microcontrollers, which read no SDF. Left and right are mirror images about y = 0.
+/// 21 joints with generic21's numbers, because microcontrollers read no SDF. Left and right mirror
+/// about y = 0.
 namespace verp::test {
 
-/// Numerical Recipes' linear congruential generator: the same numbers on every machine.
+/// Numerical Recipes' linear congruential generator.
 class Random {
  public:
   explicit Random(std::uint32_t seed) : state_(seed) {}
@@ -19,7 +19,6 @@ class Random {
   float between(float low, float high) {
     return low + (high - low) * (static_cast<float>(next() >> 8) * 0x1p-24F);
   }
-  /// 0 to count - 1.
   int below(int count) {
     return static_cast<int>((next() >> 8) % static_cast<std::uint32_t>(count));
   }
@@ -134,7 +133,7 @@ inline Params make_robot() {
 
 inline const Params kRobot = make_robot();
 
-/// The same with hip and ankle axes that do not meet: only Newton solves its legs.
+/// Its hip and ankle axes do not meet: only Newton solves its legs.
 inline Params make_offset_robot() {
   Params params = make_robot();
   for (const int first : {kLeftLeg, kRightLeg}) {
@@ -146,8 +145,7 @@ inline Params make_offset_robot() {
   return params;
 }
 
-/// The same, drawn with knees bent 15 degrees the wrong way: in that pose all joint angles are zero
-/// and the feet flat.
+/// Drawn with knees bent 15 degrees the wrong way: at angle zero the feet are flat.
 inline Params make_hyperextended_robot() {
   Params params = make_robot();
   constexpr float kBack_rad = 0.2617994F, kSin = 0.2588190F, kCos = 0.9659258F;
@@ -166,14 +164,13 @@ inline Params make_hyperextended_robot() {
   return params;
 }
 
-/// The same with all mass in trunk, arms and head.
 inline Params make_massless_legs_robot() {
   Params params = make_robot();
   for (int j = kLeftLeg; j < kJointCount; ++j) params.joint[j].mass_kg = 0;
   return params;
 }
 
-/// Angles inside the joints' limits; each knee bent by at least `least_knee_rad`.
+/// Inside the limits; knees bent by at least `least_knee_rad`.
 inline void random_angles(const Params& params, float least_knee_rad, Random& random,
                           float* angle_rad) {
   for (int j = 0; j < params.joint_count; ++j) {
@@ -198,7 +195,7 @@ inline Mat3 mirrored(const Mat3& m) {
 inline Pose mirrored(const Pose& pose) {
   return {mirrored(pose.rotation), mirrored(pose.position_m)};
 }
-/// Joint angles of the mirror image: left and right swap, turns about x and z change sign.
+/// Left and right swap; turns about x and z change sign.
 inline void mirror_angles(const float* angle_rad, float* result_rad) {
   for (int j = 0; j < kJointCount; ++j) {
     int from = j;
@@ -220,7 +217,7 @@ inline bool all_finite(const float* values, int count) {
   }
   return true;
 }
-/// True if the struct contains no NaN or infinity.
+/// No NaN or infinity.
 template <class T>
 bool struct_is_finite(const T& data) {
   bool finite = true;

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-// The promises of hal/chip/usb/cdc_acm.hpp.
-
 namespace verp::hal::usb {
 namespace {
 
@@ -34,14 +32,14 @@ CdcAcm make_configured() {
   EXPECT_TRUE(done(ask(port, 0x0009, 1, 0, 0), Action::kConfigure, 1));
   return port;
 }
-/// The word of a GET_STATUS; -1 if refused.
+/// Answer to GET_STATUS; -1 if refused.
 int status(CdcAcm& port, unsigned code, unsigned index) {
   const Answer answer = ask(port, code, 0, index, 2);
   if (answer.stage != Stage::kSend || answer.size != 2) return -1;
   return answer.data[0] | answer.data[1] << 8;
 }
 
-// Hosts walk the configuration by its lengths.
+// Hosts walk it by its lengths.
 TEST(UsbDescriptors, ConfigurationIsAWholeTree) {
   CdcAcm port = make();
   const Answer answer = ask(port, 0x8006, 0x0200, 0, 255);
@@ -70,8 +68,7 @@ TEST(UsbDescriptors, ConfigurationIsAWholeTree) {
   EXPECT_EQ(interfaces, bytes[4]);
 }
 
-// A host asks for 8, 9, 64, 255 or more bytes of an unknown descriptor, and learns if it is
-// shorter.
+// A host asks for 8, 9, 64, 255 or more bytes.
 TEST(UsbDescriptors, AnyLengthGetsThatMuchOfTheBeginning) {
   CdcAcm port = make();
   for (const unsigned value : {0x0100u, 0x0200u, 0x0300u, 0x0301u, 0x0302u, 0x0303u}) {
@@ -111,7 +108,7 @@ TEST(UsbDescriptors, ALongNameIsCutAndNotOverrun) {
   EXPECT_EQ(ask(port, 0x8006, 0x0302, kEnglish, 255).size, kStringBytes);
 }
 
-// Above all the device qualifier: STALL means that there is no high speed.
+// STALL to the device qualifier means no high speed.
 TEST(UsbDescriptors, OthersAreRefused) {
   CdcAcm port = make();
   for (unsigned value = 0; value < 0x1'0000; ++value) {
@@ -120,7 +117,6 @@ TEST(UsbDescriptors, OthersAreRefused) {
   }
 }
 
-// In either state.
 TEST(UsbRequests, UnknownOnesAreRefusedAndChangeNothing) {
   constexpr unsigned kKnown[] = {0x8000, 0x8100, 0x8200, 0x0201, 0x0203, 0x0005, 0x8006,
                                  0x8008, 0x0009, 0x810A, 0x2120, 0xA121, 0x2122, 0x2123};
@@ -141,7 +137,6 @@ TEST(UsbRequests, UnknownOnesAreRefusedAndChangeNothing) {
   }
 }
 
-// The same for known ones with invalid fields.
 TEST(UsbRequests, KnownOnesWithWrongFieldsAreRefused) {
   CdcAcm port = make_configured();
   constexpr struct {
@@ -241,7 +236,6 @@ TEST(UsbSerial, IsOpenWhileTheHostHoldsDtr) {
   }
 }
 
-// Every coding of the standard.
 TEST(UsbSerial, KeepsALineCodingOrRefusesIt) {
   CdcAcm port = make_configured();
   for (unsigned i = 0; i < 4 * 6 * 20; ++i) {
