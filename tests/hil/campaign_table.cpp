@@ -13,11 +13,11 @@
 namespace verp::test {
 namespace {
 
-/// Results of all runs of one kind.
+/// All runs of one kind.
 struct Row {
   int runs = 0;
   CampaignRun sum;
-  std::map<int, int> ends;  ///< mode -> number of runs that ended in it
+  std::map<int, int> ends;  ///< mode -> runs that ended in it
 };
 
 struct Table : ::testing::Environment {
@@ -48,7 +48,7 @@ std::string to_text(const std::string& name, const Row& row) {
   return line;
 }
 
-/// 0 if it is not set.
+/// 0: not set.
 int setting(const char* name) {
   const char* value = std::getenv(name);
   if (value == nullptr) return 0;

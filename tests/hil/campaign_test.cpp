@@ -8,9 +8,8 @@
 #include "tests/hil/fault_run.hpp"
 #include "tests/hil/promises.hpp"
 
-// 200 runs of a robot that walks while its servo bus fails, in bus time. The controller keeps to
-// the safe table, never waits longer than its requests may take, and informs its operator. One kind
-// of fault per test. To run one seed alone:
+// 200 runs in bus time of a walking robot whose servo bus fails. The controller keeps to the safe
+// table, never waits longer than its requests may take, and informs its operator. To run one seed:
 //
 //     VERP_SEED=7 build/host-release/tests/hil/hil_campaign --gtest_filter='*lost_0_1_percent*'
 //
@@ -27,7 +26,7 @@ const Robot& robot() {
   return loaded;
 }
 
-/// Each read that lost a byte or had one changed shows as a timeout or as a device's missed report.
+/// Each spoilt read shows as a timeout or as a device's missed report.
 void shows_each_spoilt_read(const FaultResult& result) {
   EXPECT_GT(result.damage.spoilt_reads, 0u);
   EXPECT_GE(result.after.timeouts + result.after.missed_reports(), result.damage.spoilt_reads);
@@ -51,7 +50,7 @@ void flipped(const FaultResult& result) {
   keeps_walking(result);
 }
 
-// A doubled first byte of a header does no harm.
+// A header's doubled first byte does no harm.
 void doubled(const FaultResult& result) {
   EXPECT_GT(result.after.crc_errors, 0u);
   EXPECT_GT(result.after.noise, 0u);
@@ -66,7 +65,7 @@ void delayed(const FaultResult& result) {
   if (!result.stale) keeps_walking(result);
 }
 
-// The adapter delivers everything a period late, so nothing may count as fresh.
+// All comes a period late, so nothing counts as fresh.
 void held_back(const FaultResult& result) {
   EXPECT_EQ(result.during.fresh, 0u);
   EXPECT_NE(result.during.state[kBus], DeviceState::kGood);
@@ -96,7 +95,7 @@ void everything(const FaultResult& result) {
 struct Kind {
   FaultPlan plan;
   std::vector<std::function<void(const FaultResult&)>> promises;
-  bool as_far = false;  ///< as the same robot without the fault
+  bool as_far = false;  ///< as without the fault
 };
 
 constexpr double kPerMille = 1e-3;
@@ -107,8 +106,8 @@ constexpr LineFaults kAll{.lost = kPerMille / 2,
                           .delay_us = 12'000,
                           .bursts = 0.02};
 
-// On its stand the robot cannot fall, so every run must end as the table says. With physics it may
-// fall where nothing else is promised, and must then be limp.
+// On its stand the robot cannot fall, so each run ends as the table says. With physics it may fall
+// where no other promise holds, and must then be limp.
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all = {
       {{"lost_0_1_percent_physics", 8, true, {.lost = kPerMille}}, {lost_few}, true},
@@ -198,7 +197,7 @@ TEST(CampaignSize, Is200Runs) {
   EXPECT_EQ(runs, 200);
 }
 
-// Quick enough for sanitizers and the second compiler.
+// For sanitizers and the second compiler.
 TEST(CampaignSample, StaysSafeAndTells) {
   for (Kind kind : kinds()) {
     if (kind.plan.physics) continue;

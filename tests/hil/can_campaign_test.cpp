@@ -7,13 +7,10 @@
 #include "tests/hil/campaign_table.hpp"
 #include "tests/hil/can_promises.hpp"
 
-// The same for a CAN bus: over 200 runs in bus time. The controller keeps to the safe table, no
-// tick exceeds a period, the operator is informed, and equal seeds give equal bits. To run one seed
-// alone:
+// As campaign_test.cpp, on a CAN bus; also, no tick exceeds a period, and equal seeds give equal
+// bits. To run one seed:
 //
 //     VERP_SEED=7 build/host-release/tests/hil/hil_can_campaign --gtest_filter='*lost_1_percent*'
-//
-// VERP_RUNS=n takes the first n seeds of each kind.
 namespace verp::test {
 namespace {
 
@@ -25,8 +22,8 @@ const Robot& robot() {
 struct Kind {
   CanPlan plan;
   std::vector<std::function<void(const CanFaultResult&)>> promises;
-  bool as_far = false;  ///< as the same robot without the fault
-  bool floods = false;  ///< overloads the bus: the controller's own SYNCs wait
+  bool as_far = false;  ///< as without the fault
+  bool floods = false;  ///< the controller's own SYNCs wait
 };
 
 constexpr double kPercent = 1e-2;
@@ -130,7 +127,7 @@ void keeps_what_all_promise(const Kind& kind, const CanFaultResult& result) {
   EXPECT_EQ(result.before.counted() + result.before.refused + result.before.missed_reports(), 0u)
       << "all was well before";
   EXPECT_GT(result.ticks_recorded, 0u) << "nothing was replayed";
-  // In a flood, SYNCs of earlier ticks go first.
+  // In a flood, earlier SYNCs go first.
   const std::uint32_t period_us = robot().params.period_us;
   EXPECT_LT(result.worst_tick_us, kind.floods ? period_us * 3 / 2 : period_us)
       << "it waited for longer than a tick";
@@ -184,7 +181,7 @@ TEST(CanCampaignSize, Is200RunsOrMore) {
   EXPECT_GE(runs, 200);
 }
 
-// Quick enough for sanitizers and the second compiler.
+// For sanitizers and the second compiler.
 TEST(CanCampaignSample, StaysSafeAndTells) {
   for (const Kind& kind : kinds()) {
     if (!kind.plan.physics) run_kind(kind, 1);

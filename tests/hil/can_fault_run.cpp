@@ -94,7 +94,7 @@ class CanFaultRun final : public FaultScene<Line, CanPlan, CanFaultResult> {
     }
   }
 
-  // A dip of the node's supply reboots it without its settings.
+  // It loses its settings.
   void reboot(std::uint8_t id) {
     bus_.set_powered(id, false);
     bus_.set_powered(id, true);
@@ -135,14 +135,14 @@ class CanFaultRun final : public FaultScene<Line, CanPlan, CanFaultResult> {
     watch_.watch_torque(outputs, now_us, cut && !ended(), gone ? result_.joint : RunWatch::kNobody);
     watch_.watch_fall(outputs, now_us, body_.lies());
   }
-  /// No drive has torque before its set-up, or after a loss of power until the robot relaxes.
+  /// No drive has torque before its set-up, or from a loss of power until the robot relaxes.
   void watch_setup(const Outputs& outputs) {
     if (outputs.torque_enable == 0) unready_ = 0;
     for (int j = 0; j < params_.joint_count; ++j) {
       const sim::ServoSetpoint& servo = body_.plant().setpoint(j);
       const ServoProfile& profile = app::profile_of(params_, j);
       if (!servo.torque_on) continue;
-      const bool held = servo.profile_ms == 0;  // quick stop: it follows no target
+      const bool held = servo.profile_ms == 0;  // quick stop: no target is followed
       if (servo.p_gain != profile.position_p_gain || servo.d_gain != profile.position_d_gain ||
           (!held && servo.profile_ms != params_.period_us / 1000)) {
         fault("joint " + std::to_string(j) + " has torque and is not set up");
@@ -150,7 +150,7 @@ class CanFaultRun final : public FaultScene<Line, CanPlan, CanFaultResult> {
       if ((unready_ >> j & 1) != 0) fault("a drive without power was thrown at its goal");
     }
   }
-  /// A drive stops when its controller was silent for the configured time.
+  /// A drive stops when its controller is silent for the configured time.
   void watch_orders(std::uint64_t now_us) {
     const std::uint64_t patience_us = 1000u * canopen::plan::patience_ms(params_) + kLater_us;
     for (int j = 0; j < params_.joint_count; ++j) {
@@ -179,13 +179,13 @@ class CanFaultRun final : public FaultScene<Line, CanPlan, CanFaultResult> {
     if (again.divergence) fault(record::text(*again.divergence, params_, "then", "now"));
   }
 
-  static constexpr std::uint64_t kLater_us = 20'000;  // a drive checks once a millisecond
+  static constexpr std::uint64_t kLater_us = 20'000;  // drives check once a millisecond
 
   can::VirtualCan bus_;
   Intruder* intruder_ = nullptr;
   std::optional<Line> line_;
-  std::deque<std::vector<TickRecord>> traces_;  ///< one per run of the controller
-  std::uint32_t unready_ = 0;  ///< joints that lost power since the robot last relaxed
+  std::deque<std::vector<TickRecord>> traces_;  ///< per run of the controller
+  std::uint32_t unready_ = 0;                   ///< joints without power since the robot relaxed
 };
 
 }  // namespace

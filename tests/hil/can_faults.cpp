@@ -9,7 +9,7 @@ namespace verp::test {
 namespace {
 
 constexpr std::uint32_t kMostBehind = 2;
-constexpr std::uint64_t kMostBehind_us = 2000;  // also if no frame follows
+constexpr std::uint64_t kMostBehind_us = 2000;  // also without a next frame
 
 bool is_answer(const CanFrame& frame) {
   return canopen::is_canopen(frame) &&
@@ -34,7 +34,7 @@ void CanTrouble::decide() {
   }
 }
 
-// Frames to the controller.
+// To the controller.
 bool CanTrouble::inbound(const CanFrame& frame) {
   if (faults.down) {
     ++damage_.down;
@@ -55,7 +55,7 @@ bool CanTrouble::inbound(const CanFrame& frame) {
 bool CanTrouble::passes(const CanFrame& frame, std::uint8_t receiver) {
   if (!decided_) decide();
   if (fate_ == Fate::kOvertaken) {
-    hold(frame, receiver, kMostBehind_us, behind_ + 1);  // the frame itself counts, too
+    hold(frame, receiver, kMostBehind_us, behind_ + 1);  // the frame counts, too
     return false;
   }
   const bool missed = fate_ != Fate::kLost && chance(faults.missed);

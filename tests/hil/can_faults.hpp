@@ -8,21 +8,21 @@
 
 namespace verp::test {
 
-/// Faults of a bad CAN bus, as shares of frames.
+/// Shares of frames.
 struct CanFaults {
-  double lost = 0;            ///< no node receives it
-  double missed = 0;          ///< lost to each receiver independently
-  double doubled = 0;         ///< all receive it twice, as after an error in its last but one bit
-  double heard_twice = 0;     ///< doubled at each receiver independently
-  double overtaken = 0;       ///< arrives after the next frame or the one after that
-  double late = 0;            ///< reaches the controller late,
+  double lost = 0;            ///< to all nodes
+  double missed = 0;          ///< by each receiver independently
+  double doubled = 0;         ///< for all, as after an error in the last bit but one
+  double heard_twice = 0;     ///< at each receiver independently
+  double overtaken = 0;       ///< by one or two frames
+  double late = 0;            ///< to the controller,
   std::uint32_t late_us = 0;  ///< by up to this
-  std::uint32_t held_us = 0;  ///< delays all frames to the controller, as a slow gateway does
-  double broken = 0;          ///< an error frame ends it and it is sent again; chip's wire only
-  bool down = false;          ///< the controller's interface neither sends nor receives
+  std::uint32_t held_us = 0;  ///< all frames to the controller, as by a slow gateway
+  double broken = 0;          ///< ended by an error frame and sent again; chip's wire only
+  bool down = false;          ///< the controller's interface
 };
 
-/// What has been done so far, and to what.
+/// Done so far.
 struct CanDamage {
   std::uint32_t lost = 0, missed = 0, doubled = 0, overtaken = 0, late = 0, down = 0, broken = 0;
   std::uint32_t lost_answers = 0;
@@ -31,7 +31,6 @@ struct CanDamage {
   }
 };
 
-/// All randomness comes from one seed.
 class CanTrouble final : public can::Interference {
  public:
   CanTrouble(can::VirtualCan& bus, std::uint32_t seed) : bus_(bus), random_(seed) {
@@ -45,7 +44,7 @@ class CanTrouble final : public can::Interference {
   bool chance(double share) {
     return share > 0 && std::uniform_real_distribution<double>(0, 1)(random_) < share;
   }
-  /// When a node last received an order or heartbeat from the controller; 0: never.
+  /// The node's last order or heartbeat; 0: never.
   std::uint64_t ordered_us(std::uint8_t node) const {
     const auto found = ordered_us_.find(node);
     return found == ordered_us_.end() ? 0 : found->second;
@@ -60,7 +59,7 @@ class CanTrouble final : public can::Interference {
     CanFrame frame;
     std::uint8_t receiver;
     std::uint64_t due_us;
-    std::uint32_t behind;  ///< delivered early once this many frames have overtaken it; 0: no
+    std::uint32_t behind;  ///< delivered once so many frames have overtaken it; 0: no
   };
   void decide();
   bool inbound(const CanFrame& frame);
@@ -81,7 +80,7 @@ class CanTrouble final : public can::Interference {
   bool decided_ = false;
 };
 
-/// The controller's end: a CanBus in bus time on a VirtualCan driven by a timer's clock.
+/// A CanBus in bus time on a VirtualCan.
 class CanLine {
  public:
   CanLine(can::VirtualCan& bus, std::uint32_t seed) : trouble(bus, seed), bus_(bus) {

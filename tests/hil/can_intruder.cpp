@@ -12,7 +12,7 @@ namespace {
 namespace plan = canopen::plan;
 namespace sdo = canopen::sdo;
 
-constexpr std::uint32_t kUrgentIds = 0x7F;  // before SYNC, but not NMT
+constexpr std::uint32_t kUrgentIds = 0x7F;  // before SYNC, not NMT
 
 }  // namespace
 
@@ -35,7 +35,7 @@ void Intruder::babble(int frames) {
   for (int i = 0; i < frames; ++i) add(1 + random(kUrgentIds), 8);
 }
 
-// Wrong size, wrong number, extended, remote, or insignificant.
+// Wrong size or number, extended, remote, or insignificant.
 void Intruder::pretend() {
   const std::uint8_t node = random_node();
   switch (random(7)) {
@@ -63,7 +63,7 @@ void Intruder::pretend() {
   }
 }
 
-// From drives that were not asked, or about another object than asked for.
+// From drives that were not asked, or about another object.
 void Intruder::respond() {
   const std::uint8_t node = params_.joint[random(params_.joint_count)].servo_id;
   const bool other = node == asked_ || random(2) == 0;
@@ -82,7 +82,7 @@ void Intruder::hear(const CanFrame& frame, std::uint64_t) {
   if (!canopen::is_canopen(frame)) return;
   const canopen::Connection to = canopen::connection_of(frame.id);
   if (to.service == canopen::Service::kSdoRequest) asked_ = to.node;
-  // A twin obeys SYNC just like the drive whose id it shares.
+  // A twin obeys SYNC like its drive.
   const bool its_turn = frame.id == canopen::kSyncId && frame.size == 1 &&
                         frame.data[0] == plan::group_of_joint(joint);
   if (kind != Kind::kTwin || !its_turn) return;

@@ -12,13 +12,13 @@ class Intruder final : public can::Node {
  public:
   enum class Kind : std::uint8_t {
     kSilent,
-    kUrgent,   ///< a third of the bus, at top priority
-    kCrowd,    ///< nearly all of the bus, at top priority
-    kFlood,    ///< more than the bus can carry, at top priority
-    kForeign,  ///< the robot's identifiers, with content they never send
-    kTwin,     ///< acts as a drive whose id it shares
-    kSdo,      ///< unrequested SDO responses of drives
-    kSync,     ///< SYNCs, now and then
+    kUrgent,   ///< a third of the bus
+    kCrowd,    ///< nearly all of the bus
+    kFlood,    ///< more than the bus can carry
+    kForeign,  ///< the robot's identifiers, foreign content
+    kTwin,     ///< acts as a drive
+    kSdo,      ///< unrequested responses
+    kSync,
   };
   static constexpr std::uint8_t kId = 126;
 

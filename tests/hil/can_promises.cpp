@@ -46,7 +46,7 @@ void delayed(const CanFaultResult& result) {
   EXPECT_GT(result.after.strays, 0u) << "what comes too late belongs to nobody";
   keeps_walking(result);
 }
-// The gateway delivers everything a period late, so nothing may count as fresh.
+// All comes a period late.
 void held_back(const CanFaultResult& result) {
   EXPECT_GT(result.damage.late, 0u);
   EXPECT_EQ(result.during.fresh, 0u);
@@ -90,14 +90,14 @@ void many_reboot(const CanFaultResult& result) {
   let_go(result);
   EXPECT_GT(result.after.missed_reports(), 0u);
 }
-// Switching the servos' supply off, which is an emergency stop, and on sets all up again.
+// Switching the servos' supply off and on sets all up again.
 void all_reboot(const CanFaultResult& result) {
   EXPECT_TRUE(was(result, kHolding));
   let_go(result);
   EXPECT_NE(result.before.fresh, 0u);
   EXPECT_EQ(result.after.fresh, result.before.fresh);
 }
-// Set up while the robot stands: sensors hold no torque.
+// Sensors are set up while the robot stands.
 void imu_reboots(const CanFaultResult& result) {
   EXPECT_NE(result.after.faults & safety::kFaultImuSilent, 0u);
   EXPECT_GT(result.after.errors[kImu], 0u);
@@ -133,7 +133,7 @@ void unasked(const CanFaultResult& result) {
   EXPECT_GE(result.after.strays, result.intruder * 9 / 10);
   keeps_walking(result);
 }
-// No one knows which of the two is the drive, so its position does not count.
+// Which of the two is the drive is unknown, so its position does not count.
 void twin(const CanFaultResult& result) {
   EXPECT_GE(result.intruder, 100u);
   EXPECT_EQ(result.during.fresh >> row(result) & 1u, 0u);

@@ -7,9 +7,8 @@
 
 namespace verp::test {
 
-/// The controller's end on a chip: the bxCAN driver on its register model, whose wire has errors
-/// and bus-off. The other nodes are on a VirtualCan, which follows the chip's time. Seeds alternate
-/// between the chips.
+/// bxCAN's driver on its register model, whose wire has errors and bus-off. The other nodes are on
+/// a VirtualCan in the chip's time. Seeds alternate between the chips.
 class ChipLine {
  public:
   ChipLine(can::VirtualCan& bus, std::uint32_t seed)
@@ -40,7 +39,7 @@ class ChipLine {
     const std::uint64_t now = time_us();
     if (now < until_us) board_.rig.machine.advance(hal::stm32::model::us(until_us - now));
   }
-  /// The controller's next `frames` frames meet an error at each attempt.
+  /// An error at each attempt, for `frames` frames.
   void break_own(unsigned frames) { board_.can.break_next = frames; }
   void short_circuit(bool yes) {
     board_.can.line_dominant = yes;

@@ -3,15 +3,15 @@
 #include "common/protocol/control_table.hpp"
 #include "tests/hil/pty_devices.hpp"
 
-// The twin's servos and the controller on serial ports (pseudo-terminals). All bytes are the
-// examples of ROBOTIS e-Manual, "DYNAMIXEL Protocol 2.0"; comments name the exceptions.
+// The twin's servos and the controller on pseudo-terminals. All bytes are the examples of ROBOTIS
+// e-Manual, "DYNAMIXEL Protocol 2.0"; comments name the exceptions.
 namespace verp::test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 namespace at = dxl::address;
 
-/// Status of ID 1 without data, as for Write, Reg Write, Action, Factory Reset, Reboot and Clear.
+/// Status of ID 1 without data.
 const Bytes kGood = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x04, 0x00, 0x55, 0x00, 0xA1, 0x0C};
 const Bytes kPing = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x03, 0x00, 0x01, 0x19, 0x4E};
 const Bytes kReboot = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x03, 0x00, 0x08, 0x2F, 0x4E};
@@ -63,7 +63,7 @@ class DocumentedServos : public ::testing::Test {
   std::unique_ptr<SerialMaster> master;
 };
 
-// Firmware 38 there is 45 here, the first with fast reads: that byte and the CRC differ.
+// Firmware 38 is 45 here, the first with fast reads: that byte and the CRC differ.
 TEST_F(DocumentedServos, Ping) {
   const Bytes status = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x07, 0x00, 0x55, 0x00, 0x06, 0x04};
   Bytes expected = status + Bytes{45};
@@ -123,7 +123,7 @@ TEST_F(DocumentedServos, BulkReadAndBulkWrite) {
   const Bytes temperature_of_2 = {0xFF, 0xFF, 0xFD, 0x00, 0x02, 0x05,
                                   0x00, 0x55, 0x00, 0x24, 0x8B, 0xA9};
   EXPECT_EQ(ask(bulk_read, 25), voltage_of_1 + temperature_of_2);
-  // The factory sets both limits, so other values are written first.
+  // The factory sets both limits.
   EXPECT_EQ(ask(write_of(1, at::kMaxVoltageLimit, {150, 0}), 11).size(), 11u);
   EXPECT_EQ(ask(write_of(2, at::kTemperatureLimit, {70}), 11).size(), 11u);
   const Bytes bulk_write = {0xFF, 0xFF, 0xFD, 0x00, 0xFE, 0x10, 0x00, 0x93, 0x01, 0x20, 0x00, 0x02,
@@ -133,8 +133,7 @@ TEST_F(DocumentedServos, BulkReadAndBulkWrite) {
   EXPECT_EQ(read(2, at::kTemperatureLimit, 1), Bytes{80});
 }
 
-// The e-Manual prints CRC 20 F2, which belongs to its Fast Sync Read example; these bytes have DA
-// 2D. The replies' CRCs are as printed.
+// The e-Manual prints CRC 20 F2, that of its Fast Sync Read example; these bytes have DA 2D.
 TEST_F(DocumentedServos, FastBulkRead) {
   const Bytes request = {0xFF, 0xFF, 0xFD, 0x00, 0xFE, 0x12, 0x00, 0x9A, 0x03,
                          0x84, 0x00, 0x04, 0x00, 0x07, 0x7C, 0x00, 0x02, 0x00,
@@ -146,12 +145,12 @@ TEST_F(DocumentedServos, FastBulkRead) {
   EXPECT_EQ(ask(request, 27), of_3 + of_7 + of_4);
 }
 
-// e-Manual XM430-W210, Indirect Address, example 1: LED (65) stands at Indirect Data 1 (224).
+// e-Manual XM430-W210, Indirect Address, example 1: LED (65) at Indirect Data 1 (224).
 TEST_F(DocumentedServos, IndirectAddressing) {
   EXPECT_EQ(ask(write_of(1, 168, {65, 0}), kGood.size()), kGood);
   EXPECT_EQ(ask(write_of(1, 224, {1}), kGood.size()), kGood);
   EXPECT_EQ(read(1, 65, 1), Bytes{1});
-  // Example 2: Goal Position (116 to 119) at Indirect Data 2 to 5 (225 to 228).
+  // Example 2: Goal Position at Indirect Data 2 to 5.
   for (std::uint8_t i = 0; i < 4; ++i) {
     const auto pointer = static_cast<std::uint16_t>(170 + 2 * i);
     EXPECT_EQ(ask(write_of(1, pointer, {static_cast<std::uint8_t>(116 + i), 0}), 11), kGood);
@@ -170,7 +169,7 @@ TEST_F(DocumentedServos, RebootAndClear) {
   EXPECT_EQ(ask(clear, kGood.size()), kGood);
 }
 
-// Option 1 keeps the id but not the baud rate: at 57600 the servo no longer understands this bus.
+// Option 1 keeps the id but not the baud rate: at 57600 the servo leaves this bus.
 TEST_F(DocumentedServos, FactoryReset) {
   EXPECT_EQ(ask(kFactoryReset, kGood.size()), kGood);
   EXPECT_TRUE(master->expect_silence(kPing).empty());
@@ -183,17 +182,17 @@ TEST_F(DocumentedServos, All21Answer) {
   }
 }
 
-// The controller is device 200; the operator can make it ID 1 for the examples.
+// The operator can make device 200 ID 1.
 class DocumentedController : public ::testing::Test {
  protected:
   DocumentedController() {
-    // At the address of the examples' position 166 the controller has the upper half of the digest.
+    // The examples' position 166 is the digest's upper half.
     state.digest.chain = std::uint64_t{0xA6} << 32;
     controller = std::make_unique<PtyController>(params, state, path);
     master = std::make_unique<SerialMaster>(path);
   }
   Bytes ask(const Bytes& bytes, std::size_t wanted) { return master->exchange(bytes, wanted); }
-  /// The answer still has the old id.
+  /// The answer has the old id.
   void become_1() { EXPECT_EQ(ask(write_of(200, at::kId, {1}), 11).size(), 11u); }
 
   const std::string path = pty_path("controller");
@@ -221,14 +220,13 @@ TEST_F(DocumentedController, PingAndRead) {
   EXPECT_EQ(ask(kReadPosition, kPositionOf1.size()), kPositionOf1);
 }
 
-// The controller is the first device of a Sync or Bulk Read; the second is missing.
+// The controller is the first device; the second is missing.
 TEST_F(DocumentedController, SyncFastSyncAndBulkRead) {
   become_1();
   const Bytes sync_read = {0xFF, 0xFF, 0xFD, 0x00, 0xFE, 0x09, 0x00, 0x82,
                            0x84, 0x00, 0x04, 0x00, 0x01, 0x02, 0xCE, 0xFA};
   EXPECT_EQ(ask(sync_read, kPositionOf1.size()), kPositionOf1);
-  // The e-Manual's example asks 3, 7 and 4. As device 3 the controller sends its part, which
-  // announces all three.
+  // The example asks 3, 7 and 4. Device 3's part announces all three.
   EXPECT_EQ(ask(write_of(1, at::kId, {3}), 11).size(), 11u);
   const Bytes fast = {0xFF, 0xFF, 0xFD, 0x00, 0xFE, 0x0A, 0x00, 0x8A, 0x84,
                       0x00, 0x04, 0x00, 0x03, 0x07, 0x04, 0x20, 0xF2};
@@ -243,7 +241,7 @@ TEST_F(DocumentedController, SyncFastSyncAndBulkRead) {
             (Bytes{0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x06, 0x00, 0x55, 0x00}));
 }
 
-// Reboot works as documented; a controller refuses Factory Reset with Instruction Error (2).
+// A controller refuses Factory Reset with Instruction Error (2).
 TEST_F(DocumentedController, RebootAndFactoryReset) {
   become_1();
   const Bytes refused = ask(kFactoryReset, 11);

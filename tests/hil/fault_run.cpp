@@ -84,7 +84,7 @@ class FaultRun final : public FaultScene<FaultyLine, FaultPlan, FaultResult> {
 
   bus::VirtualBus bus_;
   FaultyLine line_;
-  bool unready_ = false;  ///< result_.joint lost power since the robot last relaxed
+  bool unready_ = false;  ///< result_.joint lost power since the robot relaxed
 };
 
 }  // namespace

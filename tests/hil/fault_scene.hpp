@@ -13,8 +13,7 @@
 
 namespace verp::test {
 
-/// The common part of all runs in which a robot stands up, walks and meets a fault. Each bus adds
-/// its line, faults and checks.
+/// A robot stands up, walks and meets a fault. Each bus adds its line, faults and checks.
 template <class Line, class Plan, class Result>
 class FaultScene {
  public:
@@ -47,7 +46,7 @@ class FaultScene {
   using Event = decltype(Plan::event);
   using ResetCause = dxl::controller::ResetCause;
 
-  /// The fault comes after `first_steps_s` of walking and up to half a second more.
+  /// The fault comes up to half a second after `first_steps_s`.
   FaultScene(const Robot& robot, const Plan& plan, std::uint32_t seed, double first_steps_s)
       : params_(robot.params),
         plan_(plan),
@@ -60,12 +59,11 @@ class FaultScene {
 
   virtual Line& line() = 0;
   virtual void begin() = 0;  ///< the fault
-  virtual void end() = 0;    ///< ends the bus's faults
+  virtual void end() = 0;
   virtual void watched_tick() = 0;
   virtual void finish() = 0;
-  /// Called between two ticks.
   virtual void disturb() {}
-  /// Where a restarted controller records its ticks; may be null.
+  /// For a restarted controller's ticks; may be null.
   virtual std::vector<TickRecord>* trace() { return nullptr; }
 
   double seconds(std::uint64_t ticks) const {
@@ -77,7 +75,7 @@ class FaultScene {
   void begin_in_plant() {
     switch (plan_.event) {
       case Event::kRepeats:
-        // A knee or a hip, because a walk moves those.
+        // A walk moves knees and hips.
         result_.joint = params_.leg[random_() % kFeet].joint[2 + random_() % 3];
         return body_.plant().freeze(result_.joint);
       case Event::kHot:
@@ -98,7 +96,7 @@ class FaultScene {
     }
   }
 
-  // During the chip's start and boot check nothing is served.
+  // The chip's start and boot check serve nothing.
   void restart() {
     keep();
     line().wait_until(line().time_us() + 150'000 + random_() % 850'000);
@@ -118,11 +116,11 @@ class FaultScene {
 
  private:
   static constexpr std::uint32_t kOrderTicks = 10;
-  static constexpr double kUpright_s = 8;  // longer than standing up and learning the gyro's bias
-  static constexpr double kHot_c = 76;     // beyond temperature_high_c, below a shutdown
-  static constexpr double kTooHot_c = 90;  // beyond the servo's own limit of 80
-  static constexpr double kDown_s = 4;     // longer than ending a walk and sitting down
-  static constexpr double kLow_v = 9.5;    // below voltage_low_v but not below the servo's limit
+  static constexpr double kUpright_s = 8;  // standing up and learning the gyro's bias end earlier
+  static constexpr double kHot_c = 76;     // above temperature_high_c, below a shutdown
+  static constexpr double kTooHot_c = 90;  // above the servo's limit of 80
+  static constexpr double kDown_s = 4;     // ending a walk and sitting down take less
+  static constexpr double kLow_v = 9.5;    // below voltage_low_v, not the servo's limit
 
   bool walks() const { return board_->safe.mode() == kWalking; }
   void keep() {
@@ -156,8 +154,7 @@ class FaultScene {
     result_.before = read_registers(desk_);
     return true;
   }
-  /// After a reset, repeated orders must not raise the robot; first the operator has to ask it to
-  /// relax.
+  /// After a reset, repeated orders must not raise the robot before an order to relax.
   void expect_held() {
     for (int ticks = 0; ticks < 50; ++ticks) {
       if (desk_.order_walk(ticks_)) fault("an order from before the reset was taken");
@@ -166,7 +163,7 @@ class FaultScene {
     }
   }
 
-  /// Faults that stay latched until a relaxed robot is asked to relax.
+  /// Latched until a relaxed robot is asked to relax.
   bool is_trouble() const {
     return plan_.event == Event::kHot || plan_.event == Event::kLowVoltage ||
            plan_.event == Event::kSags;
@@ -177,7 +174,7 @@ class FaultScene {
     for (std::uint64_t ticks = 0; seconds(ticks) < duration_s; ++ticks) tick();
     asks_ = true;
   }
-  /// A hand turns a limp robot's joint beyond its limits.
+  /// Beyond the limp joint's limits.
   void bend() {
     relax(kDown_s);
     const JointParams& joint = params_.joint[result_.joint];
@@ -214,7 +211,7 @@ class FaultScene {
   Eigen::Vector2d start_m_ = Eigen::Vector2d::Zero();
   std::uint64_t late_us_ = 0;  ///< when the busy loop resumed
   std::uint32_t ticks_ = 0;
-  std::uint32_t changes_ = 0;  ///< of mode since the fault began
+  std::uint32_t changes_ = 0;  ///< of mode, since the fault
   bool asks_ = true;
   bool sags_ = false;
 };

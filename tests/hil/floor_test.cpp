@@ -13,13 +13,12 @@
 #include "host/twin/sim/random.hpp"
 #include "tests/hil/safe_table.hpp"
 
-// A robot lies on the floor in any pose and is asked to get up and walk, while something fails.
-// Goals stay inside limits, modes and torque inside the safe table. VERP_SEED=7 runs that seed
-// alone.
+// A robot in any pose is asked to get up and walk while something fails. Goals stay inside limits,
+// modes and torque inside the safe table. VERP_SEED=7 runs that seed alone.
 namespace verp::test {
 namespace {
 
-constexpr int kLongest_s = 10, kLimpTicks = 5;  // the torque-off goal may be lost or late
+constexpr int kLongest_s = 10, kLimpTicks = 5;  // the torque-off goal may be late
 
 struct Lying {
   Lying() : entity(model::load_robot(model::find_model("generic21"), "")) {
@@ -46,7 +45,7 @@ enum class Trouble {
   kCount
 };
 
-/// One kind of trouble from a random moment on, for a while.
+/// From a random moment on, for a while.
 class Troubled {
  public:
   explicit Troubled(std::uint64_t seed)
@@ -134,7 +133,7 @@ Ended run(const Lying& robot, std::uint64_t seed) {
   return ended;
 }
 
-/// Returns all modes seen in the runs.
+/// All modes seen.
 std::uint32_t run_seeds(std::uint64_t first, std::uint64_t last) {
   const Lying robot;
   const char* const only = std::getenv("VERP_SEED");
@@ -152,7 +151,7 @@ constexpr std::uint32_t bit(safety::Mode mode) {
   return 1U << static_cast<unsigned>(mode);
 }
 
-// One seed per kind of trouble.
+// One seed per kind.
 TEST(Floor, AnyPoseAndTroubleKeepsTheSafeTable) {
   const std::uint32_t seen = run_seeds(1, 11);
   EXPECT_NE(seen & bit(safety::Mode::kGettingUp), 0U) << "none was ever asked to get up";

@@ -12,8 +12,8 @@
 
 namespace verp::test {
 
-/// A robot on a stand, cheap to simulate: joints follow their goals at top speed, the body stays
-/// level, the soles share its weight. The gyro has one count of noise.
+/// On a stand: joints follow goals at top speed, the body stays level, the soles share its weight.
+/// The gyro has one count of noise.
 class LevelPlant final : public sim::Plant {
  public:
   explicit LevelPlant(const Params& params) : params_(params) {
@@ -68,8 +68,7 @@ class LevelPlant final : public sim::Plant {
   std::uint16_t foot_count_ = 0;
 };
 
-/// Passes everything on but can make an encoder or the IMU repeat itself, heat a servo, bend a
-/// joint, and sag the supply.
+/// Makes an encoder or the IMU repeat itself, heats a servo, bends a joint, sags the supply.
 class SickPlant final : public sim::Plant {
  public:
   explicit SickPlant(sim::Plant& plant) : plant_(plant) {}
@@ -86,7 +85,7 @@ class SickPlant final : public sim::Plant {
     temperature_c_ = temperature_c;
   }
   void sag_to(double voltage_v) { voltage_v_ = voltage_v; }
-  /// Puts the joint `count` counts from where its servo would have it.
+  /// Relative to the servo's position.
   void bend(int joint, std::int32_t count) {
     bent_joint_ = joint;
     bent_count_ = count;
@@ -120,7 +119,7 @@ class SickPlant final : public sim::Plant {
   int bent_joint_ = -1;
   std::int32_t bent_count_ = 0;
   double temperature_c_ = 25;
-  double voltage_v_ = 0;  ///< for all servos; 0: the plant's own value
+  double voltage_v_ = 0;  ///< for all servos; 0: the plant's
   bool imu_frozen_ = false;
 };
 

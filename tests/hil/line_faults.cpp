@@ -7,7 +7,7 @@
 namespace verp::test {
 namespace {
 
-constexpr std::uint32_t kLongestBurst = 24;  // bytes: a motor brush disturbs the line for 0.1 ms
+constexpr std::uint32_t kLongestBurst = 24;  // bytes: a motor brush disturbs 0.1 ms
 
 bool wants_answer(const std::uint8_t* frame, std::size_t size) {
   constexpr std::size_t kInstructionAt = 7;
@@ -68,7 +68,7 @@ bool FaultyLine::send(const std::uint8_t* data, std::size_t size) {
     return true;
   }
   std::vector<std::uint8_t> left = spoilt({data, data + size}, false);
-  // Bytes beyond the longest frame follow as another frame, as on a wire.
+  // More bytes than the longest frame follow as another frame.
   for (std::size_t at = 0; at < left.size(); at += hal::kMaxFrame) {
     const std::size_t count = std::min(hal::kMaxFrame, left.size() - at);
     bus_.send(left.data() + at, count);

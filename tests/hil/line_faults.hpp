@@ -9,29 +9,27 @@
 
 namespace verp::test {
 
-/// Faults of a bad cable in both directions, as shares of bytes and of frames.
+/// Shares of bytes and of frames, both directions.
 struct LineFaults {
   double lost = 0, doubled = 0, flipped = 0;  ///< of bytes
-  double delayed = 0;                         ///< of replies: from some byte on they come late,
+  double delayed = 0;                         ///< replies that come late from some byte on,
   std::uint32_t delay_us = 0;                 ///< by up to this
-  std::uint32_t held_us = 0;                  ///< delays all replies, as a slow adapter does
-  double bursts = 0;  ///< of frames and replies: noise inside, before or after
+  std::uint32_t held_us = 0;                  ///< all replies, as by a slow adapter
+  double bursts = 0;                          ///< noise in, before or after frames and replies
   bool cut = false;
 };
 
-/// What has been done to the line so far, and to what.
+/// Done so far.
 struct LineDamage {
   std::uint32_t lost = 0, doubled = 0, flipped = 0, delayed = 0, bursts = 0;
   std::uint32_t cut_frames = 0;
-  /// Requests that lost or changed a byte, in themselves or in the reply, and so had no whole
-  /// answer.
+  /// Requests without a whole answer after a lost or changed byte.
   std::uint32_t spoilt_reads = 0;
   std::uint32_t noise_heard = 0;
   std::uint32_t faults() const { return lost + doubled + flipped + delayed + bursts + cut_frames; }
 };
 
-/// The cable between controller and servos: a FrameBus in bus time around a VirtualBus driven by a
-/// timer's clock. All randomness comes from one seed.
+/// A FrameBus in bus time around a VirtualBus. All randomness comes from one seed.
 class FaultyLine {
  public:
   FaultyLine(bus::VirtualBus& bus, std::uint32_t seed) : bus_(bus), random_(seed) {
@@ -65,10 +63,10 @@ class FaultyLine {
   std::minstd_rand random_;
   LineDamage damage_;
   std::deque<Arrived> inbox_;
-  std::uint64_t sent_us_ = 0;      ///< when the last frame began, delivered or not
-  std::uint64_t bus_sent_us_ = 0;  ///< when the last delivered frame began
+  std::uint64_t sent_us_ = 0;      ///< the last frame, delivered or not
+  std::uint64_t bus_sent_us_ = 0;  ///< the last delivered frame
   bool reading_ = false;
-  bool spoilt_ = false;  ///< the last frame cannot get its whole answer
+  bool spoilt_ = false;  ///< the last frame gets no whole answer
 };
 static_assert(hal::FrameBus<FaultyLine>);
 

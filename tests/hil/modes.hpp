@@ -1,6 +1,6 @@
 #pragma once
 
-/// The safety table's modes as its README numbers them, not the core's list, which referees judge.
+/// As the safety table's README numbers them, not the core's list.
 namespace verp::test {
 
 enum Mode {

@@ -12,18 +12,18 @@
 
 namespace verp::test {
 
-/// The operator's end of a controller's port: speaks the protocol's bytes to device 200.
+/// The operator's end of a port: speaks to device 200.
 class OperatorDesk {
  public:
   hal::MemoryLink& controller_end() { return wire_.left(); }
   std::function<void()> serve = [] {};
 
-  /// False if the controller answered "not now".
+  /// False: the controller answered "not now".
   bool write(std::uint16_t address, const std::vector<std::uint8_t>& data) {
     ask(dxl::encode_write(frame_, sizeof frame_, kId, address, data.data(), data.size()));
     return !refused_;
   }
-  /// "Walk ahead, two 4 cm steps in 0.450 s"; a new `sequence` makes it a new order.
+  /// Two 4 cm steps in 0.450 s; a new `sequence` makes it a new order.
   bool order_walk(std::uint32_t sequence) {
     constexpr std::uint16_t kSpeed_tenth_mm_s = 1778;
     return write(app::reg("request"),

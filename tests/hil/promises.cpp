@@ -11,7 +11,7 @@ using dxl::controller::DeviceState;
 
 constexpr int kBus = dxl::controller::kDeviceBus;
 
-/// Walking, standing, sitting, relaxed, and no other mode, whatever is asked.
+/// Walking, standing, sitting, relaxed, whatever is asked.
 void stops_walking(const RunResult& result, std::uint32_t fault) {
   EXPECT_EQ(result.before.faults & fault, 0u);
   EXPECT_EQ(result.during.faults & fault, fault);
@@ -104,7 +104,7 @@ void joint_beyond(const RunResult& result) {
   EXPECT_EQ(result.after.refused_joint, 0xFF) << "nobody is";
 }
 
-// A servo that shut itself off no longer counts, so the robot is let down.
+// A servo that shut itself off does not count.
 void overheated(const RunResult& result) {
   constexpr std::uint32_t kBoth = safety::kFaultServoError | safety::kFaultTemperature;
   EXPECT_EQ(result.after.faults & kBoth, kBoth);

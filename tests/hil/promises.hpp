@@ -4,7 +4,7 @@
 #include "tests/hil/modes.hpp"
 #include "tests/hil/run_result.hpp"
 
-/// What the campaigns promise of a run on any bus, as the operator sees it.
+/// As the operator sees a run on any bus.
 namespace verp::test {
 
 inline bool was(const RunResult& result, Mode mode) {
@@ -16,14 +16,13 @@ inline std::size_t row(const RunResult& result) {
 
 void keeps_walking(const RunResult& result);
 void walks_again(const RunResult& result);
-/// At the end all devices are well and the robot was told to have torque.
+/// At the end all devices are well and the robot has torque.
 void gone_briefly(const RunResult& result);
 void let_go(const RunResult& result);
 void gone_for_good(const RunResult& result);
-/// One device repeats its position; only its own counter shows it.
+/// Only the device's own counter shows it.
 void repeats(const RunResult& result);
 void late(const RunResult& result);
-/// All devices are silent, then all are back.
 void cut(const RunResult& result);
 void reset(const RunResult& result);
 void hot(const RunResult& result);

@@ -24,7 +24,7 @@ inline std::string pty_path(const char* name) {
       .string();
 }
 
-/// Calls `turn(link)` repeatedly until destroyed.
+/// Calls `turn(link)` until destroyed.
 class PtyThread {
  public:
   template <class Turn>
@@ -43,7 +43,7 @@ class PtyThread {
   std::thread thread_;
 };
 
-/// The twin's servos in real time.
+/// In real time.
 class PtyServos {
  public:
   PtyServos(const Params& params, FakePlant& plant, const std::string& path)
@@ -67,7 +67,7 @@ class PtyServos {
   PtyThread thread_;
 };
 
-/// A controller's operator port; its registers show `state`.
+/// Its registers show `state`.
 class PtyController {
  public:
   PtyController(const Params& params, const State& state, const std::string& path)
@@ -87,13 +87,13 @@ class PtyController {
   PtyThread thread_;
 };
 
-/// The other end, through libserial.
+/// Through libserial.
 class SerialMaster {
  public:
   explicit SerialMaster(const std::string& path)
       : link_(link::parse_endpoint("serial:" + path + "@2000000")) {}
 
-  /// Sends `bytes` and returns up to `wanted` bytes of the reply that come in time.
+  /// Returns up to `wanted` bytes of the reply.
   std::vector<std::uint8_t> exchange(const std::vector<std::uint8_t>& bytes, std::size_t wanted,
                                      std::uint32_t timeout_us = 5'000'000) {
     link_.write(bytes.data(), bytes.size(), 1'000'000);

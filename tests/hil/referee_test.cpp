@@ -5,11 +5,11 @@
 #include "tests/hil/safe_table.hpp"
 #include "tests/unit/support/test_robot.hpp"
 
-// Tests the campaigns' referee: a controller may walk only if it was asked to or pushed.
+// A controller may walk only if asked to or pushed.
 namespace verp::test {
 namespace {
 
-// Its robot stands in mid-range and was asked to stand.
+// In mid-range, asked to stand.
 struct Controller {
   Controller() {
     inputs.flags = kImuFresh | kFeetFresh | kCommandFresh;

@@ -10,7 +10,7 @@
 
 namespace verp::test {
 
-/// A run's robot: in ODE where falls matter, else on a stand.
+/// In ODE where falls matter, else on a stand.
 class RunBody {
  public:
   RunBody(const Robot& robot, bool physics, std::uint32_t seed) {
@@ -27,7 +27,7 @@ class RunBody {
   }
 
   SickPlant& plant() { return *plant_; }
-  /// On a stand servos reach their goals on time, so their reports are known.
+  /// Servos then reach goals on time, so reports are known.
   bool on_stand() const { return level_.has_value(); }
   Eigen::Vector2d position_m() const {
     if (!twin_) return Eigen::Vector2d::Zero();
@@ -37,7 +37,7 @@ class RunBody {
   bool fallen() const { return twin_ && twin_->truth().fallen; }
 
  private:
-  static constexpr double kLyingUp = 0.5;  // tilt of 60 degrees; the table says fallen at 46
+  static constexpr double kLyingUp = 0.5;  // a tilt of 60 degrees; the table's fall is 46
 
   std::optional<sim::World> world_;
   std::optional<sim::TwinRobot> twin_;

@@ -8,7 +8,7 @@
 
 namespace verp::test {
 
-/// A controller as the operator sees it.
+/// As the operator sees a controller.
 struct Registers {
   std::uint8_t mode = 0, reset_cause = 0, refused_joint = 0;
   std::uint32_t tick = 0, faults = 0, fresh = 0;
@@ -24,22 +24,22 @@ struct Registers {
 Registers read_registers(OperatorDesk& desk);
 
 struct RunResult {
-  std::string violation;  ///< broken rule or promise; empty: none
+  std::string violation;  ///< broken rule or promise
   std::uint32_t events = 0;
-  int joint = 0;              ///< joint of the event's servo
-  std::uint8_t joint_id = 0;  ///< its id on the bus
+  int joint = 0;  ///< of the event's servo
+  std::uint8_t joint_id = 0;
   Registers before;
-  Registers during;  ///< when it ended
+  Registers during;  ///< at its end
   Registers after;
-  std::uint32_t seen = 0;           ///< bit m: was in mode m
+  std::uint32_t seen = 0;
   std::uint32_t changes = 0;        ///< of mode, during the fault
   std::uint32_t walking_ticks = 0;  ///< since the fault began
   std::uint32_t ticks = 0;
   std::uint64_t worst_tick_us = 0;  ///< bus time
-  double distance_m = 0;            ///< over ground, physics only
-  bool stale = false;               ///< a servo or the IMU was once silent for stale_hold_s
+  double distance_m = 0;            ///< physics only
+  bool stale = false;               ///< a servo or the IMU was silent for stale_hold_s
   bool fallen = false;
-  bool ready = false;  ///< came up and walked before the fault
+  bool ready = false;  ///< walked before the fault
 };
 
 }  // namespace verp::test

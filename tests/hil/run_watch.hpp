@@ -10,7 +10,7 @@
 
 namespace verp::test {
 
-/// Checks for every bus and fault, besides the safe table.
+/// For every bus and fault, besides the safe table.
 class RunWatch {
  public:
   static constexpr int kNobody = -1;
@@ -23,18 +23,17 @@ class RunWatch {
   }
 
   /// Each servo's next report lies between its position and its goal when a tick is due. A delayed
-  /// goal may arrive only with the next request.
+  /// goal may come with the next request.
   void note_positions(const Outputs& last);
-  /// No older position may count as fresh, except that of the joint that `repeats`.
+  /// Only the joint `repeats` may count as fresh with an older position.
   void watch_positions(const Inputs& inputs, int repeats);
 
   void watch_silence(const Inputs& inputs);
   bool stale() const { return stale_; }
 
-  /// A limp robot's servos are limp, even if frames were lost. Exceptions: none can be reached if
-  /// `cut`, nor servo `gone`.
+  /// A limp robot's servos are limp. Exceptions: all if `cut`, and servo `gone`.
   void watch_torque(const Outputs& outputs, std::uint64_t now_us, bool cut, int gone);
-  /// A robot on the floor soon is limp, whatever its controller knows.
+  /// A robot on the floor is soon limp.
   void watch_fall(const Outputs& outputs, std::uint64_t now_us, bool lies);
 
  private:

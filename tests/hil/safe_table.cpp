@@ -14,7 +14,7 @@ constexpr std::uint32_t bit(int mode) {
 
 constexpr std::uint32_t kDown = bit(kFalling) | bit(kFallen) | bit(kStopped);
 
-/// The table's arrows: where each mode may lead, for any reason.
+/// Where each mode may lead.
 constexpr std::uint32_t kMayLeadTo[] = {
     /* relaxed  */ bit(kRising) | bit(kGettingUp) | bit(kStopped),
     /* rising   */ bit(kStanding) | bit(kHolding) | bit(kSitting) | kDown,
@@ -44,7 +44,7 @@ void SafeTable::fault(const std::string& what) {
   if (violation_.empty()) violation_ = "tick " + std::to_string(tick_) + ": " + what;
 }
 
-// Counts periods with or without a tick; without one, and before the first, nothing was heard.
+// Counts periods; without a tick, nothing was heard.
 void SafeTable::count_silence(const Inputs& inputs) {
   const std::uint32_t periods = begun_ ? std::min(inputs.tick - tick_, kForEver) : kForEver;
   const auto count = [periods](std::uint32_t& silent, bool heard) {
@@ -67,7 +67,7 @@ void SafeTable::count_silence(const Inputs& inputs) {
   }
 }
 
-// A push turns or leans a robot, and the IMU shows it.
+// The IMU shows how a push turns or leans a robot.
 void SafeTable::count_push(const Inputs& inputs) {
   constexpr double kTurns_rad_s = 0.3, kLeans_m_s2 = 1.0;
   const auto most = [](const std::int16_t* count, int axes, double per_count) {
@@ -83,7 +83,7 @@ void SafeTable::count_push(const Inputs& inputs) {
   unmoved_ = moved ? 0 : std::min(unmoved_ + periods, kForEver);
 }
 
-// Trouble is latched: it is over when it has ended and a relaxed robot was asked to relax.
+// Trouble is latched until it has ended and a relaxed robot was asked to relax.
 void SafeTable::count_trouble(const Inputs& inputs, int to) {
   const SafetyTuning& safety = params_.tuning.safety;
   if ((inputs.flags & kSlowFresh) != 0 && inputs.slow_joint < params_.joint_count) {
@@ -102,7 +102,7 @@ void SafeTable::count_trouble(const Inputs& inputs, int to) {
 }
 
 void SafeTable::check_trouble(int to) {
-  constexpr double kLongestEnd_s = 4;  // a walk may have four planned steps left
+  constexpr double kLongestEnd_s = 4;  // up to four planned steps
   trouble_ticks_ = trouble_ && to == kWalking ? trouble_ticks_ + 1 : 0;
   if (1e-6 * params_.period_us * trouble_ticks_ > kLongestEnd_s) fault("walks on with bad power");
   if (!trouble_) return;
@@ -114,8 +114,7 @@ void SafeTable::check_trouble(int to) {
   }
 }
 
-// A rise or sitting down brings every joint to its goal. At mid-way a minimum-jerk curve is 15/8
-// times its average speed, which the joint must allow.
+// A minimum-jerk curve peaks at 15/8 of its average speed, which the joint must allow.
 void SafeTable::check_way(const Outputs& outputs, int to) {
   const bool begins = to != mode_ && (to == kRising || to == kSitting);
   const bool ends = (mode_ == kRising && to == kStanding) || (mode_ == kSitting && to == kRelaxed);
@@ -137,7 +136,7 @@ void SafeTable::check_transition(const Inputs& inputs, int to) {
   const auto longer = [&](std::uint32_t ticks, double duration_s) {
     return 1e-6 * params_.period_us * ticks >= duration_s - 1e-6;
   };
-  // If the period does not divide the time, the core may be early by half a period.
+  // The core may be early by half a period.
   const auto nearly = [&](std::uint32_t ticks, double duration_s) {
     return longer(ticks, duration_s - 0.5e-6 * params_.period_us);
   };
@@ -194,8 +193,7 @@ void SafeTable::check_transition(const Inputs& inputs, int to) {
   }
 }
 
-// A tick decides its mode last. Its goals still belong to the mode before; the new mode's goals
-// follow a tick later. Torque goes off at once.
+// A tick decides its mode last: the new mode's goals follow a tick later. Torque goes off at once.
 void SafeTable::check_goals(const Inputs& inputs, const Outputs& outputs) {
   for (int j = 0; j < params_.joint_count; ++j) {
     const JointParams& joint = params_.joint[j];

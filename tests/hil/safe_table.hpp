@@ -8,18 +8,18 @@
 
 namespace verp::test {
 
-/// A referee of every tick's Inputs and Outputs, written from host/guide/safety.md and not from
-/// the code. One per run of a controller.
+/// Judges every tick's Inputs and Outputs; written from host/guide/safety.md, not from the code.
+/// One per run.
 class SafeTable {
  public:
   explicit SafeTable(const Params& params);
 
   void tick(const Inputs& inputs, const Outputs& outputs);
 
-  /// The first broken rule and its time; empty if none.
+  /// With its time; empty if no rule is broken.
   const std::string& violation() const { return violation_; }
   int mode() const { return mode_; }
-  /// Bit m: has been in mode m.
+  /// Bit m: mode m.
   std::uint32_t seen() const { return seen_; }
 
  private:
@@ -40,22 +40,22 @@ class SafeTable {
   int mode_ = 0;
   int in_mode_ticks_ = 0;
   static constexpr std::uint32_t kForEver = 1'000'000;  ///< periods; counting stops here
-  static constexpr std::uint32_t kFrozen = 20;          ///< equal readings: the IMU repeats itself
+  static constexpr std::uint32_t kFrozen = 20;          ///< equal IMU readings
   std::uint32_t servo_silent_[kMaxJoints] = {};         ///< periods
   std::uint32_t imu_silent_ = 0;
   std::uint32_t operator_silent_ = 0;
   std::uint32_t unmoved_ = 0;         ///< since the IMU showed a push
-  std::uint32_t silent_ = 0;          ///< longest of servos, IMU, and missing ticks
+  std::uint32_t silent_ = 0;          ///< of servos, IMU, and missing ticks
   std::uint32_t alike_ = 0;           ///< fresh but unchanged IMU readings
-  static constexpr int kAlarm = 3;    ///< consecutive readings of one servo
-  static constexpr int kSupply = 21;  ///< consecutive readings of any servos
+  static constexpr int kAlarm = 3;    ///< of one servo
+  static constexpr int kSupply = 21;  ///< of any servos
   static constexpr double kBeyond_rad = 0.05;
-  static constexpr double kPushed_s = 0.3;  ///< after a push a robot may step unasked for this long
+  static constexpr double kPushed_s = 0.3;  ///< a pushed robot may step unasked for this long
   static constexpr double kLies_s = 1.0;    ///< limp before it gets up
   static constexpr double kFalls_s = 0.7;
   int servo_bad_[kMaxJoints] = {};  ///< consecutive readings
   int supply_low_ = 0;
-  bool trouble_ = false;   ///< power trouble, and no request to relax since
+  bool trouble_ = false;   ///< until a request to relax
   int trouble_ticks_ = 0;  ///< while walking
   std::int16_t gyro_[3] = {}, accel_[3] = {};
   std::int32_t goal_[kMaxJoints] = {};

@@ -9,10 +9,10 @@
 #include "tests/hil/operator_desk.hpp"
 #include "tests/hil/safe_table.hpp"
 
-/// The control loop and its operator port, assembled as on a board.
+/// As on a board.
 namespace verp::test {
 
-/// A board's timer that follows bus time.
+/// Follows bus time.
 template <class Line>
 class BusClock {
  public:
@@ -39,8 +39,7 @@ class BusClock {
 
 using Device = app::OperatorDevice<hal::MemoryLink>;
 
-/// A controller from power-up to reset. `Line` is its servo bus of any kind; time_us() gives the
-/// board's time and wait_until() waits for one.
+/// From power-up to reset. `Line` is any servo bus with time_us() and wait_until().
 template <class Line>
 struct ControllerOnBoard {
   static_assert(hal::TickSource<BusClock<Line>>);
@@ -55,7 +54,6 @@ struct ControllerOnBoard {
     std::vector<TickRecord>* trace;
   };
 
-  /// `trace` may be null.
   ControllerOnBoard(const Params& params, Line& line, OperatorDesk& desk,
                     dxl::controller::ResetCause cause, std::vector<TickRecord>* trace = nullptr)
       : device(desk.controller_end(), params, {.reset_cause = cause}),

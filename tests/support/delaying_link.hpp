@@ -15,8 +15,8 @@
 #include "host/os/link/system_clock.hpp"
 #include "host/twin/bus/virtual_bus.hpp"
 
-/// A cable whose adapter delays bytes, as USB adapters do: the first byte starts a timer, and all
-/// received bytes go on when it expires. A thread carries them.
+/// A cable that delays bytes as USB adapters do: the first byte starts a timer; all bytes go on
+/// when it expires. A thread carries them.
 namespace verp::test {
 
 struct Latency {
@@ -26,7 +26,7 @@ struct Latency {
 
 class DelayingLink {
  public:
-  /// Makes `pc`, and opens `device` as soon as it exists.
+  /// Opens `device` as soon as it exists.
   DelayingLink(const std::string& pc, std::string device, const Latency& latency)
       : pc_(link::parse_endpoint(pc)), device_place_(std::move(device)), latency_(latency) {
     thread_ = std::thread([this] { carry(); });
@@ -38,15 +38,14 @@ class DelayingLink {
   DelayingLink(const DelayingLink&) = delete;
   DelayingLink& operator=(const DelayingLink&) = delete;
 
-  /// Blocks the cable for so many ticks of the PC's loop; bytes under way are lost.
+  /// For so many ticks of the PC's loop; bytes under way are lost.
   void cut_for(std::uint32_t ticks) { mended_at_ = ticks_ + ticks; }
-  /// Delays all that comes in the next `time_us` to their end; further calls add to it.
+  /// Delays all that comes in `time_us` to their end; calls add up.
   void stall(std::uint64_t time_us) { stall_until_us_ = now_us() + time_us; }
 
-  /// Loses the devices' next `count` replies.
   void lose_replies(int count) { to_lose_ = count; }
 
-  /// Ticks of the PC's control loop: its reads of Present Position from all servos.
+  /// The PC's reads of Present Position from all servos.
   std::uint32_t ticks() const { return ticks_; }
 
  private:
@@ -54,7 +53,7 @@ class DelayingLink {
 
   struct Way {
     std::vector<std::uint8_t> held;
-    std::uint64_t due_us = 0;  ///< when they go on
+    std::uint64_t due_us = 0;
   };
 
   bool cut() const { return ticks_ < mended_at_; }
@@ -77,7 +76,7 @@ class DelayingLink {
     if (device_) return true;
     try {
       device_.emplace(link::parse_endpoint(device_place_));
-    } catch (const link::LinkError&) {  // does not exist yet
+    } catch (const link::LinkError&) {
     }
     return device_.has_value();
   }
@@ -94,7 +93,7 @@ class DelayingLink {
     if (!cut()) way.held.insert(way.held.end(), piece, piece + count);
   }
 
-  /// A reply comes in one piece; if it is torn, all pieces are lost.
+  /// A reply comes in one piece; all pieces of a torn one are lost.
   bool lost(const std::uint8_t* piece, std::size_t count) {
     if (to_lose_ <= 0) return false;
     for (std::size_t i = 0; i < count; ++i) {

@@ -12,7 +12,7 @@
 
 namespace verp::test {
 
-/// While it lives, allocations may leak in a third-party library. The name says which one, and why.
+/// Allowed leaks of a third-party library. The name says which and why.
 struct SomebodyElsesLeak {
 #ifdef VERP_FINDS_LEAKS
   SomebodyElsesLeak() {

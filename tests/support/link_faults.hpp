@@ -5,12 +5,11 @@
 
 namespace verp::test {
 
-/// Faults of a bad cable in one direction.
+/// One direction.
 struct LinkFaults {
   double lost = 0, doubled = 0, flipped = 0;  ///< shares of bytes
 };
 
-/// Applies them at random, from a seed.
 class LinkSpoiler {
  public:
   explicit LinkSpoiler(std::uint32_t seed) : random_(seed) {}

@@ -6,20 +6,20 @@
 
 namespace verp::bus {
 
-/// Takes bytes, appends its answer, like LockstepServer.
+/// Takes bytes, appends its answer.
 template <class Server>
 concept ByteServer = requires(Server& server, const std::uint8_t* bytes,
                               std::vector<std::uint8_t>& answer) {
   server.take({bytes, std::size_t{1}}, answer);
 };
 
-/// Serves a link: passes its bytes to the server and the answers back.
+/// Passes a link's bytes to the server and the answers back.
 template <hal::ByteLink Link, ByteServer Server>
 class LinkPump {
  public:
   LinkPump(Link& link, Server& server) : link_(link), server_(server) {}
 
-  /// Waits up to timeout_us for bytes and answers them. False if none came.
+  /// Waits up to timeout_us. False if no bytes came.
   bool turn(std::uint32_t timeout_us) {
     std::uint8_t piece[4096];
     const std::size_t count = link_.read(piece, sizeof piece, timeout_us);
@@ -28,7 +28,7 @@ class LinkPump {
     server_.take({piece, count}, answer_);
     const std::uint8_t* from = answer_.data();
     std::size_t size = answer_.size();
-    // A peer that left or does not read will ask again.
+    // A peer that does not read will ask again.
     for (int i = 0; i < kPieces && size > 0; ++i) {
       const std::size_t written = link_.write(from, size, kPatience_us);
       from += written;

@@ -6,8 +6,8 @@
 
 namespace verp::app {
 
-/// A ByteLink as the streams of a RemoteBus (remote_bus.hpp), which wait without limit. A loss ends
-/// the stream, because a peer that returns knows nothing of it.
+/// A ByteLink as a stream of a RemoteBus, which waits without limit. A loss ends the stream: a peer
+/// that returns knows nothing of it.
 template <hal::ByteLink Link>
 class LinkStream {
  public:
@@ -37,7 +37,7 @@ class LinkStream {
   bool whole() const { return link_->connected() && link_->errors().losses == losses_; }
 
   Link* link_;
-  std::uint32_t losses_;  ///< the link's losses when the stream began
+  std::uint32_t losses_;  ///< when the stream began
 };
 
 }  // namespace verp::app

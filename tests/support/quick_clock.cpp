@@ -7,19 +7,17 @@
 #include <cstdint>
 #include <ctime>
 
-/// with-can loads this into its commands in User-Mode Linux. There, reading the clock is a system
-/// call of about ten microseconds, which took half of an emulator's time. So CLOCK_MONOTONIC comes
-/// from the processor's time stamp counter, along a line through the kernel's constantly renewed
-/// answers.
+/// with-can loads this into its commands in User-Mode Linux, where reading the clock is a system
+/// call of ten microseconds: half of an emulator's time. CLOCK_MONOTONIC comes from the time stamp
+/// counter, along a line through the kernel's answers.
 ///
-/// Within a process the clock never runs backwards. A sleep until a time may end some microseconds
-/// before this clock reaches it. with-can checks that the counter neither stops nor changes its
-/// speed.
+/// Within a process the clock never runs backwards. A sleep may end some microseconds early by this
+/// clock. with-can checks that the counter neither stops nor changes its speed.
 namespace {
 
-constexpr std::uint64_t kFirstLine = 200'000'000;  // minimum cycles to measure a speed
+constexpr std::uint64_t kFirstLine = 200'000'000;  // minimum to measure a speed
 constexpr std::uint64_t kLineLasts = 100'000'000;  // tens of milliseconds
-constexpr std::uint64_t kPrompt = 500'000;         // a slower answer is too inaccurate
+constexpr std::uint64_t kPrompt = 500'000;         // a slower answer is inaccurate
 
 /// time_ns = from_ns + (counter - from) * ns_per_cycle
 struct Line {
@@ -33,11 +31,11 @@ struct Line {
 };
 
 Line line;
-std::atomic<std::uint32_t> edition{0};  // of the line; odd during a write
+std::atomic<std::uint32_t> edition{0};  // odd during a write
 std::atomic_flag writing = ATOMIC_FLAG_INIT;
-std::uint64_t first = 0, first_ns = 0;  // counter and time of the first answer
+std::uint64_t first = 0, first_ns = 0;  // of the first answer
 
-/// False if the line is too old or being written.
+/// False if the line is old or being written.
 bool read_line(std::uint64_t& time_ns) {
   const std::uint32_t before = edition.load(std::memory_order_acquire);
   const Line now = line;
@@ -57,14 +55,14 @@ void write_line(const Line& next) {
 
 std::uint64_t ask_kernel(std::uint64_t& counter, bool& prompt) {
   timespec now{};
-  counter = __rdtsc();  // read first: the line is rather ahead of the kernel than behind
+  counter = __rdtsc();  // read first: rather ahead of the kernel than behind
   ::syscall(SYS_clock_gettime, CLOCK_MONOTONIC, &now);
   prompt = __rdtsc() - counter < kPrompt;
   return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000 +
          static_cast<std::uint64_t>(now.tv_nsec);
 }
 
-/// Returns the kernel's time and starts a new line there, unless another thread does.
+/// Starts a new line unless another thread does.
 std::uint64_t renew_line() {
   std::uint64_t counter = 0;
   bool prompt = false;
@@ -81,7 +79,7 @@ std::uint64_t renew_line() {
   return time_ns;
 }
 
-/// A new line may begin slightly behind the old line's end.
+/// A new line may begin behind the old one's end.
 std::uint64_t never_back(std::uint64_t time_ns) {
   static std::atomic<std::uint64_t> told{0};
   std::uint64_t before = told.load(std::memory_order_relaxed);

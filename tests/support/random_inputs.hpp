@@ -5,10 +5,10 @@
 #include "common/io/io.hpp"
 #include "common/model/params.hpp"
 
-/// Inputs without a robot, from integers only, so that every machine makes the same.
+/// Inputs from integers only: equal on every machine.
 namespace verp::test {
 
-/// Numerical Recipes' 32-bit linear congruential generator; its high bits suffice here.
+/// Numerical Recipes' 32-bit linear congruential generator.
 class SmallRandom {
  public:
   explicit SmallRandom(std::uint32_t seed) : state_(seed) {}
@@ -16,7 +16,7 @@ class SmallRandom {
     const std::uint32_t high = next() & 0xFFFF0000u;
     return high | (next() >> 16);
   }
-  /// -half..half, about uniform.
+  /// About uniform.
   std::int32_t around_zero(std::int32_t half) {
     return static_cast<std::int32_t>((next() >> 8) % static_cast<std::uint32_t>(2 * half + 1)) -
            half;
@@ -27,11 +27,11 @@ class SmallRandom {
   std::uint32_t state_;
 };
 
-/// A robot stands in place with noisy sensors while its operator orders one walk after another;
-/// sometimes fresh readings are missing. `one_g_count` is the accelerometer at rest, IMU z up.
+/// The robot stands with noisy sensors while its operator orders walk after walk; some readings are
+/// missing. `one_g_count`: accelerometer at rest, IMU z up.
 inline std::vector<Inputs> plausible_inputs(std::uint32_t ticks, std::uint32_t seed,
                                             std::int16_t one_g_count, const Params& params) {
-  constexpr std::uint32_t kOrderTicks = 400;  // each order lasts this long
+  constexpr std::uint32_t kOrderTicks = 400;
   SmallRandom random(seed);
   std::vector<Inputs> trace(ticks);
   Command order;
@@ -65,7 +65,7 @@ inline std::vector<Inputs> plausible_inputs(std::uint32_t ticks, std::uint32_t s
   return trace;
 }
 
-/// Random bits in every field but the tick.
+/// All fields but the tick are random bits.
 inline std::vector<Inputs> wild_inputs(std::uint32_t ticks, std::uint32_t seed) {
   SmallRandom random(seed);
   std::vector<Inputs> trace(ticks);

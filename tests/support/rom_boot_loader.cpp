@@ -146,7 +146,7 @@ void RomBootLoader::write(Reply& reply) {
   const auto hit = chip_.refused.lower_bound(address_);
   const bool refused = hit != chip_.refused.end() && *hit < address_ + bytes;
   if (!checksum_is_good(0) || refused || !in_flash(address_, bytes)) return refuse(reply);
-  for (std::size_t i = 0; i < bytes; ++i) {  // programming only clears bits
+  for (std::size_t i = 0; i < bytes; ++i) {  // only clears bits
     const auto at = static_cast<std::uint32_t>(address_ + i);
     flash[at - kFlashBegin] &= chip_.stuck.contains(at) ? std::uint8_t{0} : got_[i + 1];
   }
@@ -170,7 +170,7 @@ void RomBootLoader::erase_all() {
 void RomBootLoader::erase(Reply& reply) {
   if (got_.size() < 3) return;
   const std::uint32_t count = std::uint32_t{got_[0]} << 8 | got_[1];
-  if (count >= 0xFFF0) {  // 0xFFFF: all; a chip with one bank knows only this
+  if (count >= 0xFFF0) {  // 0xFFFF: all; the only one of one-bank chips
     if (!checksum_is_good(0) || count != 0xFFFF) return refuse(reply);
     erase_all();
     return expect(State::kCommand, reply);

@@ -3,8 +3,8 @@
 #include <set>
 #include <vector>
 
-/// The USART boot loader in an STM32's ROM with the flash behind it, as bytes in and bytes out.
-/// Written from the application note AN3155, not from any flash tool.
+/// The USART boot loader in an STM32's ROM, and its flash. Written from AN3155, not from any flash
+/// tool.
 namespace verp::test {
 
 class RomBootLoader {
@@ -14,22 +14,21 @@ class RomBootLoader {
 
   struct Chip {
     std::uint16_t device_id = 0x413;               ///< STM32F405 (AN2606)
-    std::vector<std::uint32_t> sector_bytes = {};  ///< empty: those of an STM32F405RG
+    std::vector<std::uint32_t> sector_bytes = {};  ///< empty: STM32F405RG
     bool readout_protected = false;                ///< level 1
-    std::set<std::uint32_t> refused = {};          ///< writes that cover these addresses get NACK
-    std::set<std::uint32_t> stuck = {};            ///< bytes that stay 0 whatever is written
+    std::set<std::uint32_t> refused = {};          ///< writes over these get NACK
+    std::set<std::uint32_t> stuck = {};            ///< bytes that stay 0
   };
 
   explicit RomBootLoader(Chip chip);
 
-  /// Receives one byte and appends the answer.
   void take(std::uint8_t byte, std::vector<std::uint8_t>& reply);
-  /// The reset button with BOOT0 high; the flash keeps its content.
+  /// Reset with BOOT0 high; the flash keeps its content.
   void reset() { state_ = State::kAsleep; }
 
-  std::vector<std::uint8_t> flash;  ///< from kFlashBegin on
+  std::vector<std::uint8_t> flash;
   std::uint32_t writes = 0, erased_sectors = 0;
-  bool started = false;  ///< by Go; the boot loader no longer answers
+  bool started = false;  ///< by Go
 
  private:
   enum class State : std::uint8_t {
@@ -61,7 +60,7 @@ class RomBootLoader {
   State state_ = State::kAsleep;
   std::uint8_t command_ = 0;
   std::uint32_t address_ = 0;
-  std::vector<std::uint8_t> got_;  ///< of the part being received
+  std::vector<std::uint8_t> got_;
 };
 
 }  // namespace verp::test

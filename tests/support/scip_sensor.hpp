@@ -5,8 +5,8 @@
 
 #include "hal/contract/byte_link.hpp"
 
-/// A SCIP 2.0 laser at the other end of a link, written from the specification (C-42-03320B)
-/// independently of host/os/link/scip.cpp. It answers BM, QT, MD and SCIP2.0, and scans on request.
+/// A SCIP 2.0 laser at a link, written from the specification (C-42-03320B). It answers BM, QT, MD
+/// and SCIP2.0, and scans on request.
 namespace verp::test {
 
 template <hal::ByteLink Link>
@@ -14,7 +14,6 @@ class ScipSensor {
  public:
   explicit ScipSensor(Link& link) : link_(link) {}
 
-  /// Receives requests and answers them.
   void listen() {
     std::uint8_t bytes[256];
     for (std::size_t size = 0; (size = link_.read(bytes, sizeof bytes, 0)) > 0;)
@@ -23,7 +22,7 @@ class ScipSensor {
       if (!silent_) answer(heard_.substr(0, end));
     }
   }
-  /// One turn of the mirror, if requested.
+  /// One turn, if requested.
   void scan(std::uint32_t time_ms, const std::vector<std::uint32_t>& range_mm) {
     listen();
     if (silent_ || request_.empty()) return;
@@ -33,7 +32,7 @@ class ScipSensor {
   }
   void be_silent(bool silent) {
     silent_ = silent;
-    if (silent) request_.clear();  // as after unplugging
+    if (silent) request_.clear();  // as if unplugged
   }
   bool scanning() const { return !request_.empty(); }
   void say(const std::string& text) {
@@ -58,7 +57,7 @@ class ScipSensor {
     for (const char c : text) sum += static_cast<unsigned char>(c);
     return text + static_cast<char>(0x30 + sum % 64) + "\n";
   }
-  /// In lines of 64 characters.
+  /// Lines of 64 characters.
   static std::string blocks(const std::string& data) {
     std::string out;
     for (std::size_t at = 0; at < data.size(); at += 64) out += line(data.substr(at, 64));

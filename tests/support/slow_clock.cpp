@@ -4,12 +4,11 @@
 #include <cstdlib>
 #include <ctime>
 
-/// with-can loads this into User-Mode Linux: the virtual machine's clock runs at 1 /
-/// VERP_SLOW_CLOCK of this PC's speed. A robot and its PC in there only see a faster machine, and
-/// other work of this PC costs them less of their period.
+/// with-can loads this into User-Mode Linux, whose clock then runs at 1 / VERP_SLOW_CLOCK of this
+/// PC's speed. Other work of this PC costs its programs less of their period.
 ///
 /// User-Mode Linux asks its PC for the time and wakes by one single-shot timer
-/// (arch/um/os-Linux/time.c of Linux 6.1). It writes no time into what others read.
+/// (arch/um/os-Linux/time.c of Linux 6.1).
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;

@@ -15,8 +15,8 @@
 
 #include "host/os/link/video_calls.hpp"
 
-/// A V4L2 capture device behind the kernel's calls, written from the kernel's interface
-/// documentation. Its camera shows a bar that moves right by one column per picture.
+/// A V4L2 capture device behind the kernel's calls, written from the kernel's documentation. Its
+/// bar moves right by one column per picture.
 namespace verp::test {
 
 class VideoDevice final : public link::VideoCalls {
@@ -33,12 +33,12 @@ class VideoDevice final : public link::VideoCalls {
   std::uint32_t capabilities = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
   std::uint32_t padding = 0;  ///< bytes after each row
   std::uint32_t buffers_at_most = 8;
-  bool stamps = true;  ///< its driver stamps pictures with the monotonic clock
-  bool counts = true;  ///< its driver numbers its pictures
+  bool stamps = true;  ///< pictures carry the monotonic clock
+  bool counts = true;  ///< pictures are numbered
   bool takes_any_rate = true;
   int open_error = 0;
   std::map<unsigned long, int> refused;  ///< request -> errno
-  std::function<void()> on_wait;         ///< runs while a caller waits for a picture
+  std::function<void()> on_wait;         ///< while a caller waits
 
   void unplug() {
     plugged_ = false;
@@ -47,8 +47,7 @@ class VideoDevice final : public link::VideoCalls {
     done_.clear();
   }
   void plug() { plugged_ = true; }
-  /// Puts the next picture into a queued buffer; without one it is lost. `part` of its bytes
-  /// arrive.
+  /// Fills a queued buffer; without one the picture is lost. `part` of its bytes arrive.
   void make_picture(double part = 1, bool damaged = false) {
     time_us_ += 33'000;
     const std::uint32_t number = sequence_++;
@@ -69,7 +68,7 @@ class VideoDevice final : public link::VideoCalls {
   std::uint32_t bar_of(std::uint32_t number) const { return number % width_; }
   std::uint32_t made() const { return sequence_; }
   std::uint64_t time_us() const { return time_us_; }
-  /// Open descriptors and mappings; none once the camera is gone.
+  /// 0 once the camera is gone.
   int open_descriptors() const { return descriptors_; }
   int mapped() const { return mapped_; }
   double rate_hz() const { return 1.0 * period_.denominator / period_.numerator; }
@@ -199,7 +198,7 @@ class VideoDevice final : public link::VideoCalls {
     pixels.sizeimage = row() == 0 ? 4096 : pixels.bytesperline * height_;
     return 0;
   }
-  /// As in drivers, an impossible format becomes a possible one.
+  /// An impossible format becomes a possible one.
   int set_format(v4l2_format& format) {
     const v4l2_pix_format wanted = format.fmt.pix;
     const Format* chosen = &formats.at(0);
@@ -249,7 +248,6 @@ class VideoDevice final : public link::VideoCalls {
     done_.pop_front();
     return 0;
   }
-  /// Returns the picture's bytes.
   std::uint32_t draw(std::uint32_t number, std::vector<std::uint8_t>& bytes) const {
     if (row() == 0) {
       const std::uint8_t file[] = {0xFF, 0xD8, static_cast<std::uint8_t>(number), 0xFF, 0xD9};

@@ -8,22 +8,21 @@
 #include <cstdarg>
 #include <cstring>
 
-/// with-can loads this into Debian 12's User-Mode Linux, which keeps its processes' extended
-/// registers in 2696 bytes (HOST_FP_SIZE, arch/x86/um/user-offsets.c of Linux 6.1): everything
-/// before AMX. If the PC has more, ptrace accepts them only whole (xstateregs_set,
-/// arch/x86/kernel/fpu/regset.c), and the virtual machine ends at its first process. So its bytes
-/// are written over the process's whole set. The rest is unused, because nothing asks the PC's
-/// kernel for AMX.
+/// with-can loads this into Debian 12's User-Mode Linux, which keeps extended registers in 2696
+/// bytes (HOST_FP_SIZE, arch/x86/um/user-offsets.c of Linux 6.1): all before AMX. If the PC has
+/// more, ptrace accepts them only whole (xstateregs_set, arch/x86/kernel/fpu/regset.c), and the
+/// virtual machine ends at its first process. So its bytes are written over the process's whole
+/// set.
 
 namespace {
 
 using Ptrace = long (*)(int, pid_t, void*, void*);
 
 constexpr std::size_t kMost = 65536;     // AMX: 11008
-alignas(64) unsigned char whole[kMost];  // not on the stack: this is a kernel with small stacks
+alignas(64) unsigned char whole[kMost];  // a kernel's stacks are small
 
 long set_registers(Ptrace original, pid_t process, void* kind, void* data) {
-  static std::size_t all_there_is = sizeof whole;  // equal for all processes, once known
+  static std::size_t all_there_is = sizeof whole;  // equal for all processes
   auto* part = static_cast<iovec*>(data);
   iovec all{whole, all_there_is};
   if (part->iov_len < all_there_is && original(PTRACE_GETREGSET, process, kind, &all) != 0)

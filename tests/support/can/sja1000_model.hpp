@@ -18,13 +18,12 @@ class Sja1000Model : public CanNode {
 
   std::uint8_t read8(std::uint32_t offset);
   void write8(std::uint32_t offset, std::uint8_t value);
-  /// Advances chip and wire.
   void advance(std::uint64_t microseconds);
   /// Sleeps until the chip's interrupt or until `us`.
   void doze_until(std::uint64_t us);
   bool interrupt() const { return (ir_ & ier_) != 0 || ((ier_ & 1) != 0 && !fifo_.empty()); }
 
-  bool off() const { return off_; }  ///< bus-off after too many errors
+  bool off() const { return off_; }  ///< bus-off
   std::size_t violations() const { return violations_; }
   const std::string& first_violation() const { return first_violation_; }
   std::uint8_t btr(unsigned number) const { return btr_[number]; }
@@ -60,7 +59,6 @@ class Sja1000Model : public CanNode {
   std::string first_violation_;
 };
 
-/// The driver's access to the model.
 class Sja1000ModelIo {
  public:
   explicit Sja1000ModelIo(Sja1000Model& model) : model_(&model) {}

@@ -3,7 +3,7 @@
 
 namespace verp::hal::sja1000 {
 
-/// One register; the model checks every access against it.
+/// The model checks every access against it.
 struct Register {
   const char* name;
   std::uint32_t offset;

@@ -5,16 +5,16 @@
 
 #include "common/base/can_frame.hpp"
 
-/// A CAN bus at 1 Mbit/s between one controller's model and a far node played by the test. Frames
-/// take the time of their bits without stuffing.
+/// A bus at 1 Mbit/s between a controller's model and a far node played by the test. Frames take
+/// the time of their bits without stuffing.
 namespace verp::test {
 
 class CanNode {
  public:
   virtual ~CanNode() = default;
-  /// The frame it would send now, or null.
+  /// The next frame, or null.
   virtual const CanFrame* pending() const = 0;
-  /// Its frame has begun and cannot be withdrawn.
+  /// The frame cannot be withdrawn.
   virtual void begun() = 0;
   virtual void sent() = 0;    ///< sent and acknowledged
   virtual void failed() = 0;  ///< an error frame ended it
@@ -35,9 +35,8 @@ class CanWire {
     heard_.pop_front();
     return true;
   }
-  /// Another node occupies the bus until it is released.
   void hold(bool yes) { held_ = yes; }
-  /// The controller's next `frames` frames end in an error frame.
+  /// The next `frames` frames end in an error frame.
   void spoil(unsigned frames) { spoiled_ = frames; }
   bool idle() const { return !busy_ && far_.empty() && node_.pending() == nullptr; }
 
@@ -89,7 +88,6 @@ class CanWire {
   std::uint64_t end_us_ = 0;
 };
 
-/// Every controller's error counter, which leads to bus-off, and the way back.
 class ErrorCounter {
  public:
   static constexpr unsigned kBusOff = 256, kPerError = 8;

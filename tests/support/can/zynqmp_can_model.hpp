@@ -8,14 +8,14 @@
 #include "hal/chip/zynqmp_can/zynqmp_can.hpp"
 #include "tests/support/can/wire.hpp"
 
-/// A CAN controller of Zynq UltraScale+ behind its registers, on a wire.
+/// A CAN controller of Zynq UltraScale+ on a wire.
 namespace verp::test {
 
 class ZynqmpCanRegisters : public CanNode {
  public:
   static constexpr std::uint64_t kAccess_us = 1;
 
-  /// `as_qemu`: the FIFOs hold identifiers and data as in QEMU 7.2.
+  /// `as_qemu`: FIFOs as in QEMU 7.2.
   explicit ZynqmpCanRegisters(bool as_qemu) : as_qemu_(as_qemu) {}
 
   CanWire wire{*this};
@@ -24,7 +24,7 @@ class ZynqmpCanRegisters : public CanNode {
   void write32(std::uint32_t offset, std::uint32_t value);
   void advance(std::uint64_t microseconds) { wire.advance(microseconds); }
 
-  bool off() const { return off_; }  ///< bus-off after too many errors
+  bool off() const { return off_; }  ///< bus-off
   std::size_t violations() const { return violations_; }
   const std::string& first_violation() const { return first_violation_; }
   std::uint32_t brpr() const { return brpr_; }
@@ -62,7 +62,7 @@ class ZynqmpCanModel : public ZynqmpCanRegisters {
   ZynqmpCanModel() : ZynqmpCanRegisters(kLayout == hal::zynqmp_can::Layout::kQemu) {}
 };
 
-/// The driver's access to the model; it never sleeps, as on the emulated board.
+/// It never sleeps, as on the emulated board.
 template <hal::zynqmp_can::Layout kLayout>
 class ZynqmpCanModelIo {
  public:

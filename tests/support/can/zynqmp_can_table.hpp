@@ -3,12 +3,12 @@
 
 namespace verp::hal::zynqmp_can {
 
-/// One register; the model checks every access against it.
+/// The model checks every access against it.
 struct Register {
   const char* name;
   std::uint32_t offset;
   std::uint32_t readable, writable;  ///< bits
-  bool config_only;                  ///< writable only while SRR.CEN is 0
+  bool config_only;                  ///< while SRR.CEN is 0
 };
 
 inline constexpr std::uint32_t kWord = 0xFFFFFFFFu;

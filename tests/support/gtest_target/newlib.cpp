@@ -6,8 +6,8 @@
 #include "firmware/boot/boot.hpp"
 #include "hal/chip/semihosting/semihosting.hpp"
 
-/// System calls of newlib and the C++ library for test images: number formatting and containers
-/// need a heap. File access fails; all output is printed.
+/// System calls of newlib and the C++ library: number formatting and containers need a heap. File
+/// access fails; output is printed.
 extern "C" {
 extern char verp_heap_begin[];
 extern char verp_heap_end[];
@@ -53,7 +53,7 @@ int _kill(int, int) {
 int _getpid() {
   return 1;
 }
-/// The library's version would bring in its exceptions.
+/// The library's version would bring its exceptions.
 [[noreturn]] void __cxa_pure_virtual() {
   std::abort();
 }
@@ -74,7 +74,6 @@ void operator delete(void* block, std::size_t) noexcept {
   std::free(block);
 }
 
-/// What containers would throw.
 namespace std {
 [[noreturn]] void __throw_length_error(const char* why) {
   verp::hal::semihosting::print(why);

@@ -5,9 +5,8 @@
 #include "hal/chip/semihosting/semihosting.hpp"
 
 /// For RISC-V, Debian has only the headers of the C++ library. These trees of std::map and std::set
-/// are ordered but never balanced, which suffices for tests.
+/// are never balanced.
 extern "C" void* _sbrk(std::ptrdiff_t bytes);
-/// picolibc's name for it.
 extern "C" void* sbrk(std::ptrdiff_t bytes) {
   return _sbrk(bytes);
 }
@@ -33,7 +32,7 @@ namespace {
 
 using Node = _Rb_tree_node_base;
 
-/// The next node in order; toward/away are left/right or the reverse.
+/// toward/away are left/right or the reverse.
 Node* neighbour(Node* node, Node* Node::*toward, Node* Node::*away) {
   if (node->*toward != nullptr) {
     for (node = node->*toward; node->*away != nullptr;) node = node->*away;
@@ -41,11 +40,11 @@ Node* neighbour(Node* node, Node* Node::*toward, Node* Node::*away) {
   }
   Node* parent = node->_M_parent;
   for (; node == parent->*toward; parent = parent->_M_parent) node = parent;
-  // The header is its root's parent and child: past the end of a tree of one.
+  // The header is its root's parent and child.
   return node->*toward != parent ? parent : node;
 }
 
-/// Replaces `node` by `heir`, which may be null.
+/// `heir` may be null.
 void replace(Node* node, Node* heir, Node& header) {
   Node* const parent = node->_M_parent;
   if (parent == &header) {
@@ -67,7 +66,7 @@ const Node* _Rb_tree_increment(const Node* node) throw() {
   return _Rb_tree_increment(const_cast<Node*>(node));
 }
 Node* _Rb_tree_decrement(Node* node) throw() {
-  // From the end, which is the header: red, and its root's parent.
+  // The end is the header: red, and its root's parent.
   if (node->_M_color == _S_red && node->_M_parent != nullptr &&
       node->_M_parent->_M_parent == node) {
     return node->_M_right;
@@ -101,7 +100,7 @@ Node* _Rb_tree_rebalance_for_erase(Node* const node, Node& header) throw() {
     replace(node, node->_M_right, header);
   } else if (node->_M_right == nullptr) {
     replace(node, node->_M_left, header);
-  } else {  // the next node in order, which has no left child, replaces it
+  } else {  // the next node has no left child and replaces it
     if (after->_M_parent != node) {
       replace(after, after->_M_right, header);
       after->_M_right = node->_M_right;

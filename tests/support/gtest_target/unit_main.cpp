@@ -3,7 +3,7 @@
 #include "boards/mps2/arguments.hpp"
 #include "firmware/boot/boot.hpp"
 
-/// unit_<board> [FILTER]: the tests of tests/unit from the PC's sources.
+/// unit_<board> [FILTER]: runs tests/unit.
 void testing::put(const char* text) {
   verp::hal::semihosting::print(text);
 }

@@ -12,7 +12,7 @@ using namespace adc;
 
 namespace {
 
-/// DS8626 table "ADC characteristics": at most 36 MHz, 3 us to power up.
+/// DS8626 table "ADC characteristics": power-up takes 3 us.
 constexpr std::uint32_t kClockMax_hz = 36000000;
 constexpr Time kPowerUp = us(3);
 

@@ -4,7 +4,7 @@
 #include "hal/chip/stm32/registers/adc.hpp"
 #include "tests/support/stm32/bank.hpp"
 
-/// One converter: single conversions of the first regular channel, started by software.
+/// Single conversions of the first regular channel, started by software.
 namespace verp::hal::stm32::model {
 
 class AdcModel : public Bank {
@@ -12,7 +12,7 @@ class AdcModel : public Bank {
   AdcModel(Machine& machine, unsigned number, std::uint32_t base, Gate gate);
 
   // Script.
-  std::uint16_t input[19] = {};   ///< 12-bit result per channel
+  std::uint16_t input[19] = {};   ///< 12 bits, per channel
   bool conversion_stuck = false;  ///< EOC never comes
 
   void reset() override;
@@ -31,7 +31,6 @@ class AdcModel : public Bank {
   Time stable_at_ = 0;
 };
 
-/// The registers shared by all converters.
 class AdcCommonModel : public Bank {
  public:
   explicit AdcCommonModel(Machine& machine);

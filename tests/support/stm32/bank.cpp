@@ -92,9 +92,9 @@ bool Bank::check_write(const Slot& slot, std::uint32_t raw) const {
   }
   const std::uint32_t reserved = (raw ^ rule.reset) & ~rule.defined();
   if (reserved != 0) violate(what + " changes reserved bits " + hex(reserved));
-  // Where writing 0 has no effect, software may write one bit alone.
+  // Where writing 0 has no effect, one bit may be written alone.
   if ((rule.rc_w0 | rule.rc_w1 | rule.rs) == 0) {
-    // If the value changed after the driver read it, writing it back is no violation.
+    // Writing back a value that changed since the driver's read is no violation.
     const std::uint32_t forced = (raw ^ slot.value) & (raw ^ slot.last_read) & rule.r;
     if (forced != 0) violate(what + " means to change read-only bits " + hex(forced));
   }

@@ -6,16 +6,15 @@
 #include "tests/support/stm32/registers/table.hpp"
 #include "tests/support/stm32/time.hpp"
 
-/// Base of all peripheral models: registers that behave as their table says, and a record of each
-/// forbidden access.
+/// Registers that behave as their table says, and a record of each forbidden access.
 namespace verp::hal::stm32::model {
 
 class Machine;
 
-/// Ends the program with the reason: the test or model is impossible.
+/// Ends the program: the test or model is impossible.
 [[noreturn]] void broken(const std::string& why);
 
-/// Which bit of which RCC enable register clocks a peripheral.
+/// The RCC bit that clocks a peripheral.
 struct Gate {
   std::uint32_t enable_offset = 0;  ///< 0: always on
   std::uint32_t enable_bit = 0;
@@ -34,36 +33,34 @@ class Bank {
   const Gate& gate() const { return gate_; }
   bool holds(std::uint32_t address) const { return address - base_ < window_; }
 
-  /// Bus accesses; width in bytes. They check, then call on_read or on_write.
+  /// Width in bytes. Calls on_read or on_write after checks.
   std::uint32_t bus_read(std::uint32_t address, unsigned width);
   void bus_write(std::uint32_t address, std::uint32_t value, unsigned width);
 
-  /// A register's value without the effects of a read.
+  /// Without the effects of a read.
   std::uint32_t peek(std::uint32_t offset) const { return slot(offset).value; }
 
   virtual void reset();
-  /// Does what is due at machine.now(); everything due earlier has been done.
+  /// Does what is due at machine.now().
   virtual void run() {}
-  /// The bus clocks are about to change: counts up to now at the old ones.
+  /// The bus clocks will change: counts up to now.
   virtual void rebase() {}
-  /// When something is next due.
   virtual Time next() const { return kNever; }
-  /// Whether it wants a DMA transfer now.
+  /// True if it wants a transfer now.
   virtual bool dma_request(bool /*transmit*/) const { return false; }
-  /// Level of an interrupt line.
   virtual bool interrupt(unsigned) const { return false; }
 
  protected:
-  /// Before a read: updates the value. After it: applies its effects.
+  /// Updates the value before a read, applies the read's effects after it.
   virtual void before_read(std::uint32_t /*offset*/) {}
   virtual void after_read(std::uint32_t /*offset*/) {}
-  /// Whether the write is allowed; if not, reports why by violate().
+  /// If false, it calls violate() with the reason.
   virtual bool may_write(std::uint32_t /*offset*/, std::uint32_t /*raw*/) { return true; }
-  /// After a write: `raw` is the written value, `old` the register's previous one.
+  /// `raw` is the written value, `old` the previous one.
   virtual void on_write(std::uint32_t /*offset*/, std::uint32_t /*raw*/, std::uint32_t /*old*/) {}
-  /// The register behind an offset, for registers with several addresses.
+  /// For registers with several addresses.
   virtual std::uint32_t fold(std::uint32_t offset) const { return offset; }
-  /// Whether accesses of less than 32 bits are allowed.
+  /// Under 32 bits.
   virtual bool narrow_ok(std::uint32_t /*offset*/, unsigned /*width*/) const { return false; }
 
   void add_registers(const Table& table, std::uint32_t shift);
@@ -86,7 +83,7 @@ class Bank {
   Slot* find(std::uint32_t offset);
   Slot& slot(std::uint32_t offset);
   const Slot& slot(std::uint32_t offset) const;
-  /// False if the write can have no effect.
+  /// False if the write has no effect.
   bool check_write(const Slot& slot, std::uint32_t raw) const;
 
   Machine& machine_;

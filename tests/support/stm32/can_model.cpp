@@ -64,7 +64,7 @@ Time CanModel::bit_time() const {
   return duration(quanta * ((btr & kBtrBrp) + 1), machine().rcc().bus_hz(base()));
 }
 
-/// ISO 11898-1: with a jump width of 1 in about 16 quanta, nodes tolerate about half a percent.
+/// ISO 11898-1: with a jump width of 1 in 16 quanta, nodes tolerate half a percent.
 bool CanModel::right_rate() const {
   return std::abs(bitrate() - bus_bitrate) < 0.005 * bus_bitrate;
 }
@@ -139,7 +139,7 @@ void CanModel::change_mode() {
   clear(kMsr, kMsrInak | kMsrSlak);
   if (mode_ == Mode::kInit) set(kMsr, kMsrInak);
   if (mode_ == Mode::kSleep) set(kMsr, kMsrSlak);
-  // Without ABOM, leaving initialisation starts the recovery.
+  // Without ABOM, leaving initialisation starts recovery.
   if (mode_ == Mode::kNormal && has(kEsr, kEsrBoff)) {
     recovered_at_ = machine().now() + kSequences * kSequenceBits * bit_time();
   }
@@ -208,7 +208,7 @@ void CanModel::break_other() {
 
 void CanModel::fail_transmission(std::uint32_t code) {
   idle_at_ = end_ + kErrorBits * bit_time();
-  // A passive node without an acknowledgement stops counting.
+  // A passive node without acknowledgement stops counting.
   if (code != kLecAck || tec_ < kPassive) tec_ += 8;
   reg(kEsr) = (reg(kEsr) & ~kEsrLec) | code << kEsrLecShift;
   raise(kIerLecie);
@@ -248,7 +248,7 @@ void CanModel::close_mailbox(unsigned mailbox, std::uint32_t how) {
   machine().touch();
 }
 
-/// A frame on the wire continues; if it fails there it is not repeated.
+/// A frame on the wire continues but is not repeated.
 void CanModel::abort(unsigned mailbox) {
   if (!pending(mailbox)) clear(kTsr, kTsrAbrq << kTsrMailboxBits * mailbox);
   if (!pending(mailbox) || abort_stuck) return;

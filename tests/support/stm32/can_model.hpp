@@ -8,8 +8,8 @@
 #include "tests/support/stm32/bank.hpp"
 
 /// bxCAN with the bus at its pins; the test scripts the other nodes. Frames take the time of their
-/// bits without stuffing, and arbitration decides who begins. Modelled: normal mode, classic
-/// frames, 32-bit filters, both FIFOs, the transmitter's error counters.
+/// bits without stuffing; arbitration decides. Modelled: normal mode, classic frames, 32-bit
+/// filters, both FIFOs, the transmitter's error counters.
 namespace verp::hal::stm32::model {
 
 class CanModel : public Bank {
@@ -20,28 +20,27 @@ class CanModel : public Bank {
     Time start, end;
   };
 
-  /// `keeper` holds its filters, from that bank on; null: itself.
+  /// `keeper` holds its filters from that bank on; null: itself.
   CanModel(Machine& machine, std::uint32_t base, Gate gate, unsigned first_irq,
            const CanModel* keeper = nullptr);
 
   // Script.
-  bool init_stuck = false;     ///< INAK never sets
-  bool line_dominant = false;  ///< nothing can be received or sent
-  bool acknowledged = true;    ///< another node receives us
-  unsigned break_next = 0;     ///< so many of our frames meet a bit error
-  /// Called at the end of each frame on the wire: if true, an error frame destroys it and its
-  /// sender repeats it.
+  bool init_stuck = false;
+  bool line_dominant = false;  ///< nothing is sent or received
+  bool acknowledged = true;
+  unsigned break_next = 0;  ///< our next frames with a bit error
+  /// Called at a frame's end; true: an error frame destroys it and it is sent again.
   std::function<bool(const CanFrame&)> breaks = [](const CanFrame&) { return false; };
-  bool abort_stuck = false;  ///< a mailbox ignores abort requests
+  bool abort_stuck = false;  ///< abort requests have no effect
   std::uint32_t bus_bitrate = 1'000'000;
-  /// Another node sends this as soon as possible, but not before `when`.
+  /// As soon as possible from `when` on.
   void send(const CanFrame& frame, Time when = 0);
   void on_sent(std::function<void(const Sent&)> watcher) { watcher_ = std::move(watcher); }
 
   const std::deque<Sent>& sent() const { return sent_; }
   void forget_sent() { sent_.clear(); }
   bool idle() const { return !talking_ && others_.empty(); }
-  /// The registers' rate, 0 if none.
+  /// From the registers; 0 if there is no rate.
   double bitrate() const;
   double sample_point() const;
 
@@ -88,16 +87,16 @@ class CanModel : public Bank {
   Time mode_at_ = kNever;
   Time recovered_at_ = kNever;
   std::uint32_t pending_ = 0;
-  std::uint32_t order_[can::kMailboxes] = {};  ///< of the requests
+  std::uint32_t order_[can::kMailboxes] = {};
   std::uint32_t requests_ = 0;
   bool talking_ = false;
-  int mailbox_ = -1;  ///< of the frame on the wire; -1: another node's
+  int mailbox_ = -1;  ///< -1: another node's frame
   CanFrame on_wire_;
   Time start_ = 0, end_ = 0, idle_at_ = 0;
   unsigned tec_ = 0;
   std::deque<Waiting> others_;
   std::deque<CanFrame> fifo_[can::kFifos];
-  std::deque<Sent> sent_;  ///< a growing vector needs twice the memory
+  std::deque<Sent> sent_;  ///< a vector needs twice the memory
   std::function<void(const Sent&)> watcher_;
 };
 

@@ -3,7 +3,7 @@
 #include "tests/support/stm32/can_model.hpp"
 #include "tests/support/stm32/rig.hpp"
 
-/// A chip with its bxCAN open at 1 Mbit/s.
+/// bxCAN is open at 1 Mbit/s.
 namespace verp::hal::stm32::test {
 
 using Can = BxCan<Io, Timer>;

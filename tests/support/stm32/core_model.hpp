@@ -5,9 +5,8 @@
 #include "hal/chip/stm32/registers/cortex_m.hpp"
 #include "tests/support/stm32/time.hpp"
 
-/// The core's registers that drivers use: SysTick (by polling), the cycle counter, NVIC enables and
-/// software-pended interrupts, AIRCR's reset. The rest (MPU, caches, fault handling) is stored
-/// without effect.
+/// SysTick (by polling), the cycle counter, NVIC enables and software-pended interrupts, AIRCR's
+/// reset. MPU, caches and fault handling have no effect.
 namespace verp::hal::stm32::model {
 
 class Machine;
@@ -31,7 +30,7 @@ class CoreModel {
   Machine& machine_;
   std::uint32_t enabled_[8] = {};
   std::uint32_t pended_[8] = {};
-  std::uint64_t systick_from_ = 0;  ///< core cycles at the last write of the current value
+  std::uint64_t systick_from_ = 0;  ///< core cycles at the last write
   std::uint64_t systick_flagged_ = 0;
   std::uint64_t cycle_offset_ = 0;
   std::map<std::uint32_t, std::uint32_t> words_;

@@ -4,24 +4,23 @@
 #include "hal/chip/stm32/registers/dma.hpp"
 #include "tests/support/stm32/bank.hpp"
 
-/// One DMA controller. A transfer happens as soon as its peripheral requests it, if the stream's
-/// channel is wired to it (dma_requests.hpp). FIFO, bursts and double buffers are not modelled.
+/// A transfer happens as soon as its peripheral requests it, if the stream's channel is wired to it
+/// (dma_requests.hpp). FIFO, bursts and double buffers are not modelled.
 namespace verp::hal::stm32::model {
 
 class DmaModel : public Bank {
  public:
   DmaModel(Machine& machine, unsigned number, std::uint32_t base, Gate gate);
 
-  // Script, per stream.
   struct Script {
-    bool enable_stuck = false;       ///< EN reads 1 for ever once set
+    bool enable_stuck = false;       ///< EN stays 1 once set
     Time disable_time = us(1);       ///< from EN written 0 to EN read 0
-    std::uint32_t fail_after = ~0u;  ///< TEIF instead of a transfer after so many more
+    std::uint32_t fail_after = ~0u;  ///< TEIF after so many transfers
   };
   Script script[dma::kStreams];
 
   std::uint32_t transfers(unsigned stream) const { return streams_[stream].transfers; }
-  /// Makes requested transfers; false if there were none.
+  /// False if no transfer was requested.
   bool serve();
 
   void reset() override;
@@ -35,9 +34,9 @@ class DmaModel : public Bank {
 
  private:
   struct Stream {
-    std::uint32_t loaded = 0;  ///< NDTR when it was enabled
+    std::uint32_t loaded = 0;  ///< NDTR at the start
     Time off_at = kNever;
-    bool ending = false;  ///< EN was written 0, and the hardware has not followed yet
+    bool ending = false;  ///< EN was written 0
     std::uint32_t transfers = 0;
   };
   static std::uint32_t at(std::uint32_t offset, unsigned stream) {

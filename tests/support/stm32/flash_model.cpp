@@ -59,7 +59,7 @@ bool FlashModel::may_write(std::uint32_t offset, std::uint32_t raw) {
     return false;
   }
   const bool f4 = machine().family() != Family::kF746;
-  // Each reset bit requires its own cache to be off (RM0090 3.9.1).
+  // Each reset bit requires its cache to be off (RM0090 3.9.1).
   const auto hot = [&](std::uint32_t reset_bit, std::uint32_t enable_bit) {
     return (raw & reset_bit) != 0 && has(kAcr, enable_bit);
   };

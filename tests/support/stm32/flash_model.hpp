@@ -6,31 +6,28 @@
 #include "tests/support/stm32/bank.hpp"
 #include "tests/support/stm32/machine.hpp"
 
-/// Flash interface and memory. Programming clears bits. Power may fail in any write, which leaves
-/// the changing bits unsure until the next power-on. A read of busy memory waits, as the bus does;
-/// polling BSY does not (as from code in RAM).
+/// Programming clears bits. Power may fail in any write; the changing bits are then unsure until
+/// power-on. A read of busy memory waits; polling BSY does not (as from RAM).
 namespace verp::hal::stm32::model {
 
 class FlashModel : public Bank {
  public:
   explicit FlashModel(Machine& machine);
 
-  // Script. DS8626, DS10693, DS10916, flash characteristics: a write takes up to 100 us. At PSIZE
-  // 8, erasing takes up to 800 ms for 16 KB and 4 s for 128 KB; at 16 half and at 32 a quarter of
-  // that.
+  // DS8626, DS10693, DS10916: a write takes up to 100 us. Erasing at PSIZE 8 takes up to 800 ms for
+  // 16 KB and 4 s for 128 KB; at 16 half, at 32 a quarter.
   Time program_time = us(16);
   Time erase_time_per_kb = ms(8);
-  bool busy_stuck = false;              ///< BSY never falls once set
-  std::uint32_t fail_next = 0;          ///< so many operations end with OPERR, half done
-  std::uint32_t protected_sectors = 0;  ///< bit s: option bytes protect sector s
+  bool busy_stuck = false;
+  std::uint32_t fail_next = 0;          ///< operations that end half done with OPERR
+  std::uint32_t protected_sectors = 0;  ///< bit s: sector s
 
   void seed(std::uint32_t seed) { random_ = seed * 2654435761u | 1u; }
-  /// The power fails in the middle of the operation after `operations` more.
+  /// In the middle of the operation after `operations` more.
   void cut_power_after(std::uint32_t operations) {
     cut_planned_ = true;
     until_cut_ = operations;
   }
-  /// Called by Machine::power_on().
   void power_on();
   std::uint32_t programs() const { return programs_; }
   std::uint32_t erases() const { return erases_; }
@@ -41,7 +38,7 @@ class FlashModel : public Bank {
   }
   std::uint32_t memory_read(std::uint32_t address, unsigned width);
   void memory_write(std::uint32_t address, std::uint32_t value, unsigned width);
-  /// Content without a bus access.
+  /// Without a bus access.
   std::uint8_t& byte(std::uint32_t address) {
     return chunks_[address / kChunkBytes].bytes[address % kChunkBytes];
   }
@@ -62,11 +59,11 @@ class FlashModel : public Bank {
   void begin(Time takes);
   void fail(std::uint32_t flag, const char* why);
   int sector_of(std::uint32_t address) const;
-  /// True if the power failed; `changing` are the bits that were to change in each byte.
+  /// True if the power failed; `changing`: bits that were to change in each byte.
   bool power_goes();
   std::uint32_t random();
 
-  // Stores only what was written: a microcontroller that runs the model has no room for a flash.
+  // Stores only what was written: a microcontroller has no room for a flash.
   static constexpr std::uint32_t kChunkBytes = 1024;
   struct Chunk {
     Chunk() { __builtin_memset(bytes, 0xFF, sizeof bytes); }
@@ -74,7 +71,7 @@ class FlashModel : public Bank {
   };
 
   std::map<std::uint32_t, Chunk> chunks_;
-  std::map<std::uint32_t, std::uint8_t> unsure_;  ///< bits, by address
+  std::map<std::uint32_t, std::uint8_t> unsure_;
   Time done_at_ = kNever;
   unsigned keys_ = 0, option_keys_ = 0;
   bool key_locked_ = false;

@@ -5,23 +5,23 @@
 #include "hal/chip/stm32/registers/gpio.hpp"
 #include "tests/support/stm32/bank.hpp"
 
-/// One GPIO port: its pins' functions, the levels they drive and the levels put on them.
+/// The functions of a port's pins, the levels they drive and the levels put on them.
 namespace verp::hal::stm32::model {
 
 class GpioModel : public Bank {
  public:
   GpioModel(Machine& machine, char port);
 
-  /// Drives a pin from outside; open: the pull resistor decides (none: low).
+  /// From outside; open: the pull resistor decides (none: low).
   enum class Outside : std::uint8_t { kLow, kHigh, kOpen };
   void drive(unsigned pin, Outside level);
-  /// The level on the pin's wire. Open-drain outputs at 1 leave it to the outside or the pull.
+  /// Open-drain outputs at 1 leave it to the outside or the pull.
   bool level(unsigned pin) const;
   std::uint32_t mode(unsigned pin) const;
-  /// The alternate function, or 16 if the pin is in another mode.
+  /// 16: another mode.
   unsigned function(unsigned pin) const;
   bool open_drain(unsigned pin) const;
-  /// Called with (pin, level) after each change of a pin's level.
+  /// Called after each change of a pin's level.
   void on_change(std::function<void(unsigned, bool)> watcher) {
     watchers_.push_back(std::move(watcher));
   }

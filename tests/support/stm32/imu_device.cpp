@@ -17,7 +17,7 @@ constexpr std::uint8_t kFifoOn = 0x40, kMpuFifoReset = 0x04, kMpuFifoStops = 0x4
 
 }  // namespace
 
-/// How the two differ. The FIFO has the order of the data registers.
+/// The FIFO has the order of the data registers.
 struct ImuDevice::Map {
   std::uint8_t who, power, user, status, overflow_status, overflow, data, fifo_size, fifo;
   std::uint8_t fifo_enable, selects_accel, selects_gyro[3], selects_temperature;
@@ -95,9 +95,8 @@ Time ImuDevice::period() const {
   return kSecond / 1125 * (registers_[2][kIcmDivider2] + 1u);
 }
 std::uint32_t ImuDevice::max_hz() const {
-  // MPU-9250: 1 MHz for all registers, 20 MHz to read sensor and interrupt registers (PS-MPU-9250A
-  // table 6). The table does not mention the FIFO: 10 MHz, as others read it. ICM-20648: 7 MHz
-  // (DS-000179 table 4).
+  // MPU-9250: 1 MHz for all registers, 20 MHz for sensor and interrupt registers (PS-MPU-9250A
+  // table 6); the FIFO, not in the table: 10 MHz. ICM-20648: 7 MHz (DS-000179 table 4).
   if (!mpu()) return 7000000;
   if (!addressed_) return 20000000;
   if (reading_ && pointer_ >= kMpuFifoSize && pointer_ <= kMpuFifo) return 10000000;
@@ -113,7 +112,7 @@ void ImuDevice::sample() {
     data[at] = static_cast<std::uint8_t>(static_cast<std::uint16_t>(value) >> 8);
     data[at + 1] = static_cast<std::uint8_t>(value & 0xFF);
   };
-  // MPU-9250: acceleration, temperature, rates. ICM-20648: acceleration, rates, temperature.
+  // MPU-9250: acceleration, temperature, rates. ICM-20648: temperature last.
   for (int i = 0; i < 3; ++i) {
     put(2 * i, accel_[i]);
     put(map().gyro_at + 2 * i, gyro_[i]);
@@ -172,7 +171,7 @@ void ImuDevice::update(Time now) {
   }
 }
 
-/// An empty FIFO repeats its last byte. Reading the size's high byte freezes it until the low byte.
+/// An empty FIFO repeats its last byte. The size's high byte freezes it until the low byte.
 std::uint8_t ImuDevice::read_fifo(std::uint8_t address) {
   if (address == map().fifo_size) {
     fifo_size_low_ = static_cast<std::uint8_t>(fifo_.size() & 0xFF);
@@ -186,8 +185,8 @@ std::uint8_t ImuDevice::read_fifo(std::uint8_t address) {
   return fifo_byte_;
 }
 
-/// MPU-9250: the bit clears itself and acts only while the FIFO is off, as older maps of the family
-/// say. ICM-20648: keeps the FIFO empty until it is cleared.
+/// MPU-9250: the bit clears itself and acts only while the FIFO is off, as older maps say.
+/// ICM-20648: keeps the FIFO empty until it is cleared.
 void ImuDevice::reset_fifo_if_told(std::uint8_t address, std::uint8_t value) {
   const bool told = mpu() ? address == kMpuUser && (value & kMpuFifoReset) != 0
                           : address == kIcmFifoReset && value != 0;
@@ -236,7 +235,7 @@ void ImuDevice::write(std::uint8_t address, std::uint8_t value, Time now) {
 
 void ImuDevice::select(bool selected, Time now) {
   addressed_ = false;
-  if (selected) update(now);  // one transfer reads one sample
+  if (selected) update(now);  // one sample per transfer
 }
 
 std::uint8_t ImuDevice::exchange(std::uint8_t out, Time now) {

@@ -5,10 +5,9 @@
 
 #include "tests/support/stm32/spi_model.hpp"
 
-/// A 6-axis motion sensor behind SPI: an MPU-9250 (registers: RM-MPU-9250A-00) or an ICM-20648
-/// (DS-000179). All counts of a sample are of one instant. The FIFO holds 512 bytes of what FIFO_EN
-/// selects. When full it loses single bytes, the oldest or newest by its mode, and is out of step
-/// afterwards. Unknown registers are stored as written.
+/// An MPU-9250 (RM-MPU-9250A-00) or an ICM-20648 (DS-000179) behind SPI. All counts of a sample are
+/// of one instant. The FIFO holds 512 bytes of what FIFO_EN selects. When full it loses single
+/// bytes, the oldest or newest by its mode, and is out of step. Unknown registers are stored.
 namespace verp::hal::stm32::model {
 
 enum class ImuKind : std::uint8_t { kMpu9250, kIcm20648 };
@@ -20,17 +19,16 @@ class ImuDevice : public SpiDevice {
   // Script.
   bool silent = false;  ///< answers all ones
   bool frozen = false;
-  std::size_t torn = 0;  ///< so many bytes of each sample reach the FIFO one exchange later
+  std::size_t torn = 0;  ///< bytes of each sample that come one exchange late
   std::function<void()> before_sample = [] {};
-  int who_am_i = -1;          ///< replaces the kind's identity
+  int who_am_i = -1;          ///< replaces the identity
   Time reset_time = ms(100);  ///< after DEVICE_RESET
-  /// The next samples, in the sensor's axes.
+  /// In the sensor's axes.
   void motion(const std::int16_t (&gyro)[3], const std::int16_t (&accel)[3]);
-  /// Loses its settings, as after a dip of its supply.
+  /// As after a dip of its supply.
   void forget() { power_on(); }
-  /// Loses so many FIFO bytes, as after a clock edge too many.
+  /// Loses FIFO bytes, as after a clock edge too many.
   void slip(std::size_t bytes);
-  /// Takes due samples, as each access does.
   void update(Time now);
 
   std::uint8_t reg(unsigned bank, std::uint8_t address) const { return registers_[bank][address]; }
@@ -66,10 +64,10 @@ class ImuDevice : public SpiDevice {
   std::uint8_t registers_[4][128] = {};
   std::int16_t gyro_[3] = {}, accel_[3] = {};
   std::deque<std::uint8_t> fifo_;
-  std::deque<std::uint8_t> on_the_way_;  ///< bytes of the newest sample, not yet in the FIFO
+  std::deque<std::uint8_t> on_the_way_;  ///< not yet in the FIFO
   std::uint8_t fifo_byte_ = 0;
-  std::uint8_t fifo_size_low_ = 0;  ///< frozen when the high byte was read
-  bool addressed_ = false;          ///< this transfer's register address has arrived
+  std::uint8_t fifo_size_low_ = 0;  ///< frozen by the high byte's read
+  bool addressed_ = false;
   bool reading_ = false;
   std::uint8_t pointer_ = 0;
   Time ready_at_ = 0;

@@ -6,7 +6,7 @@
 #include "tests/support/stm32/rig.hpp"
 #include "tests/support/stm32/spi_model.hpp"
 
-/// A motion sensor on SPI1 with OpenCR's pins, on a whole chip.
+/// A motion sensor on SPI1 with OpenCR's pins.
 namespace verp::hal::stm32::test {
 
 using Spi = SpiMaster<Io, Timer>;
@@ -37,7 +37,7 @@ struct ImuRig {
     EXPECT_LE(rig.timer.now_us() - before_us, kImuMaxWait_us);
     return status;
   }
-  /// Reads every 8 ms until there is a sample, or for a second.
+  /// Reads every 8 ms, for a second.
   bool starts() {
     for (int tick = 0; tick < 125; ++tick) {
       if (read() == ImuStatus::kFresh) return true;

@@ -9,8 +9,7 @@ using namespace iwdg;
 
 namespace {
 
-/// RM0090 21.4.4: an update takes up to 5 cycles of the RC oscillator, in practice of the fastest
-/// divided one (LSI / 4).
+/// RM0090 21.4.4: up to 5 cycles of the RC oscillator, in practice of LSI / 4.
 constexpr std::uint32_t kUpdateCycles = 5 * 4;
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include "hal/chip/stm32/registers/memory_map.hpp"
 #include "tests/support/stm32/bank.hpp"
 
-/// Independent watchdog: resets the machine unless reloaded in time. Only a reset stops it.
+/// Resets the machine unless reloaded in time. Only a reset stops it.
 namespace verp::hal::stm32::model {
 
 class IwdgModel : public Bank {
@@ -12,10 +12,9 @@ class IwdgModel : public Bank {
 
   // Script.
   std::uint32_t lsi_hz = kLsi_hz;  ///< 17 to 47 kHz
-  bool busy_stuck = false;         ///< PVU and RVU never fall
+  bool busy_stuck = false;
 
   bool started() const { return started_; }
-  /// When it will bite unless reloaded.
   Time bites_at() const { return started_ ? bites_at_ : kNever; }
 
   void reset() override;
@@ -29,7 +28,7 @@ class IwdgModel : public Bank {
 
  private:
   void reload();
-  Time step() const;  ///< of the down-counter
+  Time step() const;
 
   bool unlocked_ = false, started_ = false;
   Time bites_at_ = kNever;

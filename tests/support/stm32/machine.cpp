@@ -12,11 +12,11 @@
 namespace verp::hal::stm32::model {
 namespace {
 
-/// More events at one moment mean a handler that does not clear its cause, or a request that no
-/// transfer satisfies.
+/// More events at one moment mean a handler that does not clear its cause, or an unsatisfied
+/// request.
 constexpr unsigned kStorm = 1000;
 
-/// Keeps a flag set until the end of its scope, even if a test's handler throws.
+/// Sets a flag for a scope, even if a handler throws.
 class During {
  public:
   explicit During(bool& flag) : flag_(flag) { flag = true; }
@@ -111,7 +111,7 @@ void Machine::access_begins() {
 }
 
 std::uint32_t Machine::bus_read(std::uint32_t address, unsigned width) {
-  if (!settling_) access_begins();  // DMA transfers cost the core no time
+  if (!settling_) access_begins();  // DMA costs the core no time
   if (dark_) return 0;
   std::uint32_t value = 0;
   if (core_->holds(address)) {
@@ -131,7 +131,7 @@ std::uint32_t Machine::bus_read(std::uint32_t address, unsigned width) {
 }
 
 void Machine::bus_write(std::uint32_t address, std::uint32_t value, unsigned width) {
-  if (!settling_) access_begins();  // DMA transfers cost the core no time
+  if (!settling_) access_begins();  // DMA costs the core no time
   if (dark_) return;
   if (!rcc_->holds(address) && bank_at(address) == nullptr) rcc_->clocks_settled();
   if (core_->holds(address)) {
@@ -180,7 +180,7 @@ void Machine::advance_to(Time when) {
     touch();
     settle();
   }
-  now_ = std::max(now_, when);  // a handler may have taken longer
+  now_ = std::max(now_, when);  // a handler may take longer
 }
 
 bool Machine::serve_dma() {
@@ -253,7 +253,7 @@ void Machine::barrier() {
 }
 void Machine::wait_for_interrupt() {
   settle();
-  const Time limit = now_ + ms(1);  // may return early: the caller may wait for something else
+  const Time limit = now_ + ms(1);  // the caller may wait for something else
   advance_to(std::min(limit, std::max(now_, next_)));
 }
 
@@ -264,7 +264,7 @@ std::uint32_t Machine::map(const void* data, std::size_t size) {
       return region.address + static_cast<std::uint32_t>(bytes - region.data);
     }
   }
-  // Keeps the PC's alignment up to a cache line.
+  // Keeps the alignment up to a cache line.
   const auto phase = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(bytes) % 32);
   const std::uint32_t address = next_region_ + phase;
   regions_.push_back({address, bytes, size});

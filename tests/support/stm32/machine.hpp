@@ -13,9 +13,8 @@
 #include "tests/support/stm32/time.hpp"
 
 /// A whole STM32 on the PC, built from its reference manual. Time passes with each access
-/// (Options::access_cycles) or by advance(). The test scripts outside events: bytes on a line, a
-/// crystal that never starts, a stuck bit. Accesses against the manual are recorded: see
-/// violations().
+/// (Options::access_cycles) or by advance(). The test scripts outside events and faults. Accesses
+/// against the manual are recorded: see violations().
 namespace verp::hal::stm32::model {
 
 class Machine;
@@ -54,12 +53,12 @@ class ModelIo {
 
 static_assert(Io<ModelIo>);
 
-/// Reset causes as in RCC_CSR.
+/// As in RCC_CSR.
 enum class ResetCause { kPowerOn, kPin, kSoftware, kIwdg, kWwdg, kLowPower, kBrownOut };
 
 struct Options {
   std::uint32_t hse_hz = 8000000;
-  std::uint32_t access_cycles = 10;  ///< core cycles per access and the code around it
+  std::uint32_t access_cycles = 10;  ///< per access and the code around it
 };
 
 class Machine {
@@ -74,31 +73,31 @@ class Machine {
   ModelIo io() { return ModelIo(*this); }
 
   Time now() const { return now_; }
-  /// Lets time pass as if the core slept; interrupts run meanwhile.
+  /// As if the core slept; interrupts run.
   void advance(Time time) { advance_to(now_ + time); }
   void at(Time when, std::function<void()> what);
   std::uint64_t core_cycles() const;
 
-  /// Accesses against the manual, in order: "USART2: write of 0x... to BRR while UE is set".
+  /// In order: "USART2: write of 0x... to BRR while UE is set".
   const std::vector<std::string>& violations() const { return violations_; }
   std::string violations_text() const;
   void forget_violations() { violations_.clear(); }
 
-  /// The handler runs while the line is up, the NVIC enables it and no other handler runs.
+  /// Runs while the line is up, the NVIC enables it and no other handler runs.
   void attach(unsigned irq, std::function<void()> handler);
 
   void reset(ResetCause cause);
   std::uint32_t resets() const { return resets_; }
-  /// Called after each reset but the first; a test's handler may throw to end the running code.
+  /// Called after each reset but the first; it may throw to end the running code.
   void on_reset(std::function<void(ResetCause)> handler) { reset_handler_ = std::move(handler); }
-  /// Without power, accesses do nothing and read 0, and only time advances.
+  /// Without power, accesses do nothing and read 0.
   bool dark() const { return dark_; }
   void power_off();
   void power_on();
 
   AdcModel& adc(unsigned number);
-  /// Created by the first call, which must precede the firmware's use: a chip that runs these
-  /// models has no memory to spare for its registers.
+  /// The first call creates it and must precede the firmware's use: chips have no memory to spare
+  /// for unused ones.
   CanModel& can1();
   CanModel& can2();
   CoreModel& core() { return *core_; }
@@ -113,7 +112,6 @@ class Machine {
   TimerModel& tim(unsigned number);
   UsartModel& usart(unsigned number);
 
-  // For the models.
   std::uint32_t bus_read(std::uint32_t address, unsigned width);
   void bus_write(std::uint32_t address, std::uint32_t value, unsigned width);
   void access_begins();
@@ -121,7 +119,7 @@ class Machine {
   void touch() { dirty_ = true; }
   void violate(const std::string& what);
   bool clocked(const Bank& bank, const std::string& what);
-  /// The clocks change now: all banks count up to here at the old ones.
+  /// All banks count up to here at the old clocks.
   void clocks_change();
   std::uint32_t map(const void* data, std::size_t size);
   std::uint8_t* memory(std::uint32_t address, unsigned width);
@@ -129,7 +127,6 @@ class Machine {
   void unmask_interrupts();
   void wait_for_interrupt();
   void barrier();
-  /// Resets the peripherals under this RCC reset bit.
   void reset_banks(std::uint32_t reset_offset, std::uint32_t bits);
   const std::vector<std::unique_ptr<Bank>>& banks() const { return banks_; }
 

@@ -94,7 +94,7 @@ void OtgFsModel::disable(unsigned endpoint, bool in, std::uint32_t old) {
   });
 }
 
-/// The FIFO of an IN endpoint must lie inside the memory, apart from the others.
+/// It must lie inside the memory, apart from the others.
 void OtgFsModel::check_fifo(unsigned endpoint) {
   const std::uint32_t start = reg(dieptxf(endpoint)) & kDieptxfStart;
   const std::uint32_t end = start + depth(endpoint);
@@ -141,7 +141,7 @@ void OtgFsModel::start_out(unsigned endpoint) {
     clear(control, kEpctlEpena);
     return;
   }
-  set(control, kEpctlEpena);  // endpoint 0's bit is write-only
+  set(control, kEpctlEpena);  // write-only for endpoint 0
   const std::uint32_t size = reg(doeptsiz(endpoint)) & kTsizXfrsiz;
   const std::uint32_t packets = (reg(doeptsiz(endpoint)) & kTsizPktcnt) >> kTsizPktcntShift;
   const std::uint32_t most = std::max<std::uint32_t>(1u, max_packet(endpoint, false));
@@ -169,7 +169,7 @@ void OtgFsModel::push(unsigned endpoint, std::uint32_t word) {
   in.pushed = std::min(in.total, in.pushed + 4);
   if (in.pushed == in.total ||
       in.pushed % std::max<std::uint32_t>(1u, max_packet(endpoint, true)) == 0) {
-    clear(dieptsiz(endpoint), kTsizXfrsiz);  // counts down by whole packets
+    clear(dieptsiz(endpoint), kTsizXfrsiz);  // counts whole packets
     set(dieptsiz(endpoint), in.total - in.pushed);
   }
 }

@@ -13,7 +13,7 @@ using namespace otg_fs;
 
 namespace {
 
-/// Where the Bank keeps the FIFO windows, which take 4 KB each on the bus.
+/// The FIFO windows, which take 4 KB each on the bus.
 constexpr std::uint32_t kFolded = 0xE40;
 constexpr std::uint32_t kGated = kPcgcctlStppclk | kPcgcctlGatehclk;
 constexpr Register kWindowRegisters[] = {
@@ -62,7 +62,7 @@ void OtgFsModel::reset() {
   refresh();
 }
 
-/// Keeps what the manual names, and GCCFG: widely used software powers up the transceiver first.
+/// Keeps what the manual names, and GCCFG: much software powers up the transceiver first.
 void OtgFsModel::reset_core() {
   const std::uint32_t gccfg = reg(kGccfg), speed = reg(kDcfg) & kDcfgDspd, power = reg(kPcgcctl);
   Bank::reset();
@@ -111,7 +111,7 @@ bool OtgFsModel::session_valid() const {
   return vbus_ && has(kGccfg, kGccfgVbden);
 }
 
-/// Updates every bit that follows from others.
+/// Bits that follow from others.
 void OtgFsModel::refresh() {
   const bool session = session_valid();
   if (session != session_ && machine().rcc().enabled(gate())) {
@@ -121,7 +121,7 @@ void OtgFsModel::refresh() {
   session_ = session;
   clear(kGotgctl, kGotgctlBsvld | kGotgctlAsvld);
   if (session) set(kGotgctl, kGotgctlBsvld);
-  set(kGotgctl, kGotgctlCidsts);  // nothing at the ID pin: a device
+  set(kGotgctl, kGotgctlCidsts);  // an open ID pin: a device
   clear(kGrstctl, kGrstctlAhbidl);
   if (!ahb_busy) set(kGrstctl, kGrstctlAhbidl);
   clear(kGintsts, kGintCmod | kGintRxflvl | kGintOtg | kGintIep | kGintOep);
@@ -148,7 +148,7 @@ void OtgFsModel::refresh_endpoints() {
   reg(kHnptxsts) = (reg(kHnptxsts) & ~0xFFFFu) | reg(dtxfsts(0));
 }
 
-/// No access during a core reset, and hardly any while its clock is stopped.
+/// False during a core reset and, for most registers, without clock.
 bool OtgFsModel::awake(std::uint32_t offset, const char* what) const {
   if (has(kGrstctl, kGrstctlCsrst) && offset != kGrstctl) {
     violate(std::string(what) + " while CSRST is set");

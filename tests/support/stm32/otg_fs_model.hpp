@@ -8,18 +8,17 @@
 #include "hal/chip/stm32/registers/otg_fs.hpp"
 #include "tests/support/stm32/bank.hpp"
 
-/// USB full speed as a device: its registers on one side, the host's tokens on the other. UsbHost
-/// (usb_host.hpp) builds transfers from tokens.
+/// A USB full-speed device: registers on one side, the host's tokens on the other (usb_host.hpp).
 ///
 /// Modelled: control, bulk and interrupt endpoints by FIFO and status words, NAK, STALL, toggles,
 /// global NAKs, flushes, disabling, core reset, VBUS, bus reset, suspend, resume, remote wakeup.
-/// Not modelled: the core's host side, isochronous transfers, LPM, battery charging, test modes,
-/// the wakeup's EXTI line, STSPHSRX of the newer core. TXFNUM must be the endpoint's own number.
+/// Not modelled: host mode, isochronous transfers, LPM, battery charging, test modes, the wakeup's
+/// EXTI line, STSPHSRX of the newer core. TXFNUM must be the endpoint's number.
 namespace verp::hal::stm32::model {
 
 enum class UsbAnswer : std::uint8_t { kAck, kNak, kStall, kNone };
 
-/// The answer to an IN token; kAck stands for data.
+/// Answer to an IN token; kAck stands for data.
 struct UsbPacket {
   UsbAnswer answer = UsbAnswer::kNone;
   bool data1 = false;
@@ -33,26 +32,24 @@ class OtgFsModel : public Bank {
   // Script.
   Time core_reset_time = us(1);
   Time flush_time = ns(500);
-  Time disable_time = us(2);      ///< from EPDIS to EPDISD
-  bool core_reset_stuck = false;  ///< CSRST stays set
-  bool ahb_busy = false;          ///< AHBIDL stays 0
-  bool flush_stuck = false;       ///< RXFFLSH and TXFFLSH stay set
-  bool disable_stuck = false;     ///< EPDISD never comes
+  Time disable_time = us(2);  ///< from EPDIS to EPDISD
+  bool core_reset_stuck = false;
+  bool ahb_busy = false;
+  bool flush_stuck = false;
+  bool disable_stuck = false;
 
-  // The wire, in the machine's time.
   void set_vbus(bool on);
   bool vbus() const { return vbus_; }
-  /// The host sees a full-speed device's pull-up.
   bool pulled_up() const;
-  void begin_reset();  ///< the host drives SE0
-  void end_reset();    ///< ends SE0: a full-speed device is found, frames start
+  void begin_reset();  ///< SE0 begins
+  void end_reset();    ///< a full-speed device is found, frames start
   UsbAnswer setup(unsigned address, const std::uint8_t (&request)[8]);
   UsbAnswer out(unsigned address, unsigned endpoint, bool data1, const std::uint8_t* bytes,
                 std::size_t count);
   /// `acknowledged`: the host's ACK arrives.
   UsbPacket in(unsigned address, unsigned endpoint, bool acknowledged);
-  void idle();    ///< no more frames, so suspend follows
-  void resume();  ///< from suspend; frames start again
+  void idle();    ///< no frames: suspend follows
+  void resume();  ///< frames start again
   bool wakes_host() const;
 
   void reset() override;
@@ -71,7 +68,7 @@ class OtgFsModel : public Bank {
   struct In {
     std::deque<std::uint32_t> fifo;
     bool data1 = false;
-    std::uint32_t total = 0, pushed = 0, sent = 0;  ///< bytes of this transfer
+    std::uint32_t total = 0, pushed = 0, sent = 0;
   };
   struct Out {
     bool data1 = false;
@@ -82,7 +79,7 @@ class OtgFsModel : public Bank {
   };
   static constexpr unsigned kEndpointsMax = 6;
 
-  // otg_fs_model.cpp: the core as a whole.
+  // otg_fs_model.cpp
   void add_tables();
   void later(Time delay, std::function<void()> what);
   void reset_core();
@@ -93,14 +90,14 @@ class OtgFsModel : public Bank {
   void pop_status();
   void pop_data();
 
-  // otg_fs_control.cpp: resets, flushes, device control, power.
+  // otg_fs_control.cpp
   void reset_written(std::uint32_t raw, std::uint32_t old);
   void flush_transmit(std::uint32_t number);
   void device_control_written(std::uint32_t raw, std::uint32_t old);
   void power_written();
   void check_clocks();
 
-  // otg_fs_endpoints.cpp: endpoints as software sees them.
+  // otg_fs_endpoints.cpp
   bool may_write_endpoint(std::uint32_t offset, std::uint32_t raw);
   void in_written(unsigned endpoint, std::uint32_t raw, std::uint32_t old);
   void out_written(unsigned endpoint, std::uint32_t raw, std::uint32_t old);
@@ -113,7 +110,7 @@ class OtgFsModel : public Bank {
   std::uint32_t max_packet(unsigned endpoint, bool in) const;
   std::string named(bool in, unsigned endpoint) const;
 
-  // otg_fs_wire.cpp: the host's side.
+  // otg_fs_wire.cpp
   void run_wire();
   void changed();
   bool listens(unsigned address) const;
@@ -138,15 +135,15 @@ class OtgFsModel : public Bank {
   Time frame_at_ = kNever, early_suspend_at_ = kNever, suspend_at_ = kNever;
   std::uint32_t frame_ = 0;
   bool enumerated_ = false, setup_open_ = false, global_out_nak_ = false, checked_ = false;
-  /// A full-speed device's clock must be within 0.25 % (USB 2.0, 7.1.11); HSI is within 1 %.
+  /// Within 0.25 % (USB 2.0, 7.1.11); HSI is within 1 %.
   static constexpr bool usb_clock_ok(std::uint32_t hz) {
     return hz >= 47'880'000 && hz <= 48'120'000;
   }
 
-  /// The answering address: a DAD written during a control transfer takes effect at its end.
+  /// A DAD written during a control transfer takes effect at its end.
   unsigned address_ = 0;
   bool control_open_ = false;
-  Time device_from_ = 0;  ///< a forced mode takes time
+  Time device_from_ = 0;
   Time wakeup_from_ = 0;
 };
 

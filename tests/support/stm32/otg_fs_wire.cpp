@@ -14,9 +14,9 @@ using namespace otg_fs;
 namespace {
 
 constexpr Time kFrame = ms(1);
-/// After 3 ms without frames the device must suspend; the core reports that in two steps.
+/// A device suspends after 3 ms without frames; the core reports it in two steps.
 constexpr Time kEarlySuspend = ms(3), kSuspend = ms(6);
-/// DM and DP are PA11 and PA12 with this alternate function (DS8626, DS10693, DS10916).
+/// DM and DP are PA11 and PA12 (DS8626, DS10693, DS10916).
 constexpr unsigned kMinusPin = 11, kPlusPin = 12, kFunction = 10;
 
 }  // namespace
@@ -126,7 +126,7 @@ bool OtgFsModel::active(unsigned endpoint, bool in) const {
 }
 
 bool OtgFsModel::has_room(std::size_t bytes) const {
-  const std::size_t words = 2 + (bytes + 3) / 4;  // its status word and a possible second one
+  const std::size_t words = 2 + (bytes + 3) / 4;  // status words
   return received_.size() + words <= std::min(reg(kGrxfsiz), kFifoWords);
 }
 
@@ -157,7 +157,7 @@ void OtgFsModel::check_ready() {
 UsbAnswer OtgFsModel::setup(unsigned address, const std::uint8_t (&request)[8]) {
   if (!listens(address)) return UsbAnswer::kNone;
   check_ready();
-  if (!has_room(sizeof request)) return UsbAnswer::kNone;  // never NAK: the host tries again
+  if (!has_room(sizeof request)) return UsbAnswer::kNone;  // never NAK: the host repeats it
   receive(kPacketSetup, 0, false, request, sizeof request);
   const std::uint32_t left = (reg(doeptsiz(0)) & kDoeptsizStupcnt) >> kDoeptsizStupcntShift;
   if (left == 0) set(doepint(0), kDoepB2bstup);
@@ -172,7 +172,6 @@ UsbAnswer OtgFsModel::setup(unsigned address, const std::uint8_t (&request)[8]) 
   return UsbAnswer::kAck;
 }
 
-/// The first token after a SETUP ends its stage.
 void OtgFsModel::end_setup() {
   if (!setup_open_) return;
   setup_open_ = false;
@@ -194,7 +193,7 @@ UsbAnswer OtgFsModel::out(unsigned address, unsigned endpoint, bool data1,
              !has(doeptsiz(endpoint), kTsizPktcnt)) {
     if (v2_) set(doepint(endpoint), kDoepNak);
   } else if (data1 != out_[endpoint].data1) {
-    answer = UsbAnswer::kAck;  // repeated because our ACK was lost: not new
+    answer = UsbAnswer::kAck;  // repeated because our ACK was lost
   } else {
     answer = UsbAnswer::kAck;
     receive(kPacketOut, endpoint, data1, bytes, count);

@@ -38,7 +38,7 @@ void RccModel::reset() {
 }
 
 void RccModel::flag_reset(ResetCause cause) {
-  std::uint32_t flags = kCsrPinrstf;  // every internal reset pulls the pin
+  std::uint32_t flags = kCsrPinrstf;  // internal resets pull the pin
   if (cause == ResetCause::kPowerOn) flags |= kCsrPorrstf | kCsrBorrstf;
   if (cause == ResetCause::kBrownOut) flags |= kCsrBorrstf;
   if (cause == ResetCause::kSoftware) flags |= kCsrSftrstf;
@@ -141,7 +141,7 @@ void RccModel::oscillator(std::uint32_t old, std::uint32_t on, std::uint32_t rea
 void RccModel::control_written(std::uint32_t old) {
   const std::uint32_t used = field(reg(kCfgr), kCfgrSws);
   const bool pll_from_hse = has(kPllcfgr, kPllcfgrSrcHse);
-  // The hardware keeps the oscillators of the system clock running.
+  // The system clock's oscillators stay on.
   std::uint32_t kept = used == kClockHsi ? kCrHsion : used == kClockHse ? kCrHseon : kCrPllon;
   if (used == kClockPll) kept |= pll_from_hse ? kCrHseon : kCrHsion;
   if ((reg(kCr) & kept) != kept) {

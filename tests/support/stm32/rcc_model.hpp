@@ -4,39 +4,39 @@
 #include "tests/support/stm32/machine.hpp"
 #include "tests/support/stm32/registers/rcc_table.hpp"
 
-/// Clock tree and reset flags. Oscillators and PLL need time or never start, as scripted. A setting
-/// outside the chip's limits is a violation when it takes effect.
+/// Oscillators and PLL need time or never start, as scripted. A setting outside the chip's limits
+/// is a violation when it takes effect.
 namespace verp::hal::stm32::model {
 
 class RccModel : public Bank {
  public:
   explicit RccModel(Machine& machine);
 
-  // Script. Times from switching on to ready; kNever: it does not start or lock.
+  // From switching on to ready; kNever: it does not start or lock.
   Time hse_start = ms(2);
   Time pll_lock = us(100);
   Time lsi_start = us(40);
   Time switch_time = ns(500);  ///< from SW to SWS
-  bool sws_stuck = false;      ///< the system clock never switches
+  bool sws_stuck = false;
 
   std::uint32_t sysclk_hz() const;
   std::uint32_t hclk_hz() const;
   std::uint32_t apb1_hz() const;
   std::uint32_t apb2_hz() const;
-  std::uint32_t bus_hz(std::uint32_t base) const;  ///< of the APB that contains `base`
+  std::uint32_t bus_hz(std::uint32_t base) const;
   std::uint32_t timer_hz(std::uint32_t base) const;
   std::uint32_t pll_hz() const;
-  /// OTG_FS's clock from the main PLL; 0 while that is off. PLLSAI is not modelled: 0.
+  /// From the main PLL; 0 while that is off. PLLSAI is not modelled.
   std::uint32_t usb_hz() const;
 
   bool enabled(const Gate& gate) const { return (peek(gate.enable_offset) & gate.enable_bit) != 0; }
-  /// The last access set the enable bit, so the peripheral has no clock yet.
+  /// The last access set the enable bit: no clock yet.
   bool settling(const Gate& gate) const {
     return gate.enable_offset == fresh_offset_ && (gate.enable_bit & fresh_bits_) != 0;
   }
   void clocks_settled() { fresh_bits_ = 0; }
   void flag_reset(ResetCause cause);
-  /// Checks wait states, voltage and bus limits against the current clocks.
+  /// Wait states, voltage and bus limits.
   void check_limits();
 
   void reset() override;
@@ -64,11 +64,11 @@ class PwrModel : public Bank {
  public:
   explicit PwrModel(Machine& machine);
   Time overdrive_time = us(100);
-  bool overdrive_stuck = false;  ///< ODRDY and ODSWRDY never come
+  bool overdrive_stuck = false;
 
   bool backup_unlocked() const { return (peek(pwr::kCr) & pwr::kCrDbp) != 0; }
   bool overdrive() const;
-  /// Highest HCLK at this voltage scale.
+  /// At this voltage scale.
   std::uint32_t hclk_max_hz() const;
   void run() override;
   Time next() const override { return at_; }

@@ -9,8 +9,7 @@
 #include "tests/support/stm32/rcc_model.hpp"
 #include "tests/support/stm32/timer_model.hpp"
 
-/// A chip with clocks and timer running, where most drivers begin. At its end there must be no
-/// violation.
+/// Clocks and timer run. At the end there must be no violation.
 namespace verp::hal::stm32::test {
 
 using model::kNever;

@@ -10,8 +10,8 @@
 #include "tests/support/stm32/otg_fs_model.hpp"
 #include "tests/support/stm32/usb_host.hpp"
 
-/// A PC with a serial-port driver at the other end of the USB cable; it moves bytes while time
-/// passes. Calls that make control transfers let time pass and may not come from an event.
+/// A PC with a serial-port driver at the USB cable. Calls that make control transfers let time pass
+/// and may not come from an event.
 namespace verp::hal::stm32::model {
 
 class SerialHost {
@@ -21,11 +21,10 @@ class SerialHost {
   explicit SerialHost(Machine& machine) : machine_(machine), usb_(machine.otg_fs()) { work(); }
 
   // Script.
-  bool reading = true;       ///< a program reads what arrives
+  bool reading = true;       ///< a program reads
   unsigned deaf_every = 0;   ///< one ACK of the host in so many IN packets is lost; 0: never
   unsigned twice_every = 0;  ///< one ACK of the device in so many OUT packets is lost
 
-  /// False if the device is not enumerated.
   bool plug() { return bus_.plug() && meet(); }
   void unplug() {
     forget_session();
@@ -35,7 +34,7 @@ class SerialHost {
     forget_session();
     return bus_.reset();
   }
-  /// After a bus reset: a host's steps before a program can open a port.
+  /// Enumerates the device after a bus reset.
   bool meet() {
     std::optional<Bytes> device = ask(0x80, 6, 0x0100, 0, 8);
     if (!device || device->size() != 8 || !reset_bus()) return false;
@@ -51,7 +50,7 @@ class SerialHost {
     in_data1_ = out_data1_ = false;
     return bus_.configure(configuration) == UsbResult::kDone;
   }
-  /// A program opens the port: DTR and RTS.
+  /// DTR and RTS.
   bool open() { return opened_ = tell(0x21, 0x22, 3, 0); }
   bool close() {
     forget_session();
@@ -64,17 +63,17 @@ class SerialHost {
 
   bool opened() const { return opened_; }
 
-  /// Bytes for the port; they wait here until it accepts them.
+  /// They wait until the port accepts them.
   void send(const Bytes& bytes) { outbox_.insert(outbox_.end(), bytes.begin(), bytes.end()); }
   std::size_t unsent() const { return outbox_.size(); }
   Bytes take() { return std::exchange(inbox_, {}); }
   const Bytes& inbox() const { return inbox_; }
-  /// Short packets, which tell a host's driver that a message is over.
+  /// Short packets, which end a message.
   unsigned ends() const { return ends_; }
   unsigned out_naks() const { return out_naks_; }
   unsigned stalls() const { return stalls_; }
 
-  // Control transfers; nothing if the device refused.
+  // Nothing if the device refused.
   std::optional<Bytes> ask(std::uint8_t type, std::uint8_t request, std::uint16_t value,
                            std::uint16_t index, std::uint16_t length) {
     UsbReply reply = bus_.control({type, request, value, index, length});
@@ -93,7 +92,7 @@ class SerialHost {
   static constexpr std::size_t kPacket = 64;
   static constexpr std::uint8_t kAddress = 17;
   static constexpr unsigned kData = 1;
-  static constexpr Time kTurn = us(100);  ///< about the time of a full packet each way
+  static constexpr Time kTurn = us(100);  ///< about a full packet each way
 
   void forget_session() {
     opened_ = false;
@@ -113,7 +112,7 @@ class SerialHost {
     if (answer == UsbAnswer::kNak) ++out_naks_;
     if (answer == UsbAnswer::kStall) ++stalls_;
     if (answer != UsbAnswer::kAck) return;
-    if (twice_every != 0 && ++outs_ % twice_every == 0) return;  // repeated, as if not received
+    if (twice_every != 0 && ++outs_ % twice_every == 0) return;  // repeated
     outbox_.erase(outbox_.begin(), outbox_.begin() + static_cast<std::ptrdiff_t>(size));
     out_data1_ = !out_data1_;
   }
@@ -123,7 +122,7 @@ class SerialHost {
     if (packet.answer == UsbAnswer::kStall) ++stalls_;
     if (packet.answer != UsbAnswer::kAck) return;
     ++ins_;
-    if (packet.data1 != in_data1_) return;  // a repeated packet
+    if (packet.data1 != in_data1_) return;  // repeated
     in_data1_ = !in_data1_;
     inbox_.insert(inbox_.end(), packet.bytes.begin(), packet.bytes.end());
     if (packet.bytes.size() < kPacket) ++ends_;

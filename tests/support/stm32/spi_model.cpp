@@ -132,7 +132,7 @@ void SpiModel::control_written(std::uint32_t old) {
   }
   const bool fault =
       has(kCr1, kCr1Mstr) && !has(kCr2, kCr2Ssoe) && has(kCr1, kCr1Ssm) && !has(kCr1, kCr1Ssi);
-  if (fault) {  // the internal select is low: the hardware reports another master
+  if (fault) {  // internal select low: another master
     set(kSr, kSrModf);
     clear(kCr1, kCr1Mstr | kCr1Spe);
   }

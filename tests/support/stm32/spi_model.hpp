@@ -7,18 +7,18 @@
 #include "tests/support/stm32/bank.hpp"
 #include "tests/support/stm32/gpio_model.hpp"
 
-/// A SPI master with devices on chip-select pins; 8-bit frames, and the F7's 4-byte FIFOs.
+/// With devices on chip-select pins; 8-bit frames, and the F7's 4-byte FIFOs.
 namespace verp::hal::stm32::model {
 
 class SpiDevice {
  public:
   virtual ~SpiDevice() = default;
   virtual void select(bool selected, Time now) = 0;
-  /// One byte each way, both complete at `now`.
+  /// One byte each way.
   virtual std::uint8_t exchange(std::uint8_t out, Time now) = 0;
-  /// `mode` is 0 or 3; true if the device supports it.
+  /// `mode` is 0 or 3.
   virtual bool takes_mode(unsigned mode) const = 0;
-  /// Highest clock for the next exchange.
+  /// For the next exchange.
   virtual std::uint32_t max_hz() const = 0;
 };
 
@@ -27,11 +27,11 @@ class SpiModel : public Bank {
   SpiModel(Machine& machine, unsigned number, std::uint32_t base, Gate gate, unsigned irq);
 
   // Script.
-  bool busy_stuck = false;    ///< the shift register never ends: no RXNE, BSY for ever
-  bool overrun_next = false;  ///< the next byte overruns, whatever was fetched
+  bool busy_stuck = false;    ///< no RXNE, BSY for ever
+  bool overrun_next = false;  ///< whatever was fetched
   bool miso_stuck_high = false, miso_stuck_low = false;
   void attach(SpiDevice& device, GpioModel& port, unsigned select_pin);
-  /// Nothing passes unless the SCK, MISO or MOSI pin has this alternate function.
+  /// Nothing passes unless the pin has this alternate function.
   void wire(GpioModel& port, unsigned pin, unsigned function) {
     pins_.push_back({&port, pin, function});
   }
@@ -78,7 +78,7 @@ class SpiModel : public Bank {
   bool shifting_ = false;
   std::uint8_t shift_ = 0;
   Time done_at_ = kNever;
-  bool overrun_seen_data_ = false;  ///< DR was read since OVR rose
+  bool overrun_seen_data_ = false;  ///< DR was read
   std::vector<Attached> devices_;
   std::vector<Pin> pins_;
   std::uint32_t exchanged_ = 0;

@@ -3,7 +3,7 @@
 
 namespace verp::hal::stm32::model {
 
-using Time = std::uint64_t;  ///< picoseconds since the model was made
+using Time = std::uint64_t;  ///< picoseconds
 inline constexpr Time kNever = ~Time{0};
 inline constexpr Time kSecond = 1'000'000'000'000;
 
@@ -17,8 +17,8 @@ constexpr Time ms(std::uint64_t count) {
   return count * 1'000'000'000;
 }
 
-/// Whole clock periods that fit into a time, and the time (rounded up) of a number of periods.
-/// Their product exceeds 64 bits, so both divide in steps; hz is up to 10^9.
+/// Whole periods in a time, and the time (rounded up) of periods. The product exceeds 64 bits, so
+/// both divide in steps; hz is up to 10^9.
 constexpr std::uint64_t periods(Time time, std::uint64_t hz) {
   constexpr Time kMicrosecond = us(1);
   const Time part = time % kSecond;

@@ -2,8 +2,8 @@
 #include "hal/chip/stm32/registers/timer.hpp"
 #include "tests/support/stm32/bank.hpp"
 
-/// A general-purpose timer that counts up; compare channels set their flags. Slave modes, capture
-/// and output pins are not modelled.
+/// A general-purpose timer that counts up; compare channels set flags. Slave modes, capture and
+/// output pins are not modelled.
 namespace verp::hal::stm32::model {
 
 class TimerModel : public Bank {
@@ -32,9 +32,9 @@ class TimerModel : public Bank {
 
   unsigned irq_;
   std::uint32_t width_mask_;
-  Time from_ = 0;  ///< when the counter was at from_count_
+  Time from_ = 0;
   std::uint64_t from_count_ = 0;
-  std::uint64_t matched_ = 0;  ///< compare values up to here have been handled
+  std::uint64_t matched_ = 0;  ///< handled up to here
   std::uint32_t prescaler_ = 0, reload_ = 0;
   std::uint32_t updates_ = 0;
 };

@@ -9,7 +9,7 @@
 
 namespace verp::hal::stm32::model {
 
-// Both kinds share these positions: flags 0 to 7, CR1 bits 2 to 15, CR3 bits 0 to 11.
+// Shared by both kinds: flags 0 to 7, CR1 bits 2 to 15, CR3 bits 0 to 11.
 using namespace usart_v1;
 
 UsartModel::UsartModel(Machine& machine, unsigned number, std::uint32_t base, Gate gate,
@@ -45,7 +45,7 @@ std::uint32_t UsartModel::clock_hz() const {
 Time UsartModel::bit_time() const {
   const std::uint32_t value = reg(brr());
   if (!has(cr1(), kCr1Over8)) return duration(value, clock_hz());
-  // Oversampling by 8: 3 bits of fraction. The F7 counts half clocks.
+  // Oversampling by 8 has 3 fraction bits. The F7 counts half clocks.
   if (v2_) return duration((value & 0xFFF0u) | (value & 7u) << 1, 2 * clock_hz());
   return duration((value >> 4) * 8 + (value & 7u), clock_hz());
 }
@@ -123,8 +123,8 @@ void UsartModel::hear(const Frame& frame) {
     flags |= kSrFe;
     data = 0;
   }
-  // RM0090 30.3.5: the receiver tolerates at best 3.75 % with 10 bits; beyond half a bit it looks
-  // for the stop bit in the wrong place.
+  // RM0090 30.3.5: the receiver tolerates at best 3.75 % with 10 bits; beyond, the stop bit is
+  // missed.
   if (drift * 100 > own * 36 || collided) {
     data = ~data & 0xFFu;
     flags |= kSrNf;
@@ -173,7 +173,7 @@ void UsartModel::data_written(std::uint32_t raw) {
   tx_full_ = true;
   tx_data_ = raw;
   clear(status(), kSrTxe);
-  // F4: a read of SR and then a write of DR clear TC. F7: the write does.
+  // F4: TC clears by a read of SR, then a write of DR. F7: by the write.
   if (v2_ || (seen_ & kSrTc) != 0) clear(status(), kSrTc);
   seen_ &= ~kSrTc;
   load();
@@ -215,14 +215,14 @@ bool UsartModel::may_write(std::uint32_t offset, std::uint32_t raw) {
     return !v2_;
   }
   if (!v2_ || !on()) return true;
-  // RM0385 31.8: fields that are only writable while UE is 0.
+  // RM0385 31.8: writable only while UE is 0.
   const std::uint32_t changes = raw ^ peek(offset);
   std::uint32_t fixed = 0;
   if (offset == usart_v2::kCr1) {
     fixed = kCr1Over8 | kCr1Pce | kCr1Ps | kCr1Wake | usart_v2::kCr1M0 | usart_v2::kCr1M1 |
             usart_v2::kCr1Dedt | usart_v2::kCr1Deat;
   }
-  if (offset == usart_v2::kCr2) fixed = 0x000FFF30u;  // all fields up to MSBFIRST except LBDIE
+  if (offset == usart_v2::kCr2) fixed = 0x000FFF30u;  // up to MSBFIRST except LBDIE
   if (offset == usart_v2::kCr3) {
     fixed = kCr3Hdsel | kCr3Onebit | usart_v2::kCr3Ovrdis | usart_v2::kCr3Ddre | usart_v2::kCr3Dem |
             usart_v2::kCr3Dep;

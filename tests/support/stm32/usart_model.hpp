@@ -9,9 +9,9 @@
 #include "tests/support/stm32/bank.hpp"
 #include "tests/support/stm32/gpio_model.hpp"
 
-/// A USART of either kind with the line at its pins. Bytes take the time that registers and clock
-/// give them. The test scripts received bytes, at the sender's baud rate. Modelled: 8 data bits
-/// without parity (9 bits as 8 with one more on the line), half duplex.
+/// A USART with the line at its pins. Bytes take the time that registers and clock give. Received
+/// bytes come at the sender's baud rate. Modelled: 8 data bits without parity (9 bits as 8 with one
+/// more on the line), half duplex.
 namespace verp::hal::stm32::model {
 
 class UsartModel : public Bank {
@@ -20,34 +20,32 @@ class UsartModel : public Bank {
   struct Sent {
     std::uint8_t data;
     Time start, end;
-    bool whole;  ///< reached the wire: direction pin always active, no other sender
+    bool whole;  ///< direction pin always active, no other sender
   };
 
   UsartModel(Machine& machine, unsigned number, std::uint32_t base, Gate gate, unsigned irq);
 
   // Script.
-  bool tx_stuck = false;  ///< the shift register never ends: TXE and TC stay 0
-  /// Puts bytes on the line, the first at `start` or after earlier ones.
+  bool tx_stuck = false;  ///< TXE and TC stay 0
+  /// The first byte at `start` or after earlier ones.
   void receive(const std::uint8_t* data, std::size_t size, std::uint32_t baud, Time start = 0);
   void receive(std::uint8_t data, std::uint32_t baud, Flaw flaw = Flaw::kNone, Time start = 0);
-  /// An external half-duplex driver: sends only while the pin has this level, receives only
-  /// otherwise.
+  /// An external half-duplex driver: sends only while the pin is `active`.
   void direction_pin(GpioModel& port, unsigned pin, bool active);
-  /// A byte leaves (or arrives) only if the pin has this alternate function.
+  /// Bytes pass only if the pin has this alternate function.
   void transmit_pin(GpioModel& port, unsigned pin, unsigned function) {
     tx_pin_ = {&port, pin, function};
   }
   void receive_pin(GpioModel& port, unsigned pin, unsigned function) {
     rx_pin_ = {&port, pin, function};
   }
-  /// Called when each byte's stop bit ends.
+  /// At each byte's stop bit.
   void on_sent(std::function<void(const Sent&)> watcher) { watcher_ = std::move(watcher); }
 
   const std::vector<Sent>& sent() const { return sent_; }
   void forget_sent() { sent_.clear(); }
-  /// When all bytes put on the line will have passed.
   Time line_free_at() const { return line_free_at_; }
-  double baud() const;  ///< from the registers, 0 if none
+  double baud() const;  ///< from the registers
 
   void reset() override;
   void run() override;
@@ -67,7 +65,7 @@ class UsartModel : public Bank {
     Time start, end, bit;
     std::uint8_t data;
     Flaw flaw;
-    bool own;  ///< its own echo
+    bool own;
   };
   struct Pin {
     GpioModel* port = nullptr;
@@ -98,7 +96,7 @@ class UsartModel : public Bank {
   unsigned number_;
   unsigned irq_;
   bool v2_;
-  std::uint32_t seen_ = 0;  ///< flags shown by a read of SR
+  std::uint32_t seen_ = 0;  ///< by a read of SR
   std::uint32_t rx_data_ = 0;
   bool tx_full_ = false;
   std::uint32_t tx_data_ = 0;

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::uint8_t kSetAddress = 5, kClearFeature = 1, kSetConfiguration = 9;
 constexpr std::uint64_t kBitRate_hz = 12'000'000;
-/// Sync, PIDs, CRCs, gaps and the handshake of a transaction, in bytes (USB 2.0, 5.8.4).
+/// Sync, PIDs, CRCs, gaps and handshake (USB 2.0, 5.8.4).
 constexpr std::size_t kOverhead = 13;
 
 }  // namespace

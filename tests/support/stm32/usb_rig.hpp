@@ -5,7 +5,7 @@
 #include "tests/support/stm32/rig.hpp"
 #include "tests/support/stm32/serial_host.hpp"
 
-/// A chip with its USB port up, and a PC to plug it into.
+/// USB is up, with a PC to plug into.
 namespace verp::hal::stm32::test {
 
 inline constexpr std::uint8_t kChipNumber[usb::kSerialBytes] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10};

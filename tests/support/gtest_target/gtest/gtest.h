@@ -7,15 +7,15 @@
 #include <initializer_list>
 #include <type_traits>
 
-/// The part of GoogleTest that tests/unit and tests/contract use, for microcontrollers. No
-/// exceptions; only typed tests have fixtures and need a heap. The including program supplies
-/// testing::put() and calls testing::run_all().
+/// The part of GoogleTest that the tests use, for microcontrollers. There are no exceptions; only
+/// typed tests have fixtures and need a heap. The program supplies testing::put() and calls
+/// testing::run_all().
 namespace testing {
 
-/// Where results go; `text` may hold part of a line.
+/// `text` may hold part of a line.
 void put(const char* text);
 
-/// A line of text under construction; excess text is cut off.
+/// A line; excess text is cut off.
 class Message {
  public:
   Message& operator<<(const char* text) {
@@ -57,7 +57,7 @@ class Message {
   std::size_t size_ = 0;
 };
 
-/// One TEST; its constructor links it into a list before the program starts.
+/// Its constructor links it into a list before the program starts.
 struct Case {
   Case(const char* suite_name, const char* case_name, void (*test_body)(), int type_number = -1)
       : suite(suite_name), name(case_name), body(test_body), type(type_number) {
@@ -67,20 +67,19 @@ struct Case {
   const char* suite;
   const char* name;
   void (*body)();
-  int type;  ///< type number of a typed test; -1: not typed
+  int type;  ///< -1: not typed
   Case* next = nullptr;
 
   static inline Case* first = nullptr;
   static inline Case** tail = &first;
-  static inline int failures = 0;  ///< of the running test
+  static inline int failures = 0;
 };
 
-/// Base of typed tests' fixtures.
 class Test {};
 template <class... Type>
 struct Types {};
 
-/// One TYPED_TEST: a case for each of the suite's types.
+/// A case for each of the suite's types.
 template <template <class> class Body, class List>
 struct TypedCases;
 template <template <class> class Body, class... Type>
@@ -91,7 +90,7 @@ struct TypedCases<Body, Types<Type...>> {
   Case cases[sizeof...(Type)];
 };
 
-/// Outcome of one comparison; builds its message only on failure.
+/// Builds its message only on failure.
 class Outcome {
  public:
   explicit Outcome(bool good) : good_(good) {}
@@ -108,7 +107,7 @@ class Outcome {
   Message message_;
 };
 
-/// Prints a failure with the test's own message: `Failure(...) = Message() << words`.
+/// `Failure(...) = Message() << words` prints a failure.
 class Failure {
  public:
   Failure(const char* file, int line, const char* what) : file_(file), line_(line), what_(what) {}
@@ -148,7 +147,7 @@ inline Outcome near(const char* a_text, const char* b_text, double a, double b, 
   return outcome;
 }
 
-/// Within four units in the last place, as in GoogleTest.
+/// Within four units in the last place.
 template <class Float, class Bits>
 Outcome almost_equal(const char* a_text, const char* b_text, Float a, Float b) {
   constexpr Bits kSign = Bits{1} << (sizeof(Bits) * 8 - 1);
@@ -178,7 +177,7 @@ inline Message full_name(const Case& test) {
   return full;
 }
 
-/// Runs every test whose full name contains `filter`; returns the failures, or 1 if no test ran.
+/// Returns the failures, or 1 if no test ran.
 inline int run_all(const char* filter) {
   int run = 0;
   int failed = 0;
@@ -210,7 +209,7 @@ inline int run_all(const char* filter) {
   static void suite##_##name##_body()
 
 #define TYPED_TEST_SUITE(suite, types) using suite##_types = types
-// On the heap: a fixture may be larger than the stack.
+// A fixture may be larger than the stack.
 #define TYPED_TEST(suite, name)                                                              \
   template <class TypeParam>                                                                 \
   struct suite##_##name : suite<TypeParam> {                                                 \
@@ -226,7 +225,7 @@ inline int run_all(const char* filter) {
   template <class TypeParam>                                                                 \
   void suite##_##name<TypeParam>::body()
 
-// The switch keeps a caller's dangling `else` from binding to ours.
+// Keeps a caller's dangling `else` from binding to ours.
 #define VERP_CHECK_(outcome_expression, on_failure)                                 \
   switch (0)                                                                        \
   case 0:                                                                           \

@@ -50,7 +50,7 @@ inline constexpr Register kRegisters[] = {
      .reset = 0x01230000,
      .rw = kBtrBrp | kBtrTs1 | kBtrTs2 | kBtrSjw | kBtrLbkm | kBtrSilm},
 };
-// A mailbox's reset content is undefined, except that nothing is requested.
+// A mailbox's reset content is undefined but holds no request.
 inline constexpr Register kTransmitRegisters[] = {
     {.name = "TIR", .offset = kTir, .paragraph = 3, .rw = bits(0, 32)},
     {.name = "TDTR", .offset = kTdtr, .paragraph = 3, .rw = kDtrDlc | kDtrTgt | kDtrTime},

@@ -1,8 +1,8 @@
 #pragma once
 #include "hal/chip/stm32/registers/memory_map.hpp"
 
-/// Which stream and channel serve which peripheral, for VERP's peripherals: RM0090 tables 43 and
-/// 44, RM0390 tables 28 and 29, RM0385 tables 25 and 26. A stream serves one at a time.
+/// For VERP's peripherals: RM0090 tables 43 and 44, RM0390 tables 28 and 29, RM0385 tables 25 and
+/// 26.
 namespace verp::hal::stm32::dma {
 
 struct Request {

@@ -7,7 +7,7 @@ namespace verp::hal::stm32::dma {
 inline constexpr std::uint32_t kFlagsOfFour =
     kFlagAll | (kFlagAll << 6) | (kFlagAll << 16) | (kFlagAll << 22);
 
-/// The registers of all streams, then those of stream 0.
+/// Those of all streams, then stream 0's.
 inline constexpr Register kRegisters[] = {
     {.name = "LISR", .offset = kLisr, .paragraph = 1, .r = kFlagsOfFour},
     {.name = "HISR", .offset = kHisr, .paragraph = 2, .r = kFlagsOfFour},

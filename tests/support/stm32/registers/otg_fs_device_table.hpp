@@ -2,7 +2,7 @@
 #include "hal/chip/stm32/registers/otg_fs.hpp"
 #include "tests/support/stm32/registers/table.hpp"
 
-/// Device registers of OTG_FS and of its endpoints: see otg_fs_table.hpp.
+/// Device and endpoint registers of OTG_FS: see otg_fs_table.hpp.
 namespace verp::hal::stm32::otg_fs {
 
 inline constexpr char kManualF405[] = "RM0090 34.16, -, -";
@@ -83,7 +83,7 @@ constexpr Register in_interrupts(std::uint32_t more) {
           .r = kDiepInepne | kDiepTxfe,
           .rc_w1 = kDiepXfrc | kDiepEpdisd | kDiepToc | kDiepIttxfe | more};
 }
-/// Bit 7, TXFE of IN endpoints, is reserved here but set after reset; a write keeps it.
+/// Bit 7, TXFE of IN endpoints, is reserved here but set after reset.
 constexpr Register out_interrupts(std::uint32_t more) {
   return {.name = "DOEPINTx",
           .offset = kDoepint - kDoepctl,
@@ -130,7 +130,7 @@ inline constexpr Register kDtxfstsRegister = {.name = "DTXFSTSx",
                                               .reset = 0x200,
                                               .r = bits(0, 16)};
 
-/// One endpoint each, from its DIEPCTL or DOEPCTL.
+/// From its DIEPCTL or DOEPCTL.
 inline constexpr Register kIn0RegistersF405[] = {
     kIn0Register, in_interrupts(0), size("DIEPTSIZ0", 53, kTsizXfrsiz0 | kDieptsizPktcnt0),
     kDtxfstsRegister};

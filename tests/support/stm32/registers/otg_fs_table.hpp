@@ -1,12 +1,11 @@
 #pragma once
 #include "tests/support/stm32/registers/otg_fs_device_table.hpp"
 
-/// Registers of OTG_FS in device mode: the core's and, by inclusion, the device's. Paragraphs are
-/// those of RM0390 and RM0385, which number every register. RM0090 numbers only groups: 34.16.2
-/// global, 34.16.4 device, 34.16.5 power.
+/// OTG_FS in device mode. Paragraphs are those of RM0390 and RM0385, which number every register.
+/// RM0090 numbers groups: 34.16.2 global, 34.16.4 device, 34.16.5 power.
 namespace verp::hal::stm32::otg_fs {
 
-/// Read-only bits of GINTSTS, and those that software clears by writing 1.
+/// Read-only bits, and those that writing 1 clears.
 inline constexpr std::uint32_t kGintRead = kGintCmod | kGintOtg | kGintRxflvl | kGintNptxfe |
                                            kGintGinakeff | kGintGonakeff | kGintIep | kGintOep |
                                            kGintHprt | kGintHc | kGintPtxfe;
@@ -27,7 +26,7 @@ inline constexpr std::uint32_t kGusbcfgWrite = kGusbcfgTocal | kGusbcfgSrpcap | 
                                                kGusbcfgTrdt | kGusbcfgFhmod | kGusbcfgFdmod |
                                                kGusbcfgCtxpkt;
 
-/// RM0090 prints 0x20000000, a reserved bit. AHBIDL, set when idle, is bit 31, as RM0385 prints.
+/// RM0090 prints 0x20000000, a reserved bit. AHBIDL is bit 31, as RM0385 prints.
 inline constexpr Register kGrstctlRegister = {
     .name = "GRSTCTL",
     .offset = kGrstctl,
@@ -134,7 +133,7 @@ inline constexpr Register kRegistersF7[] = {
      .r = bits(13, 4) | bits(25, 3),
      .rs = bit(24)},
 };
-/// Of IN endpoint 1; each following one is 4 further.
+/// IN endpoint 1's; each next one is 4 further.
 inline constexpr Register kFifoRegisters[] = {
     {.name = "DIEPTXFx",
      .offset = dieptxf(1),
@@ -143,8 +142,7 @@ inline constexpr Register kFifoRegisters[] = {
      .rw = kDieptxfStart | kDieptxfDepth},
 };
 
-/// From kPcgcctl. RM0385 prints a reset value of reserved bits only (0x200B8000), which ST's own
-/// library overwrites with 0.
+/// RM0385 prints reserved bits as reset value (0x200B8000); ST's library writes 0.
 inline constexpr Register kPowerRegisters[] = {
     {.name = "PCGCCTL",
      .offset = 0,

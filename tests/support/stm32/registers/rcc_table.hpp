@@ -2,20 +2,19 @@
 #include "hal/chip/stm32/registers/rcc.hpp"
 #include "tests/support/stm32/registers/table.hpp"
 
-/// Each family's reset and clock control registers. Families have different peripherals, hence
-/// other bits in the enable registers.
+/// The families' enable registers differ in their bits.
 namespace verp::hal::stm32::rcc {
 
-/// Differences in the registers that all families have.
+/// Differences in common registers.
 struct FamilyBits {
-  std::uint32_t cr_rw = 0, cr_r = 0;  ///< of a second PLL
-  std::uint32_t pllcfgr = 0;          ///< beyond the others'
-  std::uint32_t no_cfgr = 0;          ///< reserved only here
-  unsigned plls = 0;                  ///< with interrupts, like the oscillators
+  std::uint32_t cr_rw = 0, cr_r = 0;
+  std::uint32_t pllcfgr = 0;  ///< beyond the others'
+  std::uint32_t no_cfgr = 0;  ///< reserved only here
+  unsigned plls = 0;          ///< with interrupts
   std::uint32_t ahb1_reset = 0, ahb1_clock = 0, ahb1_sleep = 0;
-  std::uint32_t ahb2 = 0, ahb3 = 0, apb1 = 0;  ///< the same bits in each register
-  std::uint32_t apb2_reset = 0, apb2 = 0;      ///< of the clocks, asleep or not
-  std::uint32_t bdcr = 0;                      ///< the LSE's modes
+  std::uint32_t ahb2 = 0, ahb3 = 0, apb1 = 0;  ///< for reset, clock and sleep alike
+  std::uint32_t apb2_reset = 0, apb2 = 0;
+  std::uint32_t bdcr = 0;
 };
 
 inline constexpr std::size_t kCommon = 22;
@@ -24,8 +23,7 @@ struct Rows {
   Register row[kCommon + kOwn];
 };
 
-/// Each register is a paragraph of the manual's section: those of all families, then the family's
-/// own.
+/// A register is a paragraph: those of all families, then the family's own.
 template <std::size_t kOwn>
 constexpr Rows<kOwn> rows(const FamilyBits& has, const Register (&own)[kOwn]) {
   Rows<kOwn> all = {{

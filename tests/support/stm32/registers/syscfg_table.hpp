@@ -1,7 +1,7 @@
 #pragma once
 #include "tests/support/stm32/registers/table.hpp"
 
-/// System configuration (the port of each external interrupt line) and the interrupt lines.
+/// Each external interrupt line's port, and the lines.
 namespace verp::hal::stm32 {
 
 namespace syscfg {
@@ -15,7 +15,7 @@ constexpr Register exticr(const char* name, std::uint32_t index) {
 inline constexpr Register kCmpcrRegister = {
     .name = "CMPCR", .offset = kCmpcr, .paragraph = 7, .rw = bit(0), .r = bit(8)};
 
-/// MEMRMP's reset value follows the boot pins; this is for a start from flash.
+/// MEMRMP follows the boot pins; this is a start from flash.
 inline constexpr Register kRegistersF405[] = {
     {.name = "MEMRMP", .offset = kMemrmp, .paragraph = 1, .rw = bits(0, 2)},
     {.name = "PMC", .offset = kPmc, .paragraph = 2, .rw = bit(23)},

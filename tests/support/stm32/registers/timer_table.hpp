@@ -4,7 +4,7 @@
 
 namespace verp::hal::stm32::timer {
 
-/// The F7's counter, slave and compare modes have one bit more each.
+/// The F7 has one bit more each for counter, slave and compare modes.
 constexpr Register cr1(std::uint32_t extra) {
   return {.name = "CR1", .offset = kCr1, .paragraph = 1, .rw = bits(0, 10) | extra};
 }

@@ -7,7 +7,7 @@ namespace verp::hal::stm32 {
 namespace usart_v1 {
 
 inline constexpr Register kRegisters[] = {
-    // RM0090 prints 0x00C00000, but TXE and TC, described as set, are 0xC0.
+    // RM0090 prints 0x00C00000, but TXE and TC are 0xC0.
     {.name = "SR",
      .offset = kSr,
      .paragraph = 1,
