@@ -4,12 +4,12 @@
 
 namespace verp::cli {
 
-/// Standard input, line by line, from a person or a script.
+/// From a person or a script.
 class Answers {
  public:
-  /// The next line without its line break; nullopt: end of input, or interrupted.
+  /// Without its line break; nullopt: end of input, or interrupted.
   std::optional<std::string> line();
-  /// First prints the question on standard error.
+  /// Prints the question on standard error.
   std::optional<std::string> line(const std::string& question);
 
  private:

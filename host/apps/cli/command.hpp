@@ -13,29 +13,28 @@ class Validator;
 
 namespace verp::cli {
 
-/// A subcommand: its options, and the function that runs it. `run` returns the exit status or
-/// throws.
+/// `run` returns the exit status or throws.
 struct Subcommand {
   CLI::App* app;
   std::function<int()> run;
 };
 
-/// Adds --json. With it stdout holds one JSON object only; all other text goes to stderr.
+/// Adds --json. With it stdout holds one JSON object only; other text goes to stderr.
 void add_json_flag(CLI::App& app, bool& json);
 
-/// Adds the argument MODEL, with one text for all commands, and --robot MODEL, which is the same.
+/// The argument MODEL and --robot MODEL, which is the same.
 CLI::Option* add_model(CLI::App& app, std::string& model);
 
 void add_bus_option(CLI::App& app, std::string& bus);
 
-/// Parses all of `text` as a decimal number within [low, high]. Throws CLI::ValidationError with
-/// the range otherwise, also for NaN, infinity and trailing characters.
+/// All of `text` as a decimal number within [low, high]. Otherwise throws CLI::ValidationError with
+/// the range, also for NaN, infinity and trailing characters.
 double parse_number(const std::string& text, double low, double high, const std::string& unit);
 
-/// Validates a number option by the rules of parse_number().
+/// By the rules of parse_number().
 CLI::Validator number_between(double low, double high, const std::string& unit);
 
-/// Validates a whole-number option; accepts digits only.
+/// Digits only.
 CLI::Validator whole_number_between(std::uint64_t low, std::uint64_t high);
 
 }  // namespace verp::cli

@@ -12,7 +12,7 @@ namespace verp::cli {
 
 void open_missing_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    // Opens the lowest free descriptor, which is this one.
+    // Opens the lowest free descriptor.
     if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", O_RDONLY);
   }
 }

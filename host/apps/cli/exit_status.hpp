@@ -4,7 +4,6 @@
 
 namespace verp::cli {
 
-/// Exit status of the program (design.md section 9).
 enum ExitStatus : int {
   kGood = 0,
   kRunFailed = 1,  ///< fell, diverged, interrupted
@@ -12,7 +11,7 @@ enum ExitStatus : int {
   kNoDevice = 3,   ///< device or link
 };
 
-/// A failure that the user can act on. The line gives the problem, the place and the remedy.
+/// A failure that the user can act on. The line gives problem, place and remedy.
 class ToolError : public std::runtime_error {
  public:
   ToolError(ExitStatus status, const std::string& line)

@@ -3,13 +3,12 @@
 
 namespace verp::cli {
 
-/// An exception as an exit status and a line for the user.
 struct Failure {
   int status;  ///< ExitStatus
   std::string line;
 };
 
-/// The current exception; call it in a catch block only.
+/// Call in a catch block only.
 Failure current_failure();
 
 }  // namespace verp::cli

@@ -14,15 +14,14 @@ constexpr std::size_t kNarrow = 60;
 constexpr std::size_t kIndentOfNarrow = 6;
 constexpr int kElsewhere = 100, kLeast = 20;
 
-/// A word, or, if no line can hold it, its longest part that fits and ends with a comma.
+/// A word, or its longest part that fits and ends with a comma.
 std::string_view first_piece(std::string_view word, std::size_t room) {
   if (word.size() <= room) return word;
   const std::size_t comma = word.rfind(',', room - 1);
   return comma == word.npos ? word : word.substr(0, comma + 1);
 }
 
-/// `first` and the words of `text`, in lines of at most `width`, indented by `indent` from the
-/// second.
+/// Lines of at most `width`, indented by `indent` from the second.
 std::string paragraph(std::string first, std::string_view text, std::size_t indent,
                       std::size_t width) {
   std::string out, line = std::move(first);

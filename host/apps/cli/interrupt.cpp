@@ -14,10 +14,9 @@ volatile std::sig_atomic_t asked_by = 0;
 volatile std::sig_atomic_t to_the_end = 0;
 volatile std::int64_t asked_at_ms = 0;
 
-// One press may arrive twice: from the terminal, and from a program that forwards it (`timeout`;
-// the shell of a closed terminal).
+// One press may arrive twice: from the terminal, and from a program that forwards it.
 constexpr std::int64_t kSamePress_ms = 2000;
-// Shorter, because a robot must be released soon, and forwarding is immediate.
+// Shorter: a robot must be released soon.
 constexpr std::int64_t kSamePressOfRobot_ms = 300;
 
 extern "C" void ask(int signal) {

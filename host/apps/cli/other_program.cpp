@@ -14,12 +14,12 @@ namespace verp::cli {
 namespace {
 
 struct OtherProgram {
-  const char *path, *target;  ///< path relative to this program, and build target
+  const char *path, *target;  ///< path is relative to this program
 };
 constexpr OtherProgram kPictures = {"../pictures/verp_pictures", "verp_pictures"};
 constexpr OtherProgram kEditor = {"../edit/verp_edit", "verp_edit"};
 
-/// Replaces this process by that program, with the word and all following arguments.
+/// With the word and all following arguments.
 [[noreturn]] void become(const OtherProgram& other, const std::string& word,
                          std::vector<std::string> arguments) {
   const std::filesystem::path program =

@@ -3,8 +3,8 @@
 
 namespace verp::cli {
 
-/// Subcommands of `verp` that run as their own programs, so that `verp` does not need their
-/// libraries. Shot and video are in host/apps/pictures, edit in host/author/edit/words.
+/// Subcommands that run as programs of their own, so that `verp` does not need their libraries.
+/// Shot and video are in host/apps/pictures, edit in host/author/edit/words.
 Subcommand add_shot(CLI::App& root);
 Subcommand add_video(CLI::App& root);
 Subcommand add_edit(CLI::App& root);

@@ -48,8 +48,7 @@ std::string full_name(const CLI::App* app) {
   return full_name(app->get_parent()) + " " + app->get_name();
 }
 
-/// CLI11 reports argument counts; this says instead whether a value is missing, unwanted or
-/// repeated.
+/// CLI11 reports argument counts; this says what is missing, unwanted or repeated.
 std::string in_words(const CLI::ParseError& error) {
   const std::string line = error.what();
   if (const std::size_t end = line.find(" was given a disallowed flag"); end != line.npos) {
@@ -65,8 +64,8 @@ std::string in_words(const CLI::ParseError& error) {
   return line;
 }
 
-/// An empty argument is probably an unset variable of a script and must not select a default.
-/// Returns the error text, or nothing.
+/// An empty argument is probably an unset variable and must not select a default. Returns the error
+/// text.
 std::string empty_word(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string_view word = argv[i];
@@ -124,7 +123,7 @@ int run(int argc, char** argv, AddCommands add_commands) {
   root.set_version_flag("--version", "verp " + record::build_info().at("source_revision"));
   root.require_subcommand(1);
   const std::vector<Subcommand> commands = add_commands(root);
-  // After the subcommands, which would inherit it.
+  // Subcommands would inherit it.
   root.footer(
       "The launcher adds `./verp test`, which checks all promises, `./verp manual`, which builds "
       "the\nmanual, and `./verp python FILE`, which runs a Python program with libverp.");

@@ -7,8 +7,7 @@ namespace verp::cli {
 
 using AddCommands = std::vector<Subcommand> (*)(CLI::App& root);
 
-/// The body of a main(): parses the command line, runs a command, prints an error as one line, and
-/// returns the exit status.
+/// The body of a main().
 int run_program(int argc, char** argv, AddCommands add_commands);
 
 }  // namespace verp::cli

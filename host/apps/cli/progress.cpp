@@ -20,7 +20,7 @@ void Progress::show(double share, const std::string& label) {
   const int full = static_cast<int>(std::clamp(share, 0.0, 1.0) * kWidth);
   std::string bar;
   for (int i = 0; i < kWidth; ++i) bar += i < full ? "█" : "░";
-  // Ignores failures: a closed terminal must not end a run.
+  // A closed terminal must not end a run.
   std::fputs(fmt::format("\r\033[K{} {:3.0f} %  {}", bar, 100 * std::clamp(share, 0.0, 1.0), label)
                  .c_str(),
              stderr);

@@ -4,7 +4,7 @@
 
 namespace verp::cli {
 
-/// A progress bar on stderr. Silent if stderr is not a terminal, under CI, or if not wanted.
+/// Silent unless stderr is a terminal, under CI, or if not wanted.
 class Progress {
  public:
   explicit Progress(bool wanted);
@@ -12,7 +12,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// share 0..1; `label` names the current work. Cheap: draws at most ten times a second.
+  /// share 0..1; `label`: current work. Draws at most ten times a second.
   void show(double share, const std::string& label);
   void clear();
 

@@ -3,19 +3,18 @@
 
 namespace verp::cli {
 
-/// Real-time resources that the system grants to a control loop.
+/// Granted by the system to a control loop.
 struct RealTime {
-  bool fifo = false;    ///< this thread has real-time priority (SCHED_FIFO)
-  bool locked = false;  ///< its memory is never paged out
-  std::string advice;   ///< what is missing and the remedy, in one line; empty: nothing
+  bool fifo = false;    ///< SCHED_FIFO
+  bool locked = false;  ///< memory never paged out
+  std::string advice;   ///< one line with the remedy; empty: nothing is missing
 };
 
-/// Above the desktop's audio threads, below the kernel's interrupt threads (50).
+/// Between the desktop's audio threads and the kernel's interrupt threads (50).
 inline constexpr int kLoopPriority = 40;
 
-/// Requests both for the calling thread.
 RealTime become_real_time();
-/// Gives up the priority: a loop that cannot keep up must not block other programs.
+/// A loop that cannot keep up must not block other programs.
 void leave_real_time();
 
 }  // namespace verp::cli

@@ -23,19 +23,18 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
   return row.back();
 }
 
-/// The part of a name that people remember, after the last dot: "half_stance_m" of
-/// gait.half_stance_m.
+/// After the last dot: "half_stance_m" of gait.half_stance_m.
 std::string_view last_part(std::string_view word) {
   return word.substr(word.rfind('.') + 1);  // npos + 1 is 0
 }
 
-/// The name without its unit: "lift" of gait.lift_m.
+/// "lift" for gait.lift_m.
 std::string_view without_unit(std::string_view name) {
   const std::size_t end = name.rfind('_');
   return end == name.npos || name.size() - end > 4 ? name : name.substr(0, end);
 }
 
-/// A word without a dot is also compared to a name's last part.
+/// A word without a dot also matches a name's last part.
 std::size_t distance_to(std::string_view word, std::string_view name) {
   if (word.find('.') != word.npos) return edit_distance(word, name);
   const std::string_view last = last_part(name);
@@ -52,7 +51,7 @@ std::vector<std::string> holding(std::string_view part, const std::vector<std::s
   return found;
 }
 
-/// The only name that begins with the word, which is then an abbreviation. Empty: none, or several.
+/// The only name that begins with the word; empty: none, or several.
 std::string begun(std::string_view word, const std::vector<std::string>& names) {
   constexpr std::size_t kLetters = 3;
   const std::size_t first = word.find_first_not_of('-');

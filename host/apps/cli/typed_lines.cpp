@@ -8,7 +8,7 @@ namespace verp::cli {
 std::string TypedLines::next() {
   pollfd input{STDIN_FILENO, POLLIN, 0};
   while (open_ && begun_.find('\n') == std::string::npos && poll(&input, 1, 0) > 0) {
-    // Reading from the background would stop this program.
+    // Reading in the background would stop this program.
     if (isatty(STDIN_FILENO) != 0 && tcgetpgrp(STDIN_FILENO) != getpgrp()) return "";
     char piece[256];
     const ssize_t count = read(STDIN_FILENO, piece, sizeof piece);

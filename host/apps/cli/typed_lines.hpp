@@ -3,11 +3,10 @@
 
 namespace verp::cli {
 
-/// Lines that a person types during a run. Never waits.
+/// Typed during a run; never waits.
 class TypedLines {
  public:
-  /// The next complete line; empty: there is none. Reads nothing while another program is in the
-  /// terminal's foreground.
+  /// The next complete line, or empty; reads nothing while another program is in the foreground.
   std::string next();
 
  private:

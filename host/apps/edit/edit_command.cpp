@@ -29,7 +29,7 @@ struct EditWords {
 const std::map<std::string, double> kUnits = {
     {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}};
 
-/// A file by its path, or a robot by its name; a missing path is for a new robot.
+/// A path, or a robot's name; a missing path is for a new robot.
 fs::path file_of(const std::string& word) {
   std::error_code error;
   const fs::path path = word;

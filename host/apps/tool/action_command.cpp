@@ -112,7 +112,7 @@ int check(const ActionWords& words) {
                         checked.length_s, checked.whole ? "" : ", and on: not checked further");
     text += fmt::format("  {:>6} {:>6} {:>6} {:>6} {:<18} {:>6} {:<18} {:>5}\n", "line", "from s",
                         "to s", "speed%", "of", "weight%", "on", "ZMPmm");
-    std::set<std::pair<int, std::string>> told;  // skips repeats of a frame with the same problem
+    std::set<std::pair<int, std::string>> told;
     for (const action::FrameCheck& each : checked.frames) {
       if (told.insert({each.frame, each.problem}).second) text += in_a_line(each);
       frames.push_back(
@@ -142,7 +142,7 @@ int check(const ActionWords& words) {
   return bad == 0 ? cli::kGood : cli::kRunFailed;
 }
 
-/// Empty if the robot stayed where it was.
+/// Empty: the robot stayed.
 std::string way_in_words(const action::PlayedAction& played) {
   constexpr double kStayed_m = 0.05, kStayed_rad = 0.1;
   if (played.went_m.norm() < kStayed_m && std::abs(played.turned_rad) < kStayed_rad) return "";

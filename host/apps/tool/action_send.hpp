@@ -10,8 +10,7 @@ struct SendWords {
   int id = -1;  ///< default: the controller on that link
 };
 
-/// `verp action send`: sends all of the robot's actions to a running controller. Returns the exit
-/// status.
+/// `verp action send`, to a running controller. Returns the exit status.
 int send_actions(const ActionWords& words, const SendWords& send);
 
 }  // namespace verp::tool

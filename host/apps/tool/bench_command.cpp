@@ -27,25 +27,24 @@
 #include "host/os/files/whole.hpp"
 #include "host/os/process/child.hpp"
 
-/// `verp bench`: runs the programs of tests/bench and compares their numbers with the promised
-/// limits.
+/// Runs the programs of tests/bench and compares with the promised limits.
 namespace verp::tool {
 namespace {
 
 constexpr double kMostTick_us = 3;
 constexpr double kLeastTimesFasterThanKdl = 100;
-/// Runs where CAN sockets exist; allows for several minutes of walking.
+/// For several minutes of walking where CAN sockets exist.
 constexpr const char* kWithCan = " --timeout 600 --memory 1500M ";
 constexpr const char* kTiming = " --benchmark_format=json --benchmark_min_time=0.1";
 
 struct BenchOptions {
   bool json = false, pc = false;
   int repetitions = 7;
-  std::string only;  ///< "languages", or the cost of pictures: "frames" or "window"
+  std::string only;  ///< "languages", "frames" or "window"
 };
 
-/// Runs a program of this build tree, prefixed with `where`, and passes each line of its stdout to
-/// `take`. Throws ToolError with its last output if it fails.
+/// Runs a program of this build tree behind `where`; `take` gets each line of stdout. Throws
+/// ToolError with its last output.
 template <class Take>
 void run_program(const std::string& program, const std::string& arguments, Take take,
                  const std::string& where = "") {
@@ -77,7 +76,7 @@ void run_program(const std::string& program, const std::string& arguments, Take 
 
 using Samples = std::map<std::string, std::vector<double>>;
 
-/// One run of a Google Benchmark program: adds CPU times in ns and counters to the samples.
+/// CPU times in ns and counters of a Google Benchmark program.
 void sample(const std::string& program, const std::string& folder, Samples& samples) {
   std::string text;
   run_program(program, " " + files::shell_word(folder) + kTiming,
@@ -110,7 +109,7 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
 
 void add_pc_rows(const Samples& samples, std::vector<BenchRow>& rows) {
   const std::vector<double>&ours = samples.at("leg_ik"), &kdl = samples.at("kdl_leg_ik");
-  std::vector<double> times;  // paired: the two ran in succession
+  std::vector<double> times;  // the two ran in succession
   for (std::size_t n = 0; n < ours.size(); ++n) times.push_back(kdl.at(n) / ours[n]);
   rows.push_back(timed("tick_us", "one tick, digest included", "µs",
                        scaled(samples.at("tick"), 1e-3), Bar::kAtMost, kMostTick_us));
@@ -134,7 +133,7 @@ void add_pc_rows(const Samples& samples, std::vector<BenchRow>& rows) {
                   .exact = true});
 }
 
-/// Adds a line of target_bench: a board's exact cost, or its link's speed.
+/// From target_bench: a board's exact cost, or its link's speed.
 void add_board_rows(const cli::Json& line, std::vector<BenchRow>& rows, cli::Json& headings) {
   const std::string where = line.at("board");
   const Bar promised = where == board::kPromisedBoard ? Bar::kAtMost : Bar::kNone;
@@ -203,7 +202,7 @@ void add_picture_rows(const cli::Json& line, std::vector<BenchRow>& rows) {
     add("apart", fmt::format("  its pixels from those of 64 samples, rms"), "of 255");
     return;
   }
-  // Limits for two idle cores with software rendering.
+  // On two idle cores with software rendering.
   add("frames_per_s", fmt::format("the window with {}", of), "1/s", robots == 1 ? 20 : 10);
   add("real_time_factor", "the twin beside it, of real time", "times", 0.99);
   add("cores", "cores busy with both", "");

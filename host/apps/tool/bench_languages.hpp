@@ -6,7 +6,7 @@
 
 namespace verp::tool {
 
-/// Adds a row for one output line of language_bench, with the promise for that language.
+/// Row of one language_bench line, with its promise.
 void add_language_row(const cli::Json& line, std::vector<BenchRow>& rows);
 
 }  // namespace verp::tool

@@ -6,8 +6,7 @@
 
 namespace verp::tool {
 
-/// For commands that use a robot's CAN interface. Throws ToolError if the interface has another bit
-/// rate than the robot's bus; prints other advice.
+/// Throws ToolError if the interface has another bit rate than the robot's bus.
 void check_bit_rate(const std::string& command, const link::CanInterface& interface,
                     const Params& params);
 

@@ -8,7 +8,7 @@
 
 namespace verp::tool {
 
-/// Successive reads of one device, each timed from the first byte sent to the last byte received.
+/// Reads of one device, from the first byte sent to the last received.
 struct BusBench {
   std::uint64_t good = 0;
   double duration_s = 0;
@@ -25,14 +25,13 @@ struct BusBench {
 /// Ends early on interruption.
 BusBench run_bus_bench(bus::Client& client, std::uint8_t id, std::uint16_t address,
                        std::uint16_t size, double seconds);
-/// For any bus: `read` makes one read of `size` bytes and returns false if it got no answer, which
-/// counts as a timeout.
+/// For any bus: `read` makes one read of `size` bytes; false: no answer.
 BusBench run_bus_bench(const std::function<bool()>& read, std::uint16_t size, double seconds);
 
 std::string to_text(const BusBench& result);
 cli::Json to_json(const BusBench& result);
 
-/// Warns on stderr if the adapter behind `device` delays received bytes.
+/// Warns if the adapter behind `device` delays bytes.
 void advise_latency(const std::string& device);
 
 }  // namespace verp::tool

@@ -44,7 +44,7 @@ can::NodeIdentity identify(can::Client& client, const BusOptions& options) {
 }
 
 can::Client open(const BusOptions& options) {
-  if (!options.object.empty()) parse_object(options.object);  // fails before anything is sent
+  if (!options.object.empty()) parse_object(options.object);  // throws early
   return {link::parse_endpoint(options.link),
           static_cast<std::uint32_t>(options.timeout_ms * 1000)};
 }
@@ -61,7 +61,6 @@ cli::Json json_of(const Told& number) {
 std::string text_of(const Told& number) {
   return number ? fmt::format("0x{:X}", *number) : "not told";
 }
-/// Why a node was not asked everything.
 const char* why_not_all(Asked asked) {
   return asked == Asked::kFellSilent ? "fell silent while it was asked" : "not asked to the end";
 }
@@ -138,7 +137,7 @@ int read_can(const BusOptions& options) {
     } catch (const can::SilentError&) {
       throw;
     } catch (const bus::DeviceError&) {
-      if (!all) throw;  // a read of all objects skips unreadable ones
+      if (!all) throw;  // unreadable objects are skipped
       continue;
     }
     if (options.json) {
@@ -168,7 +167,7 @@ int write_can(const BusOptions& options) {
   }
   NodeObject object = objects.front();
   if (!object.writable) throw cli::ToolError(cli::kBadInput, object.name + " is read-only");
-  if (!object.type) {  // an untyped object reveals only its size
+  if (!object.type) {  // only its size is known
     const std::size_t size = client.read(node_of(options), object.at).size();
     if (size == 1) object.type = Type::kU8;
     if (size == 2) object.type = Type::kU16;
@@ -193,7 +192,7 @@ int bench_can(const BusOptions& options) {
   can::Client client = open(options);
   identify(client, options);
   cli::catch_interrupts();
-  constexpr std::uint16_t kBytes = 4;  // size of the device type
+  constexpr std::uint16_t kBytes = 4;  // of the device type
   const BusBench result =
       run_bus_bench([&] { return client.read_once(node_of(options), canopen::plan::kDeviceType); },
                     kBytes, options.seconds);

@@ -1,12 +1,11 @@
 #pragma once
 #include "host/apps/tool/bus_options.hpp"
 
-/// `verp bus scan|ping|read|write|bench` on CAN, with nodes and objects instead of devices and
-/// registers. Objects in our EDS data (host/twin/eds) have a name and a type; others print as
-/// bytes.
+/// `verp bus scan|ping|read|write|bench` on CAN, with nodes and objects. Objects outside our EDS
+/// data (host/twin/eds) print as bytes.
 namespace verp::tool {
 
-/// True if --link names a CAN interface; throws link::EndpointError if it names nothing.
+/// Throws link::EndpointError if --link names nothing.
 bool on_can(const BusOptions& options);
 
 int scan_can(const BusOptions& options);

@@ -29,7 +29,6 @@ bus::Client open(const BusOptions& options) {
           static_cast<std::uint32_t>(options.timeout_ms * 1000)};
 }
 
-/// Reports that the answer took more than one try.
 void tell_tries(const bus::Client& client, const BusOptions& options, cli::Json* json) {
   if (client.tries() <= 1) return;
   if (json != nullptr) {
@@ -125,7 +124,7 @@ int scan_serial(const BusOptions& options) {
     }
   } else {
     found = client.scan();
-    if (found.empty()) found = client.scan();  // a device busy with another answer misses it
+    if (found.empty()) found = client.scan();  // a busy device misses it
   }
   if (client.crc_errors() > 0) {
     cli::complain(
@@ -199,7 +198,7 @@ int bench_serial(const BusOptions& options) {
   const auto id = static_cast<std::uint8_t>(options.id);
   const auto address = static_cast<std::uint16_t>(options.bench_address);
   const auto size = static_cast<std::uint16_t>(options.size);
-  client.read(id, address, size);  // throws if the read fails
+  client.read(id, address, size);  // throws without an answer
   cli::catch_interrupts();
   const BusBench result = run_bus_bench(client, id, address, size, options.seconds);
   cli::print_answer(options.json, to_json(result), to_text(result));

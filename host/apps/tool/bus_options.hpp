@@ -4,7 +4,6 @@
 
 namespace verp::tool {
 
-/// Options of `verp bus scan|ping|read|write|bench`, on any link.
 struct BusOptions {
   std::string link;
   double timeout_ms = 100;

@@ -57,8 +57,7 @@ link::VideoWish wish_of(const CameraWords& words) {
   return wish;
 }
 
-/// Checks, before any recording, that the file name fits the format. A camera that encodes JPEG
-/// itself offers nothing else.
+/// Before any recording. A camera that encodes JPEG offers nothing else.
 void require_picture_name(const std::string& file, PixelFormat format) {
   const std::string kind = std::filesystem::path(file).extension().string();
   const bool jpeg = format == PixelFormat::kJpeg;
@@ -80,7 +79,7 @@ void write_camera_picture(const CameraFrame& frame, const std::string& file) {
                                : png_of_rgb(frame.width_px, frame.height_px, link::rgb_of(frame)));
 }
 
-/// A trace with a camera only: pictures, timed from the start of the recording.
+/// A trace with one camera, timed from the start.
 class CameraRecording {
  public:
   CameraRecording(const CameraWords& words, const link::V4l2Camera& camera)
@@ -138,13 +137,12 @@ struct Watched {
   }
 };
 
-/// Ends after the given time, or with the requested picture.
 Watched watch_camera(link::V4l2Camera& camera, const CameraWords& words,
                      CameraRecording* recording) {
   Watched seen;
   CameraFrame frame;
   constexpr int kWait_ms = 50;
-  // Many cameras use their first pictures to set the exposure, so those are dark.
+  // Many cameras expose their first pictures wrongly.
   constexpr std::uint64_t kSettled = 10;
   const std::uint64_t end_ns =
       link::monotonic_ns() + static_cast<std::uint64_t>(1e9 * words.seconds);
@@ -171,7 +169,7 @@ const char* code_of(PixelFormat format) {
   return found == kFormatCodes.end() ? "?" : found->first;
 }
 
-/// Many drivers have one rate or a few, and use the nearest without an error.
+/// Many drivers silently use the nearest of a few rates.
 std::string rate_in_words(const link::V4l2Camera& camera, const CameraWords& words) {
   if (camera.rate_hz() <= 0) return words.rate_hz > 0 ? "; it does not tell its rate" : "";
   const bool another = words.rate_hz > 0 && std::abs(camera.rate_hz() / words.rate_hz - 1) > 0.01;

@@ -5,7 +5,6 @@
 
 namespace verp::tool {
 
-/// Options of `verp bus camera`.
 struct CameraWords {
   std::string device = "/dev/video0";
   std::string size, format, picture, record;
@@ -14,8 +13,7 @@ struct CameraWords {
   bool list = false, json = false, compress = false;
 };
 
-/// Runs a camera of this PC; returns the exit status. Throws ToolError, LinkError, TraceError,
-/// ReportError.
+/// Returns the exit status. Throws ToolError, LinkError, TraceError, ReportError.
 int run_camera(const CameraWords& words, link::VideoCalls& calls = link::kernel_video_calls());
 
 }  // namespace verp::tool

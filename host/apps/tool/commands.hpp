@@ -3,7 +3,7 @@
 
 namespace verp::tool {
 
-/// The commands of `verp`, one per file. Each adds its options to the command line.
+/// One command per file; each adds its options.
 cli::Subcommand add_walk(CLI::App& root);
 cli::Subcommand add_action(CLI::App& root);
 cli::Subcommand add_demo(CLI::App& root);

@@ -13,7 +13,7 @@
 namespace verp::tool {
 namespace {
 
-/// Words that may follow one command ("bus read"; empty for the root).
+/// After one command ("bus read"; empty: the root).
 struct ShellWords {
   std::string command;
   std::vector<std::pair<std::string, std::string>> commands, options;  ///< with their descriptions
@@ -24,7 +24,6 @@ std::string first_line_of(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }
 
-/// A command may have aliases.
 std::vector<std::string> names_of(const CLI::App& app) {
   std::vector<std::string> names = app.get_aliases();
   names.insert(names.begin(), app.get_name());

@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct DebugWords {
-  FlashOptions flash;  ///< board, port, robot, bus, emulate
+  FlashOptions flash;
   std::string trace, gdb = "gdb-multiarch";
   std::uint32_t tick = 0;
   bool tick_given = false, print = false;
@@ -40,13 +40,12 @@ bool is_emulated(const std::string& board) {
   return std::any_of(all.begin(), all.end(), [&](const auto& each) { return each.name == board; });
 }
 
-/// The emulated board that replays a trace for this one.
+/// It replays a trace for this board.
 std::string replay_board(const std::string& board) {
   return is_emulated(board) ? board : flash::find_recipe(board).replay_board;
 }
 
-/// Builds the usual firmware with debug information. Uses the images of $VERP_FIRMWARE_DIR
-/// unchanged if that is set.
+/// With debug information. $VERP_FIRMWARE_DIR's images stay unchanged.
 void build_for_gdb(const std::string& board, const std::string& target, const fs::path& folder) {
   if (std::getenv("VERP_FIRMWARE_DIR") != nullptr) return;
   const fs::path tree = files::source_dir() / "build" / ("debug-" + board);
@@ -93,7 +92,7 @@ flash::DebugPlan plan_replay(const DebugWords& words, const fs::path& folder) {
                              static_cast<std::uint32_t>(at - inputs.begin()), folder);
 }
 
-/// True unless the board exists only in emulation: its programs have no link for a twin.
+/// A board that exists only in emulation has no link for a twin.
 bool has_loop_of_its_own(const std::string& board) {
   const auto& rows = flash::recipes();
   return !is_emulated(board) || std::any_of(rows.begin(), rows.end(), [&](const auto& row) {
@@ -131,7 +130,7 @@ void tell_links(const flash::DebugPlan& plan) {
   }
 }
 
-/// Replaces this process with gdb, so that gdb owns the terminal and Ctrl-C.
+/// gdb then owns the terminal and Ctrl-C.
 [[noreturn]] void become(const std::vector<std::string>& command) {
   std::vector<std::string> words = command;
   std::vector<char*> argv;

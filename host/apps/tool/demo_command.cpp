@@ -66,7 +66,7 @@ const demos::Demo& demo_of(const std::string& name) {
                                    name, cli::did_you_mean(name, names)));
 }
 
-/// Returns the picture's path; empty: no picture. `lost`: why writing it failed.
+/// The picture's path, or empty; `lost`: why writing it failed.
 std::string draw(const DemoWords& words, const demos::Run& run, std::string& lost) {
   if (words.no_picture) return "";
   const std::string file = words.picture.empty() ? words.name + ".png" : words.picture;
@@ -81,7 +81,7 @@ std::string draw(const DemoWords& words, const demos::Run& run, std::string& los
   if (!picture) throw cli::ToolError(cli::kRunFailed, "verp demo: gnuplot: " + error);
   try {
     report::write_file(file, *picture);
-  } catch (const report::ReportError& refused) {  // loses the picture, not the run's results
+  } catch (const report::ReportError& refused) {  // loses the picture, not the results
     lost = refused.what();
     return "";
   }
@@ -160,7 +160,7 @@ demos::Options options_of(const DemoWords& words) {
   return options;
 }
 
-/// Runs before the demo, which takes a minute.
+/// Before the demo, which takes a minute.
 void check_picture(const std::string& file) {
   if (file.empty()) return;
   if (!file.ends_with(".png") && !file.ends_with(".svg"))

@@ -37,13 +37,12 @@ struct DeployOptions {
   bool no_build = false, json = false;
 };
 
-/// Result of a successful step.
 struct StepAnswer {
   std::string text;
   cli::Json json = cli::Json::object();
 };
 
-/// The steps from a model to a robot. Each returns a result or throws; a dry run only describes it.
+/// From a model to a robot. Each step returns a result or throws; a dry run describes it.
 class Deployment {
  public:
   explicit Deployment(const DeployOptions& options)
@@ -71,7 +70,7 @@ class Deployment {
     return {images};
   }
 
-  /// Walks in the twin, with this PC as the controller, and records the inputs.
+  /// In the twin, with this PC as controller; records the inputs.
   StepAnswer walk() {
     if (dry()) return {fmt::format("would walk {:g} s in the twin", plan_.walk_s)};
     const fs::path file = folder() / "walk.mcap";
@@ -93,7 +92,7 @@ class Deployment {
              {"trace", file.string()}}};
   }
 
-  /// The same inputs must give the same bits on a core like the board's.
+  /// Equal inputs must give equal bits on a core like the board's.
   StepAnswer replay() {
     const std::string board = recipe_.replay_board;
     if (dry()) return {"would replay that walk on emulated " + board};
@@ -130,7 +129,7 @@ class Deployment {
 
  private:
   bool dry() const { return options_.flash.dry_run; }
-  /// In a dry run, a later build may still correct the image.
+  /// A dry run's image may be stale.
   bool builds_later() const { return dry() && !options_.no_build; }
 
   const fs::path& folder() const {
@@ -157,7 +156,7 @@ class Deployment {
 
   const DeployOptions& options_;
   const flash::Recipe& recipe_;
-  std::string image_;  ///< that drives the robot on its bus
+  std::string image_;  ///< for the robot on its bus
   fs::path folder_;
   cli::Progress progress_;
   WalkPlan plan_;
@@ -182,7 +181,7 @@ void tell(const DeployOptions& options, const std::string& line) {
   }
 }
 
-/// Stops at the first step that fails. Returns the exit status.
+/// Stops at the first failed step; returns the exit status.
 int run_steps(const DeployOptions& options, Deployment& deployment, cli::Json& rows,
               std::string& failure) {
   using Clock = std::chrono::steady_clock;

@@ -9,19 +9,17 @@ namespace verp::tool {
 
 struct FirmwareBuild {
   std::string board, target;
-  std::filesystem::path tree;              ///< build tree; empty: the preset fw-<board>
-  std::vector<std::string> settings = {};  ///< further CMake arguments at configure time
-  std::filesystem::path log;               ///< receives all output after a failure
+  std::filesystem::path tree;              ///< empty: the preset fw-<board>
+  std::vector<std::string> settings = {};  ///< further CMake settings
+  std::filesystem::path log;               ///< all output of a failed build
   std::filesystem::path lock = {};         ///< empty: the lock of ./verp
 };
 
-/// Runs one build command while it holds the lock. After a failure, `log` receives all output.
-/// Throws ToolError with the compiler's messages.
+/// One build command under the lock. Throws ToolError with the compiler's messages.
 void run_build(const std::vector<std::string>& command, const std::filesystem::path& lock,
                const std::filesystem::path& log, cli::Progress& progress);
 
-/// Builds the target under the lock that ./verp also takes. Throws ToolError with the compiler's
-/// messages.
+/// Under the lock that ./verp also takes.
 void build_firmware(const FirmwareBuild& build, cli::Progress& progress);
 
 }  // namespace verp::tool

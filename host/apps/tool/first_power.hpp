@@ -6,11 +6,11 @@
 
 namespace verp::tool {
 
-/// What to check before the servos first get power, one item per line.
+/// One item per line.
 std::string first_power_checklist(const Params& params);
 
-/// Prints the checklist on stderr and asks the user to confirm it. `agreed`: confirmed on the
-/// command line. Throws ToolError without confirmation.
+/// Asks the user to confirm the checklist; `agreed`: done on the command line. Throws ToolError
+/// without it.
 void confirm_first_power(const Params& params, bool agreed, cli::Answers& answers);
 
 }  // namespace verp::tool

@@ -15,7 +15,7 @@ namespace {
 
 struct FlashWords {
   FlashOptions flash;
-  std::string controller;  ///< a folder; empty: the core's controller
+  std::string controller;  ///< empty: the core's
   bool code = false, json = false;
 };
 

@@ -26,8 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The robot whose buses --bus names if the command line gives no robot, as in commands with a
-/// default MODEL.
+/// For --bus without a robot, as in commands with a default MODEL.
 constexpr const char* kUsualRobot = "generic21";
 
 void write_piece(const fs::path& file, const void* bytes, std::size_t size) {
@@ -36,16 +35,15 @@ void write_piece(const fs::path& file, const void* bytes, std::size_t size) {
                           file.string() + ": cannot be written; free space, or set VERP_FLASH_DIR");
 }
 
-/// Value of --actions that leaves the actions in the board's flash unchanged.
+/// The actions in flash stay unchanged.
 constexpr const char* kNoActions = "none";
 
-/// The robot of --params, and its actions.
 struct RobotFiles {
   fs::path params;
-  fs::path actions;  ///< empty: do not write any
+  fs::path actions;  ///< empty: not written
 };
 
-/// The named files, or files made from the robot of --params.
+/// Named files, or made from the robot of --params.
 RobotFiles robot_files(const FlashOptions& options, const flash::MemoryMap& map,
                        const fs::path& folder) {
   const std::string& word = options.params;
@@ -78,14 +76,13 @@ RobotFiles robot_files(const FlashOptions& options, const flash::MemoryMap& map,
   return made;
 }
 
-/// The checked pieces with their addresses, and the image that drives the robot.
+/// Checked pieces with addresses, and the image for the robot.
 struct Cargo {
   std::vector<flash::Piece> pieces;
   BusProtocol protocol = BusProtocol::kDynamixel2;
   std::string image;
 };
 
-/// `code`: include the image itself.
 Cargo load(const FlashOptions& options, const flash::Recipe& recipe, const flash::MemoryMap& map,
            const fs::path& folder, bool code) {
   Cargo cargo;
@@ -114,7 +111,7 @@ Cargo load(const FlashOptions& options, const flash::Recipe& recipe, const flash
   return cargo;
 }
 
-/// After writing only a robot or only firmware: what the chip must already hold.
+/// Only a robot or only firmware was written: what the chip must already hold.
 std::string beside(const FlashOptions& options, const Cargo& cargo) {
   if (!options.params.empty() && !options.code) {
     return fmt::format("; this robot takes firmware {}, which --code writes too", cargo.image);
@@ -162,7 +159,7 @@ FlashAnswer flash_silicon(const FlashOptions& options, const flash::Recipe& reci
     if (options.dry_run) answer.text += line + "\n";
   }
   if (options.dry_run) return answer;
-  const std::string what = to_text(job.pieces);  // removes temporary files below; so this precedes
+  const std::string what = to_text(job.pieces);  // removes temporary files below
   flash::run(
       job, steps,
       {.progress = [&](const flash::Step& step, double share) { progress.show(share, step.label); },
@@ -175,7 +172,6 @@ FlashAnswer flash_silicon(const FlashOptions& options, const flash::Recipe& reci
   return answer;
 }
 
-/// Tells the user how to use a board in QEMU.
 std::string to_text(const FlashOptions& options, const flash::EmulationPlan& plan,
                     const std::string& told) {
   std::string text =
@@ -212,7 +208,7 @@ FlashAnswer emulate(const FlashOptions& options, const flash::Recipe& recipe,
   }
   const flash::Workspace workspace(options.board);
   const flash::MemoryMap map = flash::read_memory_map(options.board);
-  // QEMU takes the code as an image, not as a piece.
+  // QEMU takes the code as an image.
   const Cargo cargo = load(options, recipe, map, workspace.path(), false);
   const flash::EmulationPlan plan =
       flash::plan_emulation(recipe, cargo.protocol, cargo.pieces, workspace.path());

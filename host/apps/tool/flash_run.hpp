@@ -16,34 +16,33 @@ namespace verp::tool {
 /// The checked command line of `verp flash`.
 struct FlashOptions {
   std::string board, port, tool;
-  std::string params;   ///< a Params image, or a robot to make it from; empty: none
-  std::string bus;      ///< name of the robot's bus; empty: its first. Selects the image
-  std::string actions;  ///< a file; empty: those of the robot; "none": do not write any
+  std::string params;   ///< an image, or a robot
+  std::string bus;      ///< empty: the robot's first; selects the image
+  std::string actions;  ///< a file; empty: the robot's; "none": not written
   bool code = true;     ///< write the firmware
   bool emulate = false;
   bool dry_run = false;
-  bool stay = true;  ///< run an emulated board until an interrupt; false: only until it is up
+  bool stay = true;  ///< an emulated board runs until an interrupt; false: until it is up
 };
 
 void declare_target(CLI::App& app, FlashOptions& options);
 
-/// The outcome, as text and for --json.
 struct FlashAnswer {
   std::string text;
   cli::Json json;
 };
 
-/// The bus protocol of the robot in `options`; it selects the firmware.
+/// The bus protocol selects the firmware.
 BusProtocol bus_of(const FlashOptions& options, const flash::Recipe& recipe,
                    const std::filesystem::path& folder);
 
-/// Plans an emulated board with the robot of `options` in its memory and its links in `folder`.
+/// Board with the robot in its memory and its links in `folder`.
 flash::EmulationPlan emulation_of(const FlashOptions& options, const flash::Recipe& recipe,
                                   const std::filesystem::path& folder);
 
-/// Checks the files, then flashes them, starts the emulated board, or (dry run) prints the
-/// commands. `say` receives what the user needs before the end: an emulated board's links. Throws
-/// FlashError, LoadError, BoardError, DeviceError.
+/// Checks the files, then flashes, starts the emulated board, or (dry run) prints the commands.
+/// `say` receives an emulated board's links early. Throws FlashError, LoadError, BoardError,
+/// DeviceError.
 FlashAnswer flash_board(const FlashOptions& options, cli::Progress& progress,
                         const std::function<void(const std::string&)>& say);
 

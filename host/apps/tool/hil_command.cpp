@@ -27,7 +27,7 @@ struct HilWords {
   bool lockstep = false, real_time = false;
 };
 
-/// With `tells` this program gives the orders. Otherwise the controller has its own actions.
+/// `tells`: this program gives the orders; otherwise the controller has its own actions.
 Walk walk_of(const WalkOptions& options, bool tells) {
   Walk walk{.scenario = scenario_of(options, {}), .run = {}};
   walk.run = expand(options, walk.scenario, {});
@@ -121,7 +121,7 @@ std::string to_text(const HilResult& result) {
   return out;
 }
 
-/// Answers for a controller that reports nothing: only the robot's motion is known.
+/// For a controller that reports nothing.
 int answer_served(const WalkPlan& plan, const WalkOptions& options, const HilResult& result) {
   const WalkResult& walk = result.walk;
   if (options.json) {
@@ -148,13 +148,13 @@ int answer_served(const WalkPlan& plan, const WalkOptions& options, const HilRes
   }
   if (!walk.failure.empty()) cli::complain("verp hil: " + walk.failure);
   if (!walk.failure.empty()) return result.device_trouble ? cli::kNoDevice : cli::kRunFailed;
-  // Ctrl-C is the normal end of a server, but a run without any client has failed.
+  // Ctrl-C ends a server normally, but a run without a client has failed.
   if (result.met) return cli::kGood;
   cli::complain("verp hil: interrupted before anybody came");
   return cli::kRunFailed;
 }
 
-/// Only the operator's port carries orders to the controller and its reports back.
+/// Only the operator's port carries orders and reports.
 void refuse_without_operator(const CLI::App& app) {
   constexpr const char* kNeedIt[] = {"--record", "--record-state", "--compress", "--report",
                                      "--step",   "--velocity",     "--live"};
@@ -189,7 +189,7 @@ int run_hil(const CLI::App& app, HilWords words) {
   more["changes"] = touch_json(result.walk);
   const int status = finish_walk(plan, options, walk.scenario.robots[0].orders, files, result.walk,
                                  {}, more, touch_text(result.walk) + to_text(result) + live.text());
-  // An interrupt during a silent link is an interrupt, not a device failure.
+  // Ctrl-C on a silent link is no device failure.
   const bool device = result.device_trouble && !result.walk.interrupted;
   return status != cli::kGood && device ? cli::kNoDevice : status;
 }

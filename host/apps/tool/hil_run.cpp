@@ -14,7 +14,7 @@
 namespace verp::tool {
 namespace {
 
-/// The user types "u" and Enter to set the robot on its feet.
+/// "u" and Enter set the robot on its feet.
 class Keyboard final : public session::Observer {
  public:
   explicit Keyboard(session::RemoteController*& served) : served_(served) {}

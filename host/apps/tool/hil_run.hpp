@@ -14,9 +14,8 @@ struct HilResult : session::RemoteResult {
   }
 };
 
-/// Serves the twin of plan.entity to a controller at the other end of a link
-/// (session::RemoteController) until the controller or the walk ends. Reports events on stderr.
-/// Throws what opening a link throws.
+/// Serves the twin to a controller at the end of a link (session::RemoteController) until either
+/// ends. Throws what opening a link throws.
 HilResult serve_controller(const WalkPlan& plan, session::ServeOptions options,
                            cli::Progress& progress, std::vector<session::Observer*> observers);
 

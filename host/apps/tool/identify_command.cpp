@@ -32,7 +32,7 @@ struct IdentifyWords {
   bool json = false;
 };
 
-/// Requires a new file in a writable folder. Call it before the fit, which takes minutes.
+/// A new file in a writable folder; checked before the fit, which takes minutes.
 void require_place(const std::string& file) {
   if (std::filesystem::exists(file))
     throw cli::ToolError(cli::kBadInput, file + ": is there already; choose another name");

@@ -48,7 +48,7 @@ std::string in_words(const hal::RangeScan& scan, int first) {
                                     static_cast<std::size_t>(first) + found.step));
 }
 
-/// Runs any range finder for the given time; returns the number of scans.
+/// Returns the number of scans.
 template <hal::RangeFinder Finder>
 std::size_t watch(Finder& finder, const LaserWords& words, cli::Json& scans) {
   hal::RangeScan scan;

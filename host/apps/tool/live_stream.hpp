@@ -20,39 +20,36 @@ class Listener;
 
 namespace verp::tool {
 
-/// Options of a live stream.
 struct LiveOptions {
   bool on = false;
   std::uint16_t port = 8765;  ///< default of the viewers
   bool waits = false;
-  std::vector<std::string> origins = {};  ///< additional web pages that may watch
+  std::vector<std::string> origins = {};  ///< further web pages that may watch
 };
 
-/// Declares --live, --live-wait and --live-origin. --live sets `options.on`.
+/// --live, --live-wait and --live-origin.
 void declare_live(CLI::App& app, LiveOptions& options);
 
-/// Streams a run to viewers on this PC (host/trace/live). Does nothing without --live.
+/// Streams to viewers on this PC (host/trace/live). Does nothing without --live.
 class LiveStream final : public session::Observer {
  public:
-  /// Prints the address on stderr. Throws ToolError if the port is not available.
+  /// Prints the address. Throws ToolError if the port is taken.
   LiveStream(const std::string& command, const LiveOptions& options);
   ~LiveStream() override;
 
   void begin(session::Session&) override { wait_for_viewer(); }
   void end(session::Session&) override { finish(); }
 
-  /// Adds a listener for a robot's trace; null without --live. `name`: empty for a single robot.
+  /// Listener for a robot's trace; null without --live. `name`: empty for a single robot.
   record::mcap::Listener* robot(const std::string& name = {});
   live::Server* server();
-  /// With --live-wait, waits for a viewer's subscription or an interrupt. Call it when all channels
-  /// exist.
+  /// --live-wait: until a viewer subscribes, or an interrupt. Call when all channels exist.
   void wait_for_viewer();
-  /// Raises the server's priority to just below a real-time loop's; call it before the loop.
+  /// Server priority just below a real-time loop's; call before the loop.
   void run_beside_real_time();
-  /// Sends the queued messages and ends the stream.
   void finish();
 
-  /// Summary of the stream; empty without --live.
+  /// Empty without --live.
   std::string text() const;
   void add_to(cli::Json& json) const;
 

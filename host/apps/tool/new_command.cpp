@@ -45,7 +45,7 @@ void check_robot_name(const std::string& name) {
                   name, kNameLength - 1));
 }
 
-/// Rejects names of shipped robots: they are found first, so a new table would have no effect.
+/// Shipped robots are found first: a new table would have no effect.
 void refuse_shipped(const std::string& name, const fs::path& sdf) {
   std::string found;
   try {
@@ -61,7 +61,7 @@ void refuse_shipped(const std::string& name, const fs::path& sdf) {
                                    name, found));
 }
 
-/// The table that the named robot was generated from, or the given table.
+/// The robot's table, or a table's path.
 fs::path table_of(const std::string& from) {
   if (from.ends_with(".table")) return from;
   const fs::path folder = fs::path(model::find_model(from)).parent_path();
@@ -75,7 +75,7 @@ fs::path table_of(const std::string& from) {
                   from));
 }
 
-/// The table with the new robot's name and opening comment.
+/// With the new name and opening comment.
 std::string table_for(const std::string& table, const NewRobotWords& options) {
   std::string out = fmt::format(
       "# {0}: lengths, masses and servos; begun as a copy of {1}. Change them here, then\n"
@@ -85,7 +85,7 @@ std::string table_for(const std::string& table, const NewRobotWords& options) {
       "the zero pose.\n",
       options.name, options.from);
   std::istringstream lines(table);
-  bool begun = false;  // skips the old robot's opening comment
+  bool begun = false;  // past the old opening comment
   for (std::string line; std::getline(lines, line);) {
     begun |= !line.empty() && line.front() != '#';
     if (!begun) continue;
@@ -136,7 +136,7 @@ int new_robot(const NewRobotWords& options) {
   try {
     write_text(sdf, sdf_of(table));
   } catch (const model::LoadError&) {
-    if (!again) fs::remove(table, error);  // leaves nothing behind on failure
+    if (!again) fs::remove(table, error);  // nothing stays after a failure
     if (!again) fs::remove(folder, error);
     throw;
   }

@@ -66,7 +66,7 @@ int new_controller(const NewControllerWords& words) {
                                      "place with --in",
                                      folder.lexically_normal().string()));
   }
-  template_of(kFiles[0]);  // throws before anything is created
+  template_of(kFiles[0]);  // throws early
   fs::create_directories(folder, error);
   if (error) {
     throw cli::ToolError(cli::kBadInput,

@@ -39,7 +39,7 @@ bool parse_hex(std::string_view word, unsigned most, unsigned& value) {
   return error == std::errc() && last == end && value <= most;
 }
 
-// Elements of an array; the EDS data names them "joint_velocity 1" and so on.
+// Named "joint_velocity 1" and so on.
 std::vector<NodeObject> elements_of(const std::vector<NodeObject>& known, const std::string& name) {
   std::vector<NodeObject> elements;
   for (const NodeObject& each : known) {
@@ -50,8 +50,8 @@ std::vector<NodeObject> elements_of(const std::vector<NodeObject>& known, const 
   return elements;
 }
 
-// EDS names need not be unique: there are as many COB-IDs as PDOs. Rejects ambiguous names; an
-// array's name selects all its elements.
+// EDS names need not be unique, for example COB-IDs. Rejects ambiguous ones; an array's name
+// selects all elements.
 std::vector<NodeObject> by_name(const std::vector<NodeObject>& known, const std::string& name) {
   std::vector<std::string> names, places;
   const NodeObject* found = nullptr;
@@ -81,7 +81,7 @@ bool fits(const NodeObject& object, const std::vector<std::uint8_t>& bytes) {
          (*object.type == Type::kText || bytes.size() == dxl::controller::type_bytes(*object.type));
 }
 
-/// 32-bit objects in 1000h to 1FFFh hold fields: a node and flags, or an address and a length.
+/// 32-bit objects in 1000h to 1FFFh hold bit fields.
 bool is_fields(const NodeObject& object) {
   return object.type == Type::kU32 && object.at.index >= 0x1000 && object.at.index <= 0x1FFF;
 }

@@ -12,32 +12,31 @@
 
 namespace verp::tool {
 
-/// One object of a node, with its name and type from the EDS data.
+/// With name and type from the EDS data.
 struct NodeObject {
   canopen::Address at;
-  std::string name;                           ///< its address if the EDS data lacks it
+  std::string name;                           ///< or its address
   std::optional<dxl::controller::Type> type;  ///< empty: bytes
   bool writable = true;
 
-  /// Needs `type`. The result refers to this object.
+  /// Needs `type`; refers to this object.
   bus::NamedRegister as_register() const;
 };
 
-/// The objects that the EDS data names for this node; empty if it does not know the node.
+/// Empty for an unknown node.
 std::vector<NodeObject> objects_of(const can::NodeIdentity& identity);
 
-/// Unit of a controller register, or of an object for which CiA 402 fixes the unit; else empty.
+/// The unit of a controller register or a CiA 402 object; else empty.
 std::string_view unit_of(canopen::Address at);
 
 /// INDEX:SUBINDEX; throws ToolError.
 canopen::Address parse_object(const std::string& text);
 
-/// The objects that `options` names; an array's name selects its elements, no name selects all
-/// known ones. Throws ToolError if no object, or more than one, has that name.
+/// An array's name selects its elements; no name selects all known objects. Throws ToolError unless
+/// each name fits exactly one.
 std::vector<NodeObject> wanted(const BusOptions& options, const std::vector<NodeObject>& known);
 
-/// Formats by type, else as bytes. Objects made of bit fields, such as COB-IDs and mapping entries,
-/// print as hexadecimal.
+/// By type, else as bytes; bit fields such as COB-IDs in hexadecimal.
 std::string show_value(const NodeObject& object, const std::vector<std::uint8_t>& bytes);
 cli::Json json_value(const NodeObject& object, const std::vector<std::uint8_t>& bytes);
 

@@ -16,16 +16,15 @@ namespace verp::tool {
 /// Declares --controller.
 void declare_controller(CLI::App& app, std::string& folder);
 
-/// Builds the controller in that folder for this PC. The result makes one controller per run.
-/// Throws ToolError, with the compiler's messages if it does not compile.
+/// Builds the folder's controller for this PC. One controller per run. Throws ToolError with the
+/// compiler's messages.
 std::function<session::Decide()> own_controller(const std::string& folder, bool show);
 
-/// Builds a firmware target of the board with the controller. Returns the folder of the images.
+/// A firmware target with the controller; returns the images' folder.
 std::string build_firmware_of(const std::string& folder, const std::string& board,
                               const std::string& target, cli::Progress& progress);
 
-/// Builds each robot's own controller, for this PC or its emulated board, and puts it into the
-/// plan.
+/// Builds each robot's own controller, for this PC or its emulated board.
 void take_controllers(const scenario::Scenario& scenario, std::vector<session::WalkPlan>& plans,
                       bool show);
 

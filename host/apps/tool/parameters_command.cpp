@@ -17,7 +17,7 @@
 namespace verp::tool {
 namespace {
 
-/// In the order of Tuning's fields; common/model/tuning.hpp documents each.
+/// In the order of Tuning's fields (common/model/tuning.hpp).
 constexpr const char* kMeaning[] = {
     "two steps",
     "share of a step during which both feet carry",
@@ -67,7 +67,7 @@ constexpr const char* kMeaning[] = {
 };
 static_assert(std::size(kMeaning) == kTuningCount);
 
-/// Names end in their unit. Without one: shares, switches, and gains in rad per rad.
+/// From the name's end. Without unit: shares, switches, and gains in rad per rad.
 std::string unit_of_number(std::string_view name) {
   constexpr std::pair<const char*, const char*> kUnits[] = {
       {"_m", "m"}, {"_rad", "rad"}, {"_s", "s"}, {"_v", "V"}, {"_c", "C"}};
@@ -77,7 +77,7 @@ std::string unit_of_number(std::string_view name) {
   return "";
 }
 
-/// The double that prints like the float: 0.06, not 0.0599999987.
+/// Prints like the float: 0.06, not 0.0599999987.
 double shortest(float value) {
   return std::stod(fmt::format("{}", value));
 }

@@ -29,7 +29,7 @@ std::uint32_t adler32(const std::string& bytes) {
   return high << 16 | low;
 }
 
-/// A zlib stream (RFC 1950) of stored blocks (RFC 1951, 3.2.4).
+/// zlib stream (RFC 1950) of stored blocks (RFC 1951, 3.2.4).
 std::string stored(const std::string& bytes) {
   constexpr std::size_t kMost = 65535;
   std::string out = "\x78\x01";
@@ -61,7 +61,7 @@ std::string png_of_rgb(std::uint32_t width_px, std::uint32_t height_px,
   std::string head;
   put_big(head, width_px);
   put_big(head, height_px);
-  head += std::string("\x08\x02\x00\x00\x00", 5);  // 8 bits per colour, no interlace
+  head += std::string("\x08\x02\x00\x00\x00", 5);  // 8 bits per colour
   std::string out = "\x89PNG\r\n\x1a\n";
   put_chunk(out, "IHDR", head);
   put_chunk(out, "IDAT", stored(rows));

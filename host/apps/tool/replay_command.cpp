@@ -113,7 +113,7 @@ struct DiffOptions {
   bool json = false, recover = false;
 };
 
-/// Different cores compute different bits by intention. Empty: same core, or unknown.
+/// Different cores differ by intention; empty: same core, or unknown.
 std::string of_two_cores(const std::string& a, const std::string& b) {
   if (a == b || a.empty() || b.empty()) return "";
   return fmt::format("; A is of core {} and B of core {}, which decide otherwise", a, b);

@@ -5,8 +5,7 @@
 #include "host/apps/tool/own_controller.hpp"
 #include "host/apps/tool/walk_map.hpp"
 
-/// Options of features that the first-walk program leaves out. It still knows the options and their
-/// help.
+/// The first-walk program knows these options but lacks the features.
 namespace verp::tool {
 
 void declare_live(CLI::App& app, LiveOptions& options) {

@@ -22,19 +22,18 @@
 
 namespace verp::tool {
 
-/// Time limit of an answer; the slowest known adapter holds received bytes for 16 ms.
+/// The slowest known adapter holds received bytes for 16 ms.
 inline constexpr std::uint32_t kAnswer_us = 100'000;
-inline constexpr int kAsked = 3;  ///< requests to a silent servo for its torque state
+inline constexpr int kAsked = 3;  ///< requests to a silent servo
 
-/// A servo's answer at the end: its torque is off.
+/// At the end: its torque is off.
 enum class LetGo : std::uint8_t { kYes, kNo, kSilent };
 
-/// Throws ToolError with the remedy if a tick cannot fit; warns if it barely fits.
+/// Throws ToolError with the remedy if a tick cannot fit.
 void judge_fit(const bus::LinkFit& fit, const RunPlan& plan);
-/// Throws ToolError if the robot has no IMU on its bus, or `trouble` is not empty.
+/// Throws ToolError without an IMU on the bus, or with `trouble`.
 void judge_imu(const RunPlan& plan, const std::string& trouble);
 
-/// Recorder of a run: passes each tick to the robot, the operator, the trace and the result.
 template <class Robot>
 struct RunKeeper {
   void record(const TickRecord& tick, const State& state, const Outputs& outputs) {
@@ -57,16 +56,14 @@ struct RunKeeper {
   record::TraceWriter* trace;
 };
 
-/// Drives one robot in real time, or in a twin's time. Robot is the access to it:
-///  - Bus, bus(): the bus for App, with the delays of bring-up until set_held(us) sets the longest
-///  delay
-///    of answers;
+/// Drives one robot in real time, or in a twin's. Robot is the access to it:
+///  - Bus, bus(): the bus for App; set_held(us): the longest delay of answers;
 ///  - connected(), link_errors(); let_go(joint): asks one servo and repeats the release;
 ///  - brought_up(report), record(...) as a Recorder, report(health) after each tick: for observers
-///    on the robot's bus;
-///  - stopped(), only for a twin in lockstep: it takes no further tick. Such a run has no pace;
-///  - order(tick), as an OperatorLink, only if others on the bus may give orders;
-///  - where(address): names the place at which a bring-up failed.
+///    on the bus;
+///  - stopped(), only for a twin in lockstep: it takes no further tick, and the run has no pace;
+///  - order(tick), as an OperatorLink, if others on the bus may give orders;
+///  - where(address): the place of a failed bring-up.
 template <class Robot>
 class RobotRun {
  public:
@@ -99,7 +96,7 @@ class RobotRun {
     if (report.status != app::BringUpStatus::kReady)
       throw session::not_up(report, place(), Robot::where(report.address));
     app_.limit_torque(static_cast<std::uint8_t>(plan_.torque_percent));
-    robot_.set_held(result_.fit.held_us());  // bring-up has its own limits
+    robot_.set_held(result_.fit.held_us());  // bring-up has its own
     if constexpr (!kInLockstep) result_.real_time = cli::become_real_time();
     if (!result_.real_time.advice.empty()) say(result_.real_time.advice);
     const std::uint64_t start_ns = link::monotonic_ns();
@@ -188,8 +185,7 @@ class RobotRun {
   }
 
   void tell(safety::Mode from, safety::Mode to, std::uint32_t faults, const std::string& story) {
-    const std::string why =
-        session::fault_names(faults & 0xFFFF);  // the lower half stops the robot
+    const std::string why = session::fault_names(faults & 0xFFFF);  // faults that stop the robot
     say(fmt::format("{} to {}{}{}", safety::kModeNames[static_cast<int>(from)],
                     safety::kModeNames[static_cast<int>(to)], why.empty() ? "" : " (" + why + ")",
                     story.empty() ? "" : ": " + story));
@@ -198,11 +194,10 @@ class RobotRun {
     result_.walk.fall_story.push_back({at_s, story});
   }
 
-  // Asks each servo whether it released torque, because the release is a broadcast without answers.
-  // Asks silent servos again: the wire may lose a frame, a busy PC may read too late. A second
-  // Ctrl-C ends the requests.
+  // Asks each servo, because the release is a broadcast without answers. Repeats: the wire may lose
+  // a frame, a busy PC may read too late. A second Ctrl-C ends this.
   void make_sure() {
-    if (twin_ended()) return;  // and with it all torque
+    if (twin_ended()) return;  // no torque either
     std::vector<int> silent(static_cast<std::size_t>(params_.servo_count()));
     std::iota(silent.begin(), silent.end(), 0);
     for (int round = 0; round < kAsked && !silent.empty(); ++round) {

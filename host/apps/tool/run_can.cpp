@@ -18,7 +18,7 @@
 namespace verp::tool {
 namespace {
 
-/// A CanBus that allows extra delay for the nodes' answers.
+/// Nodes get extra time to answer.
 class PatientCan {
  public:
   explicit PatientCan(link::CanPort& port) : port_(port) {}
@@ -30,7 +30,7 @@ class PatientCan {
   std::uint64_t now_us() { return port_.now_us(); }
   hal::CanErrors errors() const { return port_.errors(); }
 
-  /// Sets the allowance, beyond the time of the frames.
+  /// In addition to the frames' time.
   void set_held(std::uint32_t held_us) { held_us_ = held_us; }
 
  private:
@@ -39,8 +39,8 @@ class PatientCan {
 };
 static_assert(hal::CanBus<PatientCan>);
 
-/// CiA 402 drives on an interface, and this PC's controller as a node beside them. The node takes
-/// orders only with `--take-orders`; else the program that started the run gives them.
+/// CiA 402 drives, with this PC's controller as a node beside them. It takes orders with
+/// `--take-orders`, else from the program.
 class CanRobot {
   using Ticks = app::TickLog<>;
 

@@ -36,7 +36,7 @@
 namespace verp::tool {
 namespace {
 
-constexpr std::uint32_t kArrival_us = 10'000'000;  // wait for the other end of `pty:` or a listener
+constexpr std::uint32_t kArrival_us = 10'000'000;  // for the other end of `pty:` or a listener
 
 struct RunWords {
   WalkOptions walk;
@@ -49,7 +49,7 @@ struct RunWords {
   bool lockstep = false;
 };
 
-/// Orders from another source are not planned beforehand; tuning limits them.
+/// Tuning limits orders from another source.
 void require_followed_orders(const Params& params) {
   const Command longest = session::longest_order(params);
   const session::FeasibleVelocity followed = session::within_servo_speed(params, longest);
@@ -66,7 +66,7 @@ void require_followed_orders(const Params& params) {
           std::floor(1000 * share * static_cast<double>(params.tuning.gait.max_step_m)) / 1000));
 }
 
-/// Without an IMU the robot cannot sense that it lies, nor on which side.
+/// Without an IMU the robot cannot sense how it lies.
 void let_robot_get_up(const RunWords& words, WalkPlan& walk) {
   if (!words.params.has_imu()) {
     throw cli::ToolError(
@@ -233,7 +233,6 @@ int tell(const RunWords& words, const RunPlan& plan, WalkFiles& files, LiveStrea
   return result.walk.good() && files.lost().empty() ? cli::kGood : cli::kRunFailed;
 }
 
-/// The run itself, for every kind of link.
 template <class Link>
 int run_on(Link& link, const RunWords& words, const RunPlan& plan, WalkFiles& files,
            LiveStream& live) {
@@ -245,15 +244,14 @@ int run_on(Link& link, const RunWords& words, const RunPlan& plan, WalkFiles& fi
         "off, and a fall is not noticed");
   }
   cli::Answers answers;
-  // Asks on every link: tcp: or pty: may lead to a real robot as well as to a twin, and both answer
-  // alike.
+  // On every link: tcp: or pty: may lead to a real robot.
   confirm_first_power(plan.walk.params, words.yes, answers);
   live.run_beside_real_time();
   cli::Progress progress(!words.walk.json);
   return tell(words, plan, files, live, drive(link, plan, fit, files.trace(), progress));
 }
 
-/// Retries, because a lockstep twin and its controllers may start in any order.
+/// A lockstep twin and its controllers start in any order.
 link::Link open_link(const RunPlan& plan) {
   using Kind = link::Endpoint::Kind;
   constexpr std::uint32_t kTry_us = 100'000;

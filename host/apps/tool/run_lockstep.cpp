@@ -12,15 +12,14 @@
 namespace verp::tool {
 namespace {
 
-constexpr std::uint64_t kGone_ns = 5'000'000'000;    // a link lost for this long stays lost
+constexpr std::uint64_t kGone_ns = 5'000'000'000;    // then the link stays lost
 constexpr std::uint64_t kSilent_ns = 2'000'000'000;  // an idle twin answers at once
 
-/// Runs while this program waits for the twin. Gives up after a second interrupt, or when the twin
-/// has been gone for kGone_ns.
+/// Gives up after a second interrupt, or kGone_ns without the twin.
 struct Waiting {
   link::Link* link;
-  bool* answered;             ///< answered, or the user was warned of silence
-  std::uint64_t lost_ns = 0;  ///< time of the loss; 0: connected
+  bool* answered;             ///< or warned of silence
+  std::uint64_t lost_ns = 0;  ///< 0: connected
   std::uint64_t asked_ns = link::monotonic_ns();
 
   bool operator()() {
@@ -39,7 +38,6 @@ struct Waiting {
   }
 };
 
-/// Dynamixel servos of a twin in lockstep.
 class TwinInLockstep {
  public:
   using Bus = app::LockstepBus<link::Link, Waiting>;
@@ -53,7 +51,6 @@ class TwinInLockstep {
   }
 
   Bus& bus() { return bus_; }
-  /// The twin ended or is gone.
   bool stopped() const { return bus_.stopped(); }
   void set_held(std::uint32_t) {}
   bool connected() const { return link_.connected(); }
@@ -66,7 +63,7 @@ class TwinInLockstep {
   }
   void report(const app::LoopHealth&) {}
 
-  // Lockstep loses nothing: what was sent has arrived.
+  // Lockstep loses nothing.
   LetGo let_go(int) const { return torque_ ? LetGo::kNo : LetGo::kYes; }
 
  private:

@@ -35,7 +35,7 @@ void RunOperator::fail(const std::string& why) {
   sitting_ = true;
 }
 
-// The source of the orders may release torque without a failure.
+// Another source of orders may release torque.
 void RunOperator::observe_obeying(std::uint32_t faults) {
   constexpr std::uint32_t kStopping = 0xFFFF;
   obeyed_s_ += period_s_;
@@ -66,7 +66,7 @@ void RunOperator::observe_mode(Mode from, const State& state, const Outputs& out
 void RunOperator::observe(const State& state, const Outputs& outputs) {
   const auto mode = static_cast<Mode>(outputs.mode);
   observe_mode(std::exchange(mode_, mode), state, outputs);
-  // The robot's automatic actions do not use up the operator's patience.
+  // Automatic actions do not use up the operator's patience.
   const bool by_itself = mode == Mode::kHolding || mode == Mode::kSitting ||
                          (mode == Mode::kRising && walker_.walked_s() > 0);
   if (orders_ && !sitting_) {

@@ -14,28 +14,27 @@
 
 namespace verp::tool {
 
-/// The operator during `verp run`: orders the robot to stand, walk (or act) and stop, and at the
-/// end always to sit down and release torque. Waits while the robot holds. Does not raise a robot
-/// that released torque by itself.
+/// The operator of `verp run`: orders stand, walk (or act) and stop, then always sit down and
+/// torque off. Waits while the robot holds. Does not raise a robot that released torque by itself.
 class RunOperator {
  public:
-  /// Called when the robot's mode has changed. `story`: how a fall went, in words; or empty.
+  /// The robot's mode has changed. `story`: a fall in words, or empty.
   using Told = std::function<void(safety::Mode from, safety::Mode to, std::uint32_t faults,
                                   const std::string& story)>;
 
-  /// `get_ups`: attempts in a row to get up after a fall; 0: a fall ends the walk.
+  /// `get_ups`: attempts in a row after a fall; 0: a fall ends the walk.
   RunOperator(const Params& params, const Command& velocity, double walk_s, Told told,
               int get_ups = 0);
 
   app::OperatorOrder order(std::uint32_t tick);
-  /// Observes the controller's outputs of the last tick.
+  /// Outputs of the last tick.
   void observe(const State& state, const Outputs& outputs);
 
-  /// Takes orders from another source for the planned length of the walk.
+  /// From another source, for the planned length.
   using Orders = std::function<app::OperatorOrder(std::uint32_t tick)>;
   void obey(Orders orders) { orders_ = std::move(orders); }
 
-  /// Plays this action of the robot's library once, instead of a walk.
+  /// Once, instead of a walk.
   void play(int number) { player_.emplace(number, period_s_); }
 
   /// From now on: sit down, then release torque.
@@ -43,19 +42,17 @@ class RunOperator {
   /// From now on: no torque.
   void let_go() { limp_ = true; }
 
-  /// Torque has been off long enough for every servo to receive that.
+  /// Every servo must have received torque-off.
   bool over() const { return quiet_ticks_ >= kQuietTicks; }
   double walked_s() const { return orders_ ? walked_s_ : walker_.walked_s(); }
-  /// Number of falls, and of recoveries.
   int falls() const { return story_.falls(); }
   int get_ups() const { return story_.get_ups(); }
-  /// Time played of the action.
   double played_s() const { return player_ ? player_->played_s() : 0; }
-  /// Why the walk failed; empty: it did not.
+  /// Empty: it did not fail.
   const std::string& failure() const { return failure_; }
 
  private:
-  static constexpr int kQuietTicks = 10;  ///< over three times App's repeats of a torque change
+  static constexpr int kQuietTicks = 10;  ///< over three times App's repeats
 
   void fail(const std::string& why);
   void observe_mode(safety::Mode from, const State& state, const Outputs& outputs);

@@ -10,7 +10,7 @@
 namespace verp::tool {
 namespace {
 
-// Keeps profiles of one period that long: such a servo joins successive goals by straight lines.
+// A profile of one period joins goals by straight lines.
 void set_period(Params& params, double period_ms) {
   const std::uint32_t before_us = params.period_us;
   params.period_us = static_cast<std::uint32_t>(std::lround(1000 * period_ms));
@@ -20,7 +20,7 @@ void set_period(Params& params, double period_ms) {
   }
 }
 
-/// Removes the IMU and its feedback. The trace records these Params.
+/// With its feedback; recorded in the trace.
 void do_without_imu(Params& params) {
   params.imu.device_id = 0;
   params.tuning.balance.feedback_enable = 0;

@@ -10,7 +10,6 @@
 namespace verp::tool {
 namespace {
 
-/// Dynamixel servos at the other end of a link.
 class SerialRobot {
  public:
   using Bus = app::LinkBus<link::Link, link::SystemClock>;
@@ -24,7 +23,7 @@ class SerialRobot {
   hal::LinkErrors link_errors() const { return link_.errors(); }
   static std::string where(std::uint16_t address) { return fmt::format("register {}", address); }
 
-  // No other device can query the master on this bus.
+  // No other device here can query the master.
   void brought_up(const app::BringUpReport&) {}
   void record(const TickRecord&, const State&, const Outputs&) {}
   void report(const app::LoopHealth&) {}

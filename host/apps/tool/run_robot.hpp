@@ -14,20 +14,19 @@
 
 namespace verp::tool {
 
-/// A robot at the other end of a link, and the way to drive it.
 struct RunPlan {
-  WalkPlan walk;  ///< with the Params of this PC's controller
+  WalkPlan walk;  ///< Params of this PC's controller
   link::Endpoint link;
   bool has_imu = true;  ///< false: `--imu none`
   int torque_percent = 100;
-  bool lockstep = false;      ///< the twin and this controller wait for each other
-  int action = 0;             ///< number of the action to play instead of a walk; 0: walk
-  bool takes_orders = false;  ///< `--take-orders`: orders come through the controller's node
+  bool lockstep = false;
+  int action = 0;             ///< instead of a walk; 0: walk
+  bool takes_orders = false;  ///< `--take-orders`, through the controller's node
 };
 
 struct RunResult {
   WalkResult walk;              ///< only ticks, digest, faults, failure, interrupted
-  bool device_trouble = false;  ///< the link or a device caused walk.failure
+  bool device_trouble = false;  ///< link or device caused walk.failure
   double walked_s = 0, played_s = 0;
   bus::LinkFit fit;
   cli::RealTime real_time;
@@ -35,18 +34,17 @@ struct RunResult {
   app::BusCounters bus;
   std::uint32_t crc_errors = 0;
   hal::LinkErrors link;
-  int silent_servos = 0;  ///< at the end, without an answer on their torque
-  int stiff_servos = 0;   ///< at the end, with torque still on
+  int silent_servos = 0;  ///< at the end, torque unknown
+  int stiff_servos = 0;   ///< at the end, with torque
 };
 
-/// Measures the link's delay of a read. Throws ToolError with the remedy if a tick cannot fit.
+/// Of a read. Throws ToolError with the remedy if a tick cannot fit.
 bus::LinkFit check_latency(link::Link& link, const RunPlan& plan);
 
-/// Throws ToolError if no IMU answers.
 void check_imu(link::Link& link, const RunPlan& plan);
 
-/// Drives the robot until the walk ends or the user interrupts, then releases torque. `trace` may
-/// be null. Throws ToolError if the robot does not come up.
+/// Drives until the walk ends or an interrupt, then releases torque. `trace` may be null. Throws
+/// ToolError if bring-up fails.
 RunResult drive(link::Link& link, const RunPlan& plan, const bus::LinkFit& fit,
                 record::TraceWriter* trace, cli::Progress& progress);
 

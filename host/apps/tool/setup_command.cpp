@@ -25,8 +25,8 @@ struct SetupWords {
   bool json = false;
 };
 
-/// The maker's tool sets id, bit rate and zero of a CAN drive. Every start writes all other
-/// settings (firmware/app/node_settings.hpp).
+/// The maker's tool sets a CAN drive's id, bit rate and zero. Every start writes the rest
+/// (firmware/app/node_settings.hpp).
 [[noreturn]] void refuse_can(const SetupWords& words, const link::Endpoint& endpoint) {
   const bool named = endpoint.kind == link::Endpoint::Kind::kCan;
   throw cli::ToolError(
@@ -46,7 +46,7 @@ model::Entity robot_of(const SetupWords& words, const link::Endpoint& endpoint) 
   return entity;
 }
 
-/// One report per bus, because a joint has another servo on each bus.
+/// A joint has another servo on each bus.
 std::string report_of(const SetupWords& words, const model::Entity& entity) {
   if (!words.report.empty()) return words.report;
   const bool first = entity.bus == entity.buses.front();

@@ -13,9 +13,9 @@
 namespace verp::tool {
 namespace {
 
-constexpr std::int32_t kMoved = 60;  // counts, 5 degrees: above tremor, and every joint yields
+constexpr std::int32_t kMoved = 60;  // 5 degrees: above tremor
 
-/// Direction of the right thumb for a positive turn. Robots face x; y is their left, z up.
+/// Of the right hand, for a positive turn. Robots face x; y is their left, z up.
 std::string thumb(const JointParams& joint) {
   constexpr const char* kWords[] = {"ahead", "to its left", "up", "back", "to its right", "down"};
   const auto kind = static_cast<std::size_t>(joint.axis_kind);
@@ -45,7 +45,7 @@ SetupGuide::Answer SetupGuide::ask(const std::string& question) {
     if (!word || *word == "q") throw Stop{};
     if (word->empty()) return Answer::kGoOn;
     if (*word == "s") return Answer::kSkip;
-    cli::complain("  Enter alone goes on, s skips, q ends");  // what follows may write EEPROM
+    cli::complain("  Enter alone goes on, s skips, q ends");  // the rest may write EEPROM
   }
 }
 
@@ -57,7 +57,7 @@ bool SetupGuide::run() {
       const std::string name = params_.joint[j].name;
       const bool wanted = choice_.joint.empty() ? !report_.done(name) : choice_.joint == name;
       if (!wanted) continue;
-      if (!open) line_.at(params_.baud);  // fails before the user connects a servo
+      if (!open) line_.at(params_.baud);  // before the user connects a servo
       open = true;
       all = joint(j) && all;
     }

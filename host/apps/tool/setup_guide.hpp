@@ -9,35 +9,32 @@
 namespace verp::tool {
 
 struct SetupChoice {
-  std::string joint;     ///< only this one; empty: all that are not done
-  bool wired = false;    ///< all servos stay on the bus with their ids
+  std::string joint;     ///< empty: all undone ones
+  bool wired = false;    ///< all servos stay connected
   bool dry_run = false;  ///< write nothing
 };
 
-/// Guides the user through the servos of a robot, one joint at a time. It finds, identifies and
-/// configures the servo. Then the user moves it by hand, with torque off, to set zero and
-/// direction.
+/// Guides the user through a robot's servos, joint by joint. It finds and configures the servo;
+/// then the user moves it by hand, torque off, to set zero and direction.
 class SetupGuide {
  public:
   SetupGuide(const Params& params, const link::Endpoint& endpoint, const SetupChoice& choice,
              SetupReport& report, cli::Answers& answers);
 
-  /// False: the user stopped, or joints remain.
   bool run();
 
  private:
-  /// The user's answer when a joint's turn comes, or after an error.
+  /// At a joint's turn, or after an error.
   enum class Answer { kGoOn, kSkip };
-  /// Thrown at the end of input, on interruption, or when the user enters q.
+  /// End of input, interruption, or q.
   struct Stop {};
 
   Answer ask(const std::string& question);
-  /// False: something remains to do.
   bool joint(int index);
-  /// Starts the joint's entry with the changes that earlier attempts made to its servo.
+  /// With the changes of earlier attempts.
   cli::Json begun(const JointParams& joint) const;
   void set_up(const JointParams& joint, cli::Json& entry);
-  /// Saves a change just written to a servo, because a later step may fail.
+  /// Saves a written change: a later step may fail.
   void note(const JointParams& joint, const bus::Change& change, cli::Json& entry);
   void skip(const JointParams& joint);
   bus::FoundServo meet(const JointParams& joint);

@@ -21,7 +21,7 @@ namespace {
                        fmt::format("{}: {}; choose another file with --report", file, why));
 }
 
-/// Checks the types of the fields that line_of() and done() read. Returns the wrong one, or "".
+/// The first field of wrong type, or "".
 std::string wrong_in(const cli::Json& entry) {
   if (!entry.is_object()) return "it";
   for (const char* name : {"outcome", "todo"}) {
@@ -38,13 +38,13 @@ std::string wrong_in(const cli::Json& entry) {
 }
 
 constexpr std::size_t kMost = 1 << 20;      // longer than any report
-constexpr std::size_t kRoomOfEntry = 2048;  // more than one joint needs
+constexpr std::size_t kRoomOfEntry = 2048;  // more than a joint needs
 
 std::string part_of(const std::string& file) {
   return file + ".part";
 }
 
-/// Writes all of it or leaves no file; returns errno.
+/// All or no file; returns errno.
 int write_part(const std::string& file, const std::string& text) {
   const std::string part = part_of(file);
   errno = 0;
@@ -58,7 +58,7 @@ int write_part(const std::string& file, const std::string& text) {
   return error == 0 ? EIO : error;
 }
 
-/// Replaces the file atomically; returns errno.
+/// Atomic; returns errno.
 int write_file(const std::string& file, const std::string& text) {
   if (const int error = write_part(file, text); error != 0) return error;
   if (std::rename(part_of(file).c_str(), file.c_str()) == 0) return 0;
@@ -71,8 +71,7 @@ int write_file(const std::string& file, const std::string& text) {
   refuse(file, std::string("cannot be written: ") + std::strerror(error));
 }
 
-/// Fails before a servo is changed, because its entry would be lost. `now`: the file's content;
-/// `room`: bytes that may be added.
+/// Before a servo changes: its entry would be lost. `now`: present content; `room`: bytes to add.
 void check_place(const std::string& file, const std::string& now, std::size_t room) {
   int error = write_part(file, now + std::string(room, ' '));
   if (error == 0) ::unlink(part_of(file).c_str());

@@ -33,16 +33,16 @@ namespace {
 struct ShadowWords {
   std::string model, bus, link;
   RunParams params;
-  WalkOptions tuning;     ///< only its tuning is used
+  WalkOptions tuning;     ///< tuning only
   double for_s = 0;       ///< 0: until an interrupt
   double patience_s = 5;  ///< with a silent controller
   bool json = false;
 };
 
-/// The robot on the named bus, or on its first bus of the link's kind.
+/// The named bus, or the first of the link's kind.
 model::Entity robot_on(const ShadowWords& words, bool can) {
   const std::string file = model::find_model(words.model);
-  if (!can) return model::load_robot(file, words.bus);  // the result does not depend on the bus
+  if (!can) return model::load_robot(file, words.bus);  // any bus gives the same
   model::Entity entity = model::load_robot_on_can(file, words.bus);
   if (entity.protocol == BusProtocol::kCia402) {
     model::require_bus(entity, model::make_params(entity));
@@ -55,7 +55,7 @@ model::Entity robot_on(const ShadowWords& words, bool can) {
                   entity.file, entity.name, model::protocol_name(entity.protocol), words.link));
 }
 
-/// On the bus of the controller's drives, where it reports its ticks.
+/// Listens on the bus of the controller's drives.
 class CanSide {
  public:
   static constexpr const char* kRemedy =
@@ -84,7 +84,7 @@ class CanSide {
   shadow::LiveCheck check;
 };
 
-/// On the controller's operator port, from which ticks are fetched.
+/// Fetches ticks from the operator port.
 class SerialSide {
  public:
   static constexpr const char* kRemedy =
@@ -105,7 +105,6 @@ class SerialSide {
   shadow::PolledCheck check;
 };
 
-/// Shadows one controller until the end.
 template <class Side>
 class ShadowRun {
  public:
@@ -178,7 +177,7 @@ class ShadowRun {
     cli::Json json = {{"model", params_.name},
                       {"link", words_.link},
                       {"compared_ticks", check_.compared()},
-                      {"tick", nullptr},  // last compared tick; null: none
+                      {"tick", nullptr},  // last compared; null: none
                       {"digest", nullptr},
                       {"gaps", check_.gaps()},
                       {"controller_resets", check_.boots()},
@@ -225,7 +224,7 @@ class ShadowRun {
   bool connected_ = true;
 };
 
-/// Params of the model, with the changes given to `verp run`.
+/// With the changes given to `verp run`.
 Params params_of(const ShadowWords& words, const model::Entity& entity) {
   Params params = model::make_params(entity);
   scenario::tune(tuning_of(words.tuning), params.tuning);

@@ -28,7 +28,6 @@ StickFigure::StickFigure(const model::Entity& entity, const Params& params)
   for (const model::Limb& limb : entity.limbs) add_limb(limb);
 }
 
-/// From between the hips to the highest joint on the trunk.
 void StickFigure::add_trunk() {
   Vec3 hips_m = Vec3::Zero(), top_m = Vec3::Zero();
   int legs = 0;
@@ -43,7 +42,7 @@ void StickFigure::add_trunk() {
     }
   }
   hips_m /= std::max(legs, 1);
-  top_m.y() = 0;  // between the arms if there is no head
+  top_m.y() = 0;  // without a head
   limbs_.push_back({Kind::kTrunk, 2});
   bones_.push_back({{0, hips_m}, {0, top_m}});
 }
@@ -61,7 +60,7 @@ void StickFigure::add_limb(const model::Limb& limb) {
     }
     bones.push_back({last, Vec3::Zero()});
   } else {
-    // A forearm counts as a rod with its mass in the middle.
+    // A forearm is a rod with its mass in the middle.
     bones.push_back({last, limbs_.back().kind == Kind::kArm ? Vec3(2 * com_m) : com_m});
   }
   bones_.push_back(std::move(bones));

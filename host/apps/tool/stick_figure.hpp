@@ -8,13 +8,13 @@
 
 namespace verp::tool {
 
-/// The robot as lines between joints, from the core's forward kinematics.
+/// Lines between joints, by the core's forward kinematics.
 class StickFigure {
  public:
   StickFigure(const model::Entity& entity, const Params& params);
 
   const std::vector<report::Limb>& limbs() const { return limbs_; }
-  /// One line per limb. A leg ends in its sole: ankle, heel, toe, ankle. A head ends in its centre.
+  /// One per limb. A leg ends in ankle, heel, toe, ankle; a head in its centre.
   std::vector<std::vector<report::Point3>> lines(const sim::SeriesRow& row) const;
 
  private:

@@ -20,12 +20,12 @@ bool is_name(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), plain);
 }
 
-/// `text` without `prefix`; empty if it does not begin so.
+/// Empty: it does not begin so.
 std::string behind(const std::string& prefix, const std::string& text) {
   return text.compare(0, prefix.size(), prefix) == 0 ? text.substr(prefix.size()) : "";
 }
 
-/// Sets the controller; false: `text` names none.
+/// False: `text` names no controller.
 bool take_driver(const std::string& text, Seat& seat) {
   seat.link = behind("ext:", text);
   seat.board = behind("on:", text);

@@ -66,7 +66,7 @@ int recover(const TraceWords& words) {
   record::TraceWriter writer(
       words.output, trace.params, run,
       {.actions = trace.actions, .compress = words.compress, .before = trace.before});
-  // Keeps states only at their old places, because a damaged trace's fault bits are unknown.
+  // A damaged trace's fault bits are unknown: states keep their places.
   std::size_t next = 0, change = 0;
   const auto write = [&] {
     for (std::size_t i = 0; i < trace.ticks.size(); ++i) {

@@ -11,7 +11,7 @@
 namespace verp::tool {
 namespace {
 
-/// Writes a regular file completely or not at all; streams to devices and pipes.
+/// Files completely or not at all; streams to devices and pipes.
 void write_whole(signals::Table& table, const std::filesystem::path& file) {
   namespace fs = std::filesystem;
   std::error_code error;

@@ -18,7 +18,7 @@ bool is_letter(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
-/// "lead=a.mcap", or a file, whose name becomes the robot's.
+/// "lead=a.mcap", or a file that gives the name.
 record::NamedTrace named_trace(const std::string& word) {
   const std::size_t equals = word.find('=');
   std::error_code error;

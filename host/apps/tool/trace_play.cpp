@@ -14,7 +14,7 @@
 namespace verp::tool {
 namespace {
 
-constexpr std::uint64_t kNap_ns = 20'000'000;  // interval between checks of Ctrl-C
+constexpr std::uint64_t kNap_ns = 20'000'000;  // between checks of Ctrl-C
 
 /// False: interrupted.
 bool sleep_until(std::uint64_t time_ns) {
@@ -39,7 +39,7 @@ std::vector<const record::mcap::Message*> in_order(const record::mcap::File& fil
 int play(const TraceWords& words) {
   const std::string bytes = record::read_trace_bytes(words.file);
   const record::mcap::File file = record::mcap::parse(bytes);
-  record::refuse_flaw(words.file, file);  // a merged trace of several robots plays as well
+  record::refuse_flaw(words.file, file);  // a merged trace plays as well
   LiveStream live("verp trace play", words.live);
   record::mcap::Listener& to = *live.robot();
   for (const auto& [id, schema] : file.schemas) to.schema(id, schema);

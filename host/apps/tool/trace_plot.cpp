@@ -14,7 +14,7 @@
 namespace verp::tool {
 namespace {
 
-constexpr std::size_t kMostPanels = 40;  // per picture; more are illegible
+constexpr std::size_t kMostPanels = 40;  // more are illegible
 
 using signals::Column;
 
@@ -29,7 +29,7 @@ int list_signals(const std::vector<Column>& columns) {
   return cli::kGood;
 }
 
-/// Each column once, in the requested order.
+/// Once each, in this order.
 std::vector<std::size_t> chosen(const TraceWords& words, const std::vector<Column>& columns) {
   std::vector<std::string> names;
   for (const Column& column : columns) names.push_back(column.name);
@@ -74,7 +74,7 @@ int plot_trace(const TraceWords& words) {
   if (words.list) return list_signals(all);
   const std::vector<std::size_t> columns = chosen(words, all);
   const bool states = std::any_of(columns.begin(), columns.end(), [&](std::size_t i) {
-    return all[i].format == signals::Format::kState;  // states are the last columns, and slow
+    return all[i].format == signals::Format::kState;  // last columns, and slow
   });
   signals::Table table(trace, states);
   const record::TickRange ticks = record::ticks_between(trace, words.from_s, words.to_s);

@@ -9,7 +9,7 @@
 
 namespace verp::tool {
 
-/// Options of all subcommands of `verp trace`.
+/// For all of `verp trace`.
 struct TraceWords {
   std::string file, output;
   bool json = false, recover = false;
@@ -23,17 +23,16 @@ struct TraceWords {
   double rate = 1;   ///< play: times real time
 };
 
-/// Loads the trace and prints its warnings; `recover` accepts a damaged trace.
+/// Prints its warnings; `recover` accepts damage.
 record::Trace load_trace(const TraceWords& words);
-/// Throws ToolError if -o names the trace itself.
+/// -o must not name the trace.
 void refuse_same_file(const TraceWords& words);
-/// Warns that goals and phases are unknown from `tick` on; empty: no warning.
+/// Goals and phases are unknown from `tick` on.
 void tell_of_other_decisions(const record::Trace& trace, const std::optional<std::uint32_t>& tick);
 
 record::mcap::Compression compression_of(const TraceWords& words);
 
-/// `verp trace export`, `plot`, `merge`, `play`. Return the exit status; throw ToolError and
-/// TraceError.
+/// These return the exit status; throw ToolError and TraceError.
 int export_csv(const TraceWords& words);
 int plot_trace(const TraceWords& words);
 int merge(const TraceWords& words);

@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kQuickGenerations = 8, kGenerations = 40;
 constexpr int kQuickChecks = 10, kChecks = 30;
-constexpr double kPhysicsStep_ms = 2;  // `verp walk` has 1 ms
+constexpr double kPhysicsStep_ms = 2;  // `verp walk`: 1 ms
 
 struct TuneWords {
   std::string model, file;
@@ -80,8 +80,7 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
   return std::filesystem::weakly_canonical(std::filesystem::absolute(file)).parent_path();
 }
 
-/// Checks before the search that the robot's file can be written there and loads with all its
-/// includes.
+/// Before the search: the robot's file can be written there and loads with its includes.
 void require_place(const std::string& file, const std::filesystem::path& robot_file) {
   std::error_code error;
   if (std::filesystem::exists(file, error))

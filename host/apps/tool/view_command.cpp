@@ -27,7 +27,7 @@ std::vector<std::string> own_words() {
   return words;
 }
 
-/// Only the window's program uses Qt and OpenGL, so this one starts without them.
+/// This program starts without Qt and OpenGL.
 int become_window() {
   std::error_code error;
   const fs::path self = fs::read_symlink("/proc/self/exe", error);
@@ -55,7 +55,7 @@ CLI::App* declare_view(CLI::App& root, ViewOptions& words) {
   options.command = "verp view";
   options.walk_s = 20;
   declare(*app, options);
-  // Removes the options of unattended runs.
+  // These options are for unattended runs.
   for (const char* name : {"--report", "--record-state", "--compress", "--json", "--sweep-step",
                            "--seeds", "--on", "--list-quantities", "--cameras", "--real-time",
                            "--patience", "--if-lost-go-on", "--print-scenario"}) {

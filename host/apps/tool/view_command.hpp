@@ -12,8 +12,7 @@ struct ViewOptions {
   std::string link, gamepad = "/dev/input/js0";
 };
 
-/// Declares `verp view` for both programs: this one, which starts the window's program, and that
-/// one.
+/// For this program and the window's.
 CLI::App* declare_view(CLI::App& root, ViewOptions& options);
 
 }  // namespace verp::tool

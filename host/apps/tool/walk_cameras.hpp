@@ -9,22 +9,19 @@
 
 namespace verp::tool {
 
-/// Records the camera pictures of the first robot in its trace (--cameras). A separate program
-/// renders them (host/show/camera).
+/// --cameras: pictures in the first robot's trace. A separate program renders (host/show/camera).
 class WalkCameras final : public session::Observer {
  public:
-  /// Makes the first robot's twin report its exposures. Throws ToolError if the robot has no
-  /// camera, the walk has no trace, or no renderer is available.
+  /// Throws ToolError without a camera, a trace or a renderer.
   WalkCameras(Walk& walk, record::TraceWriter* trace);
   ~WalkCameras() override;
 
   void join(std::size_t index, const WalkPlan& plan, session::Hooks& hooks) override;
-  /// Waits for the last pictures.
   void end(session::Session& session) override;
 
   std::string text(double run_s) const;
   cli::Json json() const;
-  /// Why pictures are missing; empty: none is.
+  /// Why pictures are missing, or empty.
   std::string failure() const;
 
  private:

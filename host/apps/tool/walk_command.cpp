@@ -23,7 +23,7 @@
 namespace verp::tool {
 namespace {
 
-/// Refuses options for controllers elsewhere if no robot has one: the user expects something else.
+/// Options for controllers elsewhere need one.
 void require_outside(const WalkOptions& options, const std::vector<WalkPlan>& plans) {
   const bool outside = std::any_of(plans.begin(), plans.end(),
                                    [](const WalkPlan& plan) { return !plan.link.empty(); });
@@ -35,7 +35,7 @@ void require_outside(const WalkOptions& options, const std::vector<WalkPlan>& pl
                   options.team.of_outside));
 }
 
-/// Only the controller itself can record, and this one is at the other end of a link.
+/// A controller elsewhere records itself.
 void refuse_of_outside(const WalkOptions& options, const WalkPlan& first) {
   const bool wanted =
       !options.record_file.empty() || !options.report_folder.empty() || options.live.on;
@@ -46,8 +46,7 @@ void refuse_of_outside(const WalkOptions& options, const WalkPlan& first) {
       "one, or have the controller outside record its own");
 }
 
-/// Robots of one world have consecutive seeds. Two walks would share some, so their results would
-/// not be independent.
+/// Robots of one world have consecutive seeds; two walks would share some.
 void require_one_robot(const WalkOptions& options, const std::vector<WalkPlan>& plans) {
   const char* option = !options.seeds_text.empty() ? "--seeds"
                        : !options.map.kind.empty() ? "--map"
@@ -72,7 +71,6 @@ void refuse_many_runs_in_a_scenario(const WalkOptions& options) {
                   option));
 }
 
-/// The observers of a walk.
 struct Observers {
   Observers(const WalkOptions& options, Walk& walk, RunFiles& files, LiveStream& live,
             cli::Progress& progress)
@@ -113,10 +111,10 @@ struct Observers {
   std::vector<session::Observer*> all;
 };
 
-/// Runs the walk, reports it and returns the exit status.
+/// Returns the exit status.
 int walk_once(WalkOptions options, Walk& walk) {
   const WalkPlan& first = walk.run.plans.front();
-  sweep_of(options);  // reports its errors before the long run
+  sweep_of(options);  // errors before the long run
   refuse_of_outside(options, first);
   check_radio(walk);
   if (options.report_folder.empty() && !options.json && first.link.empty())
@@ -152,7 +150,7 @@ int walk_once(WalkOptions options, Walk& walk) {
 
 int run_walk(WalkOptions options) {
   read_robot_words(options);
-  if (options.touch.list) {  // lists the quantities of the nominal robot
+  if (options.touch.list) {  // of the nominal robot
     options.vary = false;
     options.touch.pushes.clear();
     options.touch.settings.clear();

@@ -8,7 +8,7 @@
 namespace verp::tool {
 namespace {
 
-/// Why the run failed; empty: it did not. `trace` belongs to the first walk, not to the sweep.
+/// Empty: no failure. `trace`: of the first walk.
 std::string reason(const WalkResult& result, const Sweep& swept, const std::string& trace) {
   if (!result.good()) {
     return (result.failure.empty() ? "interrupted" : result.failure) +
@@ -19,7 +19,7 @@ std::string reason(const WalkResult& result, const Sweep& swept, const std::stri
   return swept.interrupted ? "interrupted in the sweep; rows up to there are kept" : "";
 }
 
-/// Prints a failure on stderr and returns the exit status.
+/// Returns the exit status.
 int ending(const std::string& command, const std::string& reason, const WalkFiles& files) {
   for (const std::string& line : files.lost()) cli::complain(line);
   if (!reason.empty()) cli::complain(command + ": " + reason);

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kTraceName = "run.mcap";
 
-/// Command line of a process, without the folder of its program.
+/// Command line without the folder of its program.
 std::string words_of(int process) {
   std::string words = files::read(fmt::format("/proc/{}/cmdline", process)).value_or("");
   if (!words.empty()) words.pop_back();
@@ -34,7 +34,7 @@ std::string words_of(int process) {
   return words.substr(words.rfind('/', words.find(' ')) + 1);
 }
 
-/// Two runs must not record to one file: the last to end would overwrite the other's trace.
+/// The last to end would overwrite the other's trace.
 void refuse_second_recorder(const std::string& command, const fs::path& file) {
   const int first = record::mcap::writer_of(file);
   if (first == 0) return;
@@ -83,7 +83,7 @@ void WalkFiles::open_trace(const WalkOptions& options, const WalkPlan& plan,
                                      "with --record, such as run.mcap",
                                      trace_path_.string()));
   }
-  std::optional<files::FolderLock> lock;  // two runs that start together check in turn
+  std::optional<files::FolderLock> lock;  // runs that start together check in turn
   if (!options.record_file.empty()) {
     lock.emplace(trace_path_.has_parent_path() ? trace_path_.parent_path() : ".");
     refuse_second_recorder(options.command, trace_path_);
@@ -152,7 +152,7 @@ void WalkFiles::write_report(report::Run run) {
   if (!trace_path_.empty() && trace_is_in_folder()) {
     run.trace_file = trace_path_.filename().string();
   } else {
-    fs::remove(folder_ / kTraceName, ignored);  // of an earlier run, not of this page
+    fs::remove(folder_ / kTraceName, ignored);  // of an earlier run
   }
   try {
     const report::Written written = report::write_report(folder_, run);

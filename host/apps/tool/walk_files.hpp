@@ -12,35 +12,34 @@
 
 namespace verp::tool {
 
-/// Makes a writable folder; checked before a long walk, not after it. Throws ToolError.
+/// Checked before a long walk. Throws ToolError.
 void make_folder(const std::filesystem::path& folder);
 
-/// The trace and the report of a walk. A write error before the walk ends the program. A later
-/// error loses only that file, and the program reports it; the walk's result stays.
+/// The trace and the report of a walk. A write error before the walk ends the program; a later one
+/// is reported and loses only that file.
 class WalkFiles {
  public:
-  /// Makes the folder and opens the trace. Throws ToolError or TraceError if it cannot. `listener`
-  /// receives the trace's records, with or without a file.
+  /// Opens the trace. Throws ToolError or TraceError. `listener`: receives the records, also
+  /// without a file.
   WalkFiles(const WalkOptions& options, const WalkPlan& plan,
             const record::mcap::StringMap& metadata, record::mcap::Listener* listener = nullptr);
 
-  /// Null without a trace file and a listener.
+  /// Null: no file, no listener.
   record::TraceWriter* trace() { return trace_.get(); }
   bool wants_report() const { return !folder_.empty(); }
 
-  /// Adds a line to lost().
   void lose(const std::string& why) { lost_.push_back(why); }
 
-  /// Ends the trace and writes the report, if the user wants them. It locks the folder, so that two
-  /// runs do not mix their files there.
+  /// Ends the trace and writes the report, if the user wants them. Locks the folder: two runs must
+  /// not mix files.
   void finish(const WalkResult& result, report::Run run);
 
-  /// Path of the complete trace; empty: none.
+  /// Empty until the trace is complete.
   const std::filesystem::path& trace_path() const { return trace_path_; }
   void add_to(cli::Json& json) const;
   std::string text() const;
 
-  /// One line for each missing file: what, where, and the remedy.
+  /// One line per lost file: what, where, remedy.
   const std::vector<std::string>& lost() const { return lost_; }
 
  private:

@@ -5,10 +5,10 @@
 #include "host/apps/tool/walk_run.hpp"
 #include "host/study/report/run_data.hpp"
 
-/// Reports the load of a walk on the servos and the supply.
+/// Load on servos and supply.
 namespace verp::tool {
 
-/// The joint with the highest average motor load.
+/// The joint with the highest average load.
 std::string hardest_used(const WalkPlan& plan, const sim::WalkMetrics& metrics);
 std::string transport_text(const sim::WalkMetrics& metrics);
 report::Fact transport_fact(const sim::WalkMetrics& metrics);

@@ -18,7 +18,7 @@
 namespace verp::tool {
 namespace {
 
-constexpr double kLength_s = 10;  // default of --for in a stability map
+constexpr double kLength_s = 10;  // of a stability map
 constexpr int kMostDirections = 36;
 
 int grid_of(const MapOptions& options, int usual, int least, int most, const char* what) {
@@ -29,7 +29,7 @@ int grid_of(const MapOptions& options, int usual, int least, int most, const cha
                                    options.kind, grid, least, most, what));
 }
 
-/// The shortest walk that suffices: a push map spends most of its time on the walk to the push.
+/// A push map spends most time on the walk to the push.
 double usual_push_s(const WalkPlan& plan) {
   return survey::least_walk_s(survey::PushOptions{},
                               static_cast<double>(plan.params.tuning.gait.cycle_s));
@@ -86,7 +86,7 @@ survey::StabilityOptions stability_options(const WalkOptions& options, const Wal
   return stability;
 }
 
-/// "3 min 20 s left"; empty while it is too early for an estimate.
+/// "3 min 20 s left"; empty: too early.
 std::string time_left(double share, double gone_s) {
   if (share < 0.01 || gone_s < 2) return "";
   const int left_s = static_cast<int>(gone_s * (1 - share) / share + 0.5);
@@ -94,7 +94,6 @@ std::string time_left(double share, double gone_s) {
                      : fmt::format(", {} min {} s left", left_s / 60, left_s % 60);
 }
 
-/// Watches for Ctrl-C and shows a progress bar.
 survey::Watch shown(cli::Progress& progress, const std::string& kind) {
   const auto start = std::chrono::steady_clock::now();
   return {.interrupted = cli::interrupted, .went_on = [&progress, kind, start](double share) {
@@ -104,7 +103,7 @@ survey::Watch shown(cli::Progress& progress, const std::string& kind) {
           }};
 }
 
-/// Writes the page and reports write errors. Returns the exit status.
+/// Returns the exit status.
 int leave(const WalkOptions& options, const std::filesystem::path& folder, MapReport& told) {
   if (folder.empty()) return cli::kGood;
   try {

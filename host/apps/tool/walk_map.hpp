@@ -13,20 +13,20 @@ namespace verp::tool {
 struct WalkOptions;
 struct Walk;
 
-/// Options for many walks that make one map (host/study/survey): --map, --map-grid.
+/// --map, --map-grid (host/study/survey).
 struct MapOptions {
-  std::string kind;           ///< push or stability; empty: no map, one walk
+  std::string kind;           ///< push or stability; empty: one walk
   int grid = 0;               ///< 0: each map's default
   bool length_given = false;  ///< --for
 };
 
 constexpr int kMostOnMapAxis = 41;
 
-/// Call it after the declaration of all options that it excludes.
+/// After all options that it excludes.
 void declare(CLI::App& app, MapOptions& options);
 
-/// Runs the survey, answers in text or JSON, and writes the page. An interrupted survey reports its
-/// finished part, with exit status 1. Throws ToolError.
+/// Survey, answer and page. An interrupted one reports its finished part, status 1. Throws
+/// ToolError.
 int walk_map(const WalkOptions& options, const Walk& walk);
 
 }  // namespace verp::tool

@@ -22,7 +22,6 @@ std::string robot_of(const Params& params) {
   return {params.name, ::strnlen(params.name, kNameLength)};
 }
 
-/// The part that both kinds of map share.
 MapReport begun(const WalkOptions& options, const WalkPlan& plan, const std::string& title,
                 const std::string& verdict, bool interrupted) {
   MapReport told;

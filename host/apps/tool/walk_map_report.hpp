@@ -8,7 +8,6 @@
 #include "host/study/survey/push_map.hpp"
 #include "host/study/survey/stability_map.hpp"
 
-/// Reports a map as a page, as text for a terminal, and as JSON.
 namespace verp::tool {
 
 struct MapReport {

@@ -17,9 +17,9 @@
 namespace verp::tool {
 namespace {
 
-constexpr double kMaxStep_m = 0.15;    // longer than legs of this size can swing
+constexpr double kMaxStep_m = 0.15;    // longer than legs can swing
 constexpr double kMaxWalk_s = 86400;   // a day
-constexpr double kMaxSpeed_m_s = 2.0;  // below the limit of Command's 16 bits of 0.1 mm/s
+constexpr double kMaxSpeed_m_s = 2.0;  // within 16 bits of 0.1 mm/s
 constexpr double kMaxTurn_rad_s = 6.3;
 constexpr std::size_t kMaxSweep = 50;
 
@@ -35,7 +35,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-/// parse_number() whose errors name the option.
+/// Errors name the option.
 double number(const std::string& command, const std::string& option, const std::string& text,
               double low, double high, const std::string& unit) {
   try {
@@ -45,7 +45,7 @@ double number(const std::string& command, const std::string& option, const std::
   }
 }
 
-/// The decimal number behind a float32: 0.06 for 0.06F.
+/// The decimal number behind a float: 0.06 for 0.06F.
 double decimal(float value) {
   return std::stod(fmt::format("{:g}", value));
 }
@@ -70,7 +70,7 @@ void set_by_name(std::map<std::string, double>& tuning, const std::string& setti
         cli::kBadInput,
         command + ": --set gait.cycle_s: give --cycle, which --step is measured by");
   }
-  // Ranges are float32. A range that ends at 0.03F includes 0.03, whatever its double is.
+  // Ranges are float32: one that ends at 0.03F includes 0.03.
   const Range& range = kTuningRanges[*id];
   tuning[name] = number(command, "--set " + name, setting.substr(equals + 1), decimal(range.low),
                         decimal(range.high), "");
@@ -132,12 +132,12 @@ void declare_falls(CLI::App& app, WalkOptions& options) {
 
 namespace {
 
-/// Options without effect on the bits of a run.
+/// These options change no bit of a run.
 const std::set<std::string> kOfNoEffect = {
     "--json",    "--report",    "--record", "--record-state", "--compress",
     "--cameras", "--real-time", "--live",   "--live-wait",    "--live-origin"};
 
-/// Options that --scenario allows, because they do not describe the run.
+/// They do not describe the run.
 const std::set<std::string> kBesideScenario = {"--scenario", "--print-scenario",
                                                "--list-quantities", "--link", "--gamepad"};
 

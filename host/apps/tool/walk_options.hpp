@@ -21,90 +21,85 @@ class App;
 
 namespace verp::tool {
 
-/// Help text of --compress, for all commands.
 inline constexpr const char* kCompress =
     "compress the trace's chunks by zstd: about a fifth of the bytes";
 
-/// The command line of `verp walk`, checked.
+/// The checked command line of `verp walk`.
 struct WalkOptions {
   std::string model = "generic21";
-  std::string bus;  ///< by name; empty: the model's first
+  std::string bus;  ///< empty: the model's first
   double step_m = 0.04;
   double cycle_s = 0;  ///< 0: the robot's cycle
   double walk_s = 20;
   std::uint64_t seed = 1;
   std::string velocity_text, sweep_text, record_file, report_folder, board;
-  std::string controller;  ///< folder of a user's controller (verp new controller); empty: core
+  std::string controller;             ///< folder (verp new controller); empty: core
   std::vector<std::string> settings;  ///< NAME=VALUE
   std::string command = "verp walk";  ///< for messages
   bool no_multibody = false, no_feedback = false, no_gravity = false, no_zeros = false;
   bool record_state = false, compress = false, json = false;
   bool stand = false;              ///< stands instead of walking
-  bool get_up = false;             ///< a fall does not end the walk
+  bool get_up = false;             ///< after a fall
   std::string start = "standing";  ///< or lying:SIDE
   bool vary = false;               ///< domain randomization (host/twin/sim/vary.hpp)
   std::vector<std::pair<std::string, std::string>> changed;  ///< changed_options()
   std::vector<std::string> typed;                            ///< typed_options()
-  std::string seeds_text;      ///< A-B: one walk for each of these seeds
-  double physics_step_ms = 1;  ///< 2 halves the wall time
+  std::string seeds_text;                                    ///< A-B: one walk each
+  double physics_step_ms = 1;                                ///< 2 halves the wall time
   TouchOptions touch;
   PlaceOptions place;
   MapOptions map;
   TeamOptions team;
-  std::string scenario_file;  ///< replaces all options that describe a run
+  std::string scenario_file;  ///< replaces options that describe a run
   bool print_scenario = false;
-  std::optional<std::string> radio;      ///< text of its numbers; none: no radio
-  std::vector<std::string> robot_words;  ///< MODEL and --robot of `verp walk`
+  std::optional<std::string> radio;      ///< its numbers; none: no radio
+  std::vector<std::string> robot_words;  ///< MODEL and --robot
   bool model_given = false;
   LiveOptions live;
-  bool cameras = false;    ///< records camera pictures in the trace
-  bool real_time = false;  ///< no faster than the clock
+  bool cameras = false;
+  bool real_time = false;
 
-  /// The value of `option` differs from its default.
+  /// The option differs from its default.
   bool changes(const std::string& option) const;
 };
 
 void declare(CLI::App& app, WalkOptions& options);
 
-/// Name and value of each option that changes the run and differs from its default.
+/// Options that change the run, with values.
 std::vector<std::pair<std::string, std::string>> changed_options(const CLI::App& app);
-/// Names of all options on the command line that describe the run, also those with their default.
+/// That describe the run, also with their default value.
 std::vector<std::string> typed_options(const CLI::App& app);
 
-/// Declares the options for the robot and the length of its walk.
+/// Robot and length of its walk.
 void declare_gait(CLI::App& app, WalkOptions& options);
 
-/// Declares the options that change the robot's tuning.
 void declare_tuning(CLI::App& app, WalkOptions& options);
 
-/// declare_gait(), and the options of a walk in the twin: seed, trace, report, JSON.
+/// declare_gait(), seed, trace, report, JSON.
 void declare_basics(CLI::App& app, WalkOptions& options);
 
 /// Declares --get-up and --start.
 void declare_falls(CLI::App& app, WalkOptions& options);
 
-/// Throws ToolError unless the robot's bus has Dynamixel servos.
 void require_serial(const std::string& command, const model::Entity& entity);
-/// Throws ToolError if only one of the robot's bus and `link` is CAN.
+/// Both or neither must be CAN. Throws ToolError.
 void require_fit(const std::string& command, const std::string& link, const Params& params);
 
-/// Reads MODEL and the named robots from `robot_words`. Throws ToolError.
+/// Reads `robot_words`. Throws ToolError.
 void read_robot_words(WalkOptions& options);
 
-/// Throws ToolError for an option that describes the run beside --scenario, whose file describes
-/// the whole run.
+/// The scenario's file describes the whole run.
 void refuse_beside_scenario(const WalkOptions& options);
 
-/// First and last of --seeds. Throws ToolError.
+/// First and last. Throws ToolError.
 std::pair<std::uint64_t, std::uint64_t> seeds_of(const WalkOptions& options);
 
-/// Step lengths of --sweep-step; empty without it. Throws ToolError.
+/// Empty without --sweep-step.
 std::vector<double> sweep_of(const WalkOptions& options);
 
-/// Tuning values of --cycle, --set and --no-... . Throws ToolError for unknown names and values out
-/// of range.
+/// --cycle, --set, --no-... . Throws ToolError for unknown names and values out of range.
 std::map<std::string, double> tuning_of(const WalkOptions& options);
-/// Orders of --stand, --velocity or --step. Throws ToolError.
+/// From --stand, --velocity or --step.
 scenario::Orders orders_of(const WalkOptions& options);
 
 }  // namespace verp::tool

@@ -12,18 +12,18 @@ class App;
 
 namespace verp::tool {
 
-/// Options for the world and the robots' start poses: --world, --at-pose.
+/// --world, --at-pose.
 struct PlaceOptions {
   std::string world;
-  std::vector<std::string> poses;  ///< X,Y,YAW; with several robots NAME=X,Y,YAW
+  std::vector<std::string> poses;  ///< with several robots NAME=X,Y,YAW
 };
 
 void declare(CLI::App& app, PlaceOptions& options);
 
-/// Applies --at-pose; a single robot needs no name there. Throws ToolError.
+/// A single robot needs no name. Throws ToolError.
 void place_robots(const PlaceOptions& options, std::vector<scenario::Robot>& robots);
 
-/// The world's movable objects and their end positions.
+/// Movable ones, at the end.
 cli::Json objects_of(const sim::Scenery& scenery);
 
 }  // namespace verp::tool

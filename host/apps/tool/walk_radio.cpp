@@ -15,7 +15,6 @@
 namespace verp::tool {
 namespace {
 
-/// A device on the robot's bus has the modem's id.
 bool has_its_id(const Params& params) {
   for (int j = 0; j < params.servo_count(); ++j) {
     if (params.joint[j].servo_id == bus::modem::kId) return true;
@@ -53,7 +52,7 @@ void check_radio(const Walk& walk) {
         "NAME=MODEL for each");
   }
   for (const session::WalkPlan& each : plans) check_modem(each);
-  // Robots with a controller elsewhere come last.
+  // Robots with controllers elsewhere come last.
   if (!plans.back().link.empty()) return;
   throw cli::ToolError(
       cli::kBadInput,
@@ -62,7 +61,7 @@ void check_radio(const Walk& walk) {
 }
 
 struct WalkRadio::Air {
-  /// One robot's antenna, and the trace of its messages.
+  /// A robot's antenna and trace.
   struct Station final : bus::Aerial {
     Station(Air& all, int number) : air(all), index(number) {}
     std::uint8_t number() const override { return static_cast<std::uint8_t>(index); }
@@ -79,7 +78,7 @@ struct WalkRadio::Air {
     const int index;
     std::string name;
     session::Robot* robot = nullptr;
-    bus::ModemDevice* modem = nullptr;  ///< on the robot's bus; null: its controller is local
+    bus::ModemDevice* modem = nullptr;  ///< null: local controller
     record::TraceWriter* trace = nullptr;
     std::uint64_t period_us = 0;
     std::uint32_t tick = 0;
@@ -134,7 +133,7 @@ struct WalkRadio::Air {
       ++fates[static_cast<std::size_t>(each.fate)];
   }
 
-  /// A full disk ends the trace, not the walk. The robot reports it at its next tick.
+  /// A full disk ends the trace, not the walk; the robot's next tick reports it.
   void note(const Station& of, record::ros::Radio what) {
     const Station& keeper = of.trace == nullptr && first != nullptr ? *first : of;
     if (keeper.trace == nullptr || broken) return;

@@ -9,13 +9,12 @@
 
 namespace verp::tool {
 
-/// Throws ToolError if the scenario has a radio that its robots cannot use.
+/// Throws ToolError if robots cannot use the scenario's radio.
 void check_radio(const Walk& walk);
 
-/// `verp walk --radio`: the radio between the robots (host/twin/radio), and a modem on the bus of
-/// each robot with a controller elsewhere. Stations have the numbers of the scenario's robots. A
-/// robot's trace records the messages that it sent and received. The first robot's trace also
-/// records the messages of robots without a trace.
+/// `verp walk --radio` (host/twin/radio), with a modem on the bus of each robot with a controller
+/// elsewhere. Stations are numbered as the scenario's robots. A trace records its robot's messages;
+/// the first also those of robots without a trace.
 class WalkRadio final : public session::Observer {
  public:
   explicit WalkRadio(const scenario::Scenario& scenario);

@@ -38,7 +38,7 @@ double asked_turn_deg(const WalkPlan& plan, const sim::WalkMetrics& m) {
   return session::asked_way(plan.velocity, m.walk_s).turn_rad * 180 / std::numbers::pi;
 }
 
-/// A commanded curve or sideways walk is not drift.
+/// An ordered curve is not drift.
 std::string way_text(const WalkPlan& plan, const sim::WalkMetrics& m) {
   const std::string aside = fmt::format("{:+.3f} m to the left, ", m.lateral_drift_m);
   const std::string turn = fmt::format("{:+.1f} degrees", m.yaw_drift_deg);
@@ -50,14 +50,13 @@ double asked_m_s(const WalkPlan& plan) {
   return 1e-4 * std::hypot(plan.velocity.vx_tenth_mm_s, plan.velocity.vy_tenth_mm_s);
 }
 
-/// Steady speed as a share of the ordered speed. Empty if the order has a turn, or no cycle was
-/// steady.
+/// Steady over ordered speed; empty with a turn, or without a steady cycle.
 std::optional<double> share_of_asked(const WalkPlan& plan, const sim::WalkMetrics& m) {
   if (!m.speed_steady_m_s || asked_m_s(plan) <= 0 || plan.velocity.wz_mrad_s != 0) return {};
   return *m.speed_steady_m_s / asked_m_s(plan);
 }
 
-/// How much the speed exceeds the order, and why. Empty without share_of_asked().
+/// Excess and cause; empty without share_of_asked().
 std::string beyond_asked(const WalkPlan& plan, const sim::WalkMetrics& m) {
   const std::optional<double> share = share_of_asked(plan, m);
   if (!share || !m.slip_steady_m_s) return {};
@@ -108,7 +107,7 @@ std::string falls_text(const WalkResult& result) {
 }
 
 std::string verdict(const WalkPlan& plan, const WalkResult& result, const Sweep& sweep) {
-  constexpr double kAsAsked = 0.15;  // the first line reports larger deviations
+  constexpr double kAsAsked = 0.15;  // larger: in the first line
   const double gait_s = result.metrics.walk_s;
   if (result.interrupted) return fmt::format("Interrupted after {:.1f} s of gait", gait_s);
   if (!result.failure.empty()) return "Failed: " + result.failure;
@@ -160,7 +159,7 @@ std::string title(const WalkPlan& plan, const scenario::Orders& orders) {
                      cycle_s);
 }
 
-/// The ordered way, from the body's pose at the start of the gait.
+/// From the body's pose at the gait's start.
 std::vector<report::Point2> asked_points(const WalkPlan& plan, const report::Sample& start,
                                          double walk_s) {
   std::vector<report::Point2> points;

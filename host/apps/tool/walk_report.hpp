@@ -7,7 +7,6 @@
 #include "host/apps/tool/walk_sweep.hpp"
 #include "host/study/report/run_data.hpp"
 
-/// Reports a walk as the data of a page, as text for a terminal, and as JSON.
 namespace verp::tool {
 
 report::Run to_report(const WalkPlan& plan, const WalkOptions& options,
@@ -16,7 +15,6 @@ report::Run to_report(const WalkPlan& plan, const WalkOptions& options,
 std::string to_text(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
                     const Sweep& sweep);
 
-/// Times and texts of falls and recoveries.
 cli::Json fall_story_json(const WalkResult& result);
 
 cli::Json to_json(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,

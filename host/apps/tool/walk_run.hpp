@@ -5,17 +5,16 @@
 #include "host/run/session/plan.hpp"
 #include "host/run/session/session.hpp"
 
-/// Sessions of this program: they show their progress, and Ctrl-C ends them.
+/// Sessions with progress and Ctrl-C.
 namespace verp::tool {
 
 using session::WalkPlan;
 using session::WalkResult;
 
-/// Shows the progress of the first robot, and reports on stderr falls and get-ups.
+/// First robot's progress; falls and get-ups on stderr.
 class RunOnScreen final : public session::Observer {
  public:
-  /// `command` begins each line; empty: no lines. `label` stands beside the bar; empty: the robot's
-  /// name.
+  /// `command` begins each line; empty: no lines. `label`: beside the bar; empty: the robot's name.
   RunOnScreen(cli::Progress& progress, std::string command, std::string label = {})
       : progress_(progress), command_(std::move(command)), label_(std::move(label)) {}
 
@@ -29,7 +28,7 @@ class RunOnScreen final : public session::Observer {
   double walk_s_ = 0;
 };
 
-/// Writes the first robot's ticks into a trace, which may be null.
+/// First robot's ticks; the trace may be null.
 class KeptTrace final : public session::Observer {
  public:
   explicit KeptTrace(record::TraceWriter* trace, bool keep_series = false)
@@ -45,7 +44,7 @@ class KeptTrace final : public session::Observer {
   const bool keep_series_;
 };
 
-/// One walk of one robot. `trace` may be null.
+/// `trace` may be null.
 WalkResult walk(const WalkPlan& plan, record::TraceWriter* trace, cli::Progress& progress,
                 const std::string& label, const sim::WorldOptions& world = {});
 

@@ -10,7 +10,7 @@ namespace {
 using model::Mat3;
 using model::Vec3;
 
-/// The ankle centre in the sole frame: Params gives the sole as the foot sees it.
+/// Params gives the sole as the foot sees it.
 Vec3 ankle_in_sole(const LegParams& leg) {
   Mat3 foot_sole;
   for (int i = 0; i < 9; ++i) foot_sole(i / 3, i % 3) = static_cast<double>(leg.sole_foot[i]);

@@ -5,8 +5,7 @@
 
 namespace verp::tool {
 
-/// A tick as a report draws it: ankles, soles and ZMP in the world's axes. Its time counts from
-/// `start_s`.
+/// Ankles, soles and ZMP of a tick, world axes. Time from `start_s`.
 report::Sample to_sample(const Params& params, const sim::SeriesRow& row, double start_s);
 
 }  // namespace verp::tool

@@ -44,12 +44,12 @@ scenario::Robot robot_of(const WalkOptions& options) {
 
 namespace {
 
-/// Throws ToolError with the known boards if `board` is not one of them.
+/// Throws ToolError with the known ones.
 void check_board(const std::string& board) {
   if (board.empty()) return;
   std::string names;
   for (const flash::Recipe& each : flash::recipes()) {
-    if (each.chip != nullptr) continue;  // it reaches its twin by a port, not by semihosting
+    if (each.chip != nullptr) continue;  // has a port, no semihosting
     if (board == each.board) return;
     names += (names.empty() ? "" : ", ") + std::string(each.board);
   }
@@ -60,7 +60,7 @@ void check_board(const std::string& board) {
                   board, names));
 }
 
-/// Names that the disturbance's wrong name may stand for.
+/// For a wrong name of a disturbance.
 std::string hint(const scenario::ScenarioError& error, const session::Intervention& what) {
   if (error.known.empty()) return "; raise --for";
   if (std::find(error.known.begin(), error.known.end(), what.name) != error.known.end()) return "";
@@ -95,7 +95,7 @@ void require_alone(const WalkOptions& options) {
                                    options.command, options.board));
 }
 
-/// The world's robots. The options may set the controllers of those that they name.
+/// Options may set their controllers.
 std::vector<Seat> seats_of_world(const WalkOptions& options, const model::World& world) {
   std::vector<Seat> seats;
   for (const model::WorldRobot& robot : world.robots)
@@ -115,7 +115,7 @@ std::vector<Seat> seats_of_world(const WalkOptions& options, const model::World&
   return seats;
 }
 
-/// Throws ToolError if no robot uses MODEL.
+/// Throws ToolError if MODEL is unused.
 void check_model(const WalkOptions& options, const std::vector<Seat>& seats,
                  const model::World* world) {
   if (!options.model_given) return;

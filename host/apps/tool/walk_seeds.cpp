@@ -22,7 +22,7 @@
 namespace verp::tool {
 namespace {
 
-/// The command line of one walk: the common options and its seed.
+/// Common options and its seed.
 std::vector<std::string> words_of(const WalkOptions& options, std::uint64_t seed) {
   std::vector<std::string> words = {"/proc/self/exe", "walk", "--json",
                                     fmt::format("--seed={}", seed)};
@@ -151,7 +151,6 @@ class Seeds {
     if (row.contains(key) && row[key].is_number()) values.push_back(row[key].get<double>());
   }
 
-  /// Minimum, median and maximum over the walks.
   static std::string range(const char* name, std::vector<double>& values, int digits) {
     if (values.empty()) return {};
     std::sort(values.begin(), values.end());
@@ -159,7 +158,7 @@ class Seeds {
                        values.back(), digits, values[values.size() / 2], digits);
   }
 
-  /// Adds the median order of the same walks; a walk that ended early counts a smaller order.
+  /// Median order; a walk that ended early counts a smaller one.
   static std::string of_asked(std::string line, std::vector<double> asked, int digits) {
     if (line.empty() || asked.empty()) return line;
     std::sort(asked.begin(), asked.end());

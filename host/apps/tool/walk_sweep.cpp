@@ -10,7 +10,6 @@ namespace {
 
 using report::SweepWalk;
 
-/// One walk with the multibody correction on or off.
 WalkResult sweep_walk(WalkPlan plan, const sim::WorldOptions& world, double step_m, bool multibody,
                       cli::Progress& progress) {
   plan.asked.reset();

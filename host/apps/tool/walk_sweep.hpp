@@ -10,15 +10,15 @@ namespace verp::tool {
 
 /// The walks of --sweep-step.
 struct Sweep {
-  std::vector<report::SweepRow> rows;  ///< the last may be unfinished
+  std::vector<report::SweepRow> rows;  ///< last may be unfinished
   bool interrupted = false;            ///< by the user
-  std::string failure;  ///< of the first failed walk with the correction; empty: none
+  std::string failure;                 ///< first failed walk with the correction
 
   bool good() const { return failure.empty() && !interrupted; }
 };
 
-/// Walks each step length of --sweep-step with and without the multibody correction, until the user
-/// interrupts. A walk without the correction may fall, which shows the correction's effect.
+/// Each step length of --sweep-step with and without the multibody correction. Without it a walk
+/// may fall.
 Sweep sweep(const WalkPlan& plan, const WalkOptions& options, cli::Progress& progress);
 
 }  // namespace verp::tool

@@ -18,7 +18,7 @@
 namespace verp::tool {
 namespace {
 
-/// Path of the named robot's trace, beside the first robot's.
+/// A path beside the first robot's trace.
 std::string file_of(const std::filesystem::path& first, const std::string& robot) {
   std::string name = robot;
   for (char& c : name) {
@@ -28,7 +28,6 @@ std::string file_of(const std::filesystem::path& first, const std::string& robot
   return (first.parent_path() / file).string();
 }
 
-/// Makes the controllers of a run.
 class Drivers {
  public:
   Drivers(const scenario::Scenario& scenario, session::Session& session, cli::Progress& progress)
@@ -69,7 +68,7 @@ class Drivers {
                     }});
   }
 
-  /// Ends the whole run if a lost controller must end it.
+  /// If the run must end then.
   void lose(const session::Robot& lost) {
     if (scenario_.if_lost_go_on) return;
     for (std::size_t i = 0; i < session_.size(); ++i) {
@@ -96,7 +95,7 @@ RunFiles::RunFiles(const WalkOptions& options, const Walk& walk, LiveStream& liv
       const std::filesystem::path& beside = first().trace_path();
       if (beside.empty() && !options.live.on) return;
       own.report_folder.clear();
-      // Only a local controller's orders are known; a controller elsewhere may record its own.
+      // A controller elsewhere records itself.
       own.record_file = ours && !beside.empty() ? file_of(beside, plan.name) : "";
     }
     const std::string name = plan.name.empty() ? plan.params.name : plan.name;

@@ -8,11 +8,11 @@
 #include "host/apps/tool/walk_scenario.hpp"
 #include "host/os/link/system_clock.hpp"
 
-/// The robots of one `verp walk`: their run, their files, and the report on all but the first.
+/// The robots of one `verp walk`, their files and reports.
 namespace verp::tool {
 
-/// A trace for each robot that this program drives, the first at the path of the command line and
-/// the others beside it; and the first robot's report.
+/// A trace for each local robot, the first at the given path and the others beside it; and the
+/// first robot's report.
 class RunFiles final : public session::Observer {
  public:
   /// Throws like WalkFiles.
@@ -21,9 +21,8 @@ class RunFiles final : public session::Observer {
   void join(std::size_t index, const WalkPlan& plan, session::Hooks& hooks) override;
 
   WalkFiles& first() { return files_.front(); }
-  /// Ends the traces of all but the first.
   void finish_others(const std::vector<WalkResult>& results);
-  /// Path of a robot's trace; empty if there is none.
+  /// Path of a robot's trace, or empty.
   std::string name(std::size_t robot) const;
   /// Missing files of all robots but the first.
   std::vector<std::string> lost_of_others() const;
@@ -32,8 +31,8 @@ class RunFiles final : public session::Observer {
   std::deque<WalkFiles> files_;
 };
 
-/// Paces a run by the clock, with real-time priority if the system allows it, like `verp run`. A
-/// run that falls a second behind gives the priority up, so that other programs get time.
+/// Paced by the clock, with real-time priority if possible. A second behind, it gives the priority
+/// up: other programs need time.
 class RealTimePace final : public session::Observer {
  public:
   explicit RealTimePace(const Walk& walk);
@@ -54,19 +53,18 @@ class RealTimePace final : public session::Observer {
 struct Walks {
   std::vector<WalkResult> results;         ///< of each plan
   double took_s = 0;                       ///< wall time, with waiting
-  cli::Json objects = cli::Json::array();  ///< the world's movable objects, end positions
+  cli::Json objects = cli::Json::array();  ///< movable ones, at the end
 };
 
-/// Runs all robots. If a plan names a link, a controller there drives the robot in lockstep: the
-/// world waits for it at the start and in every tick. A robot that loses its controller ends the
-/// whole run, or with Scenario::if_lost_go_on only its own.
+/// At a plan's link a controller drives its robot in lockstep: the world waits for it at every
+/// tick. A lost controller ends the run, or with Scenario::if_lost_go_on only its robot's.
 Walks walk_together(const Walk& walk, const std::vector<session::Observer*>& observers,
                     cli::Progress& progress);
 
-/// Text on the world and on all robots but the first.
+/// All but the first robot.
 std::string team_text(const Walk& walk, const Walks& walks, const RunFiles& files);
 cli::Json team_json(const Walk& walk, const Walks& walks, const RunFiles& files);
-/// A line for each robot but the first whose walk failed.
+/// All but the first robot.
 std::vector<std::string> failures_of(const Walk& walk, const Walks& walks, const RunFiles& files);
 
 }  // namespace verp::tool

@@ -20,7 +20,7 @@ std::span<const NamedRegister> registers_of(std::uint16_t model);
 /// nullptr: no such register.
 const NamedRegister* find_register(std::uint16_t model, std::string_view name);
 
-/// Markdown page firmware/app/registers.md.
+/// The Markdown page firmware/app/registers.md.
 std::string controller_document();
 
 }  // namespace verp::bus

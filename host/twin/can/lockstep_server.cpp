@@ -42,8 +42,7 @@ LockstepServer::LockstepServer(const Params& params, VirtualCan& bus, LockstepHo
     : LockstepSession(params), bus_(bus), hooks_(std::move(hooks)) {}
 
 void LockstepServer::take(const CanFrame& frame, std::vector<CanFrame>& answer) {
-  constexpr std::size_t kMostHeld = 4 * hal::kCanQueue;  // for a controller that never asks for
-                                                         // time
+  constexpr std::size_t kMostHeld = 4 * hal::kCanQueue;  // if a controller never asks
   lockstep::CanAdvance request;
   if (lockstep::take_message(frame, lockstep::kCanAdvanceId, request)) {
     return advance(request, answer);

@@ -40,7 +40,7 @@ class LockstepServer : public bus::LockstepSession {
  private:
   void hello(const lockstep::Hello& hello, std::vector<CanFrame>& answer);
   void advance(const lockstep::CanAdvance& advance, std::vector<CanFrame>& answer);
-  /// False: no more ticks.
+  /// False: the session has ended.
   bool send_frames(bool whole);
   /// `room`: already used in the answer.
   void bring_burst(std::uint32_t timeout_us, std::size_t room);

@@ -47,7 +47,7 @@ enum class Fate { kHeard, kTooFar, kCollided, kFaded, kLost };
 inline constexpr int kFates = 5;
 inline constexpr const char* kFateNames[kFates] = {"heard", "too far", "collided", "faded", "lost"};
 
-/// At one addressed station.
+/// Fate of a message at one addressed station.
 struct Outcome {
   std::uint64_t number = 0, time_us = 0;
   int from = 0, to = 0;

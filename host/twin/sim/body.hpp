@@ -56,7 +56,7 @@ class Body {
   void set_mass(int node, double mass_kg);
   /// About the link's x, y or z. Throws std::invalid_argument unless it stays positive definite.
   void set_inertia(int node, int axis, double inertia_kg_m2);
-  /// Velocities stay.
+  /// The velocities stay.
   void move(const Transform& by_world);
   /// About the body's origin.
   void add_velocity(const Vec3& linear_world_m_s, const Vec3& angular_world_rad_s);
@@ -67,7 +67,7 @@ class Body {
   void release();
   bool held() const { return hold_ != nullptr; }
 
-  /// Multi-turn.
+  /// Counts whole turns.
   double angle_rad(int joint) const { return angle_rad_[static_cast<std::size_t>(joint)]; }
   double rate_rad_s(int joint) const { return rate_rad_s_[static_cast<std::size_t>(joint)]; }
   const std::vector<double>& angles_rad() const { return angle_rad_; }

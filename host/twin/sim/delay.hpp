@@ -17,7 +17,7 @@ class Delay {
   void put(std::uint64_t measured_us, Reading reading) {
     on_the_way_.emplace_back(measured_us + latency_us_, std::move(reading));
   }
-  /// Oldest arrived reading.
+  /// The oldest reading that has arrived.
   std::optional<Reading> take(std::uint64_t now_us) {
     if (on_the_way_.empty() || on_the_way_.front().first > now_us) return std::nullopt;
     std::optional<Reading> reading(std::move(on_the_way_.front().second));

@@ -71,7 +71,7 @@ struct SeriesRow {
   std::vector<Vec2> support_world_m;
 };
 
-/// Once per control tick.
+/// Read once per control tick.
 struct Observation {
   Truth truth;
   FootLoads loads;                               ///< since the last observation

@@ -9,7 +9,7 @@ inline model::Vec3 vec_of(const dReal* v) {
   return {v[0], v[1], v[2]};
 }
 
-/// Three rows of four.
+/// ODE has three rows of four.
 inline model::Mat3 mat_of(const dReal* m) {
   model::Mat3 out;
   for (int row = 0; row < 3; ++row) {

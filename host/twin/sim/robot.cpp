@@ -16,7 +16,7 @@ constexpr double kRadPerDegree = std::numbers::pi / 180;
 /// Least body height above the feet as a share of its initial value, or largest tilt.
 constexpr double kFallenHeight = 0.6;
 constexpr double kFallenTilt = 1.0;
-// The oldest are dropped.
+// Older ones are dropped.
 constexpr std::size_t kMostScans = 1000;
 
 double made_for_v(const model::Entity& entity) {

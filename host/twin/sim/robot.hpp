@@ -93,7 +93,7 @@ class TwinRobot final : public Plant, private Actor {
   ServoModel& servo(int joint) { return servo_[static_cast<std::size_t>(joint)]; }
   int owner() const { return owner_; }
   Truth truth() const;
-  /// Whatever the cradle state.
+  /// In any state of the cradle.
   void release() { body_.release(); }
   bool fallen() const { return fallen_; }
   /// Resets fallen() if the robot stands as one that never fell; false: it does not.

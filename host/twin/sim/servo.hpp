@@ -37,7 +37,7 @@ struct ServoConstants {
   double heat_capacity_j_k = 74.0;
   double thermal_resistance_k_w = 13.0;
   double ambient_c = 25.0;
-  /// Of copper, IEC 60028.
+  /// Copper, IEC 60028.
   double copper_per_k = 0.00393;
   /// XM430 Current Limit register: 1193 units of 2.69 mA, 1.4 times the stall current at 12 V.
   /// Back-driven motors exceed stall torque up to this limit.
@@ -79,7 +79,7 @@ class ServoModel {
   /// In the last step.
   bool saturated() const { return saturated_; }
   double supply_current_a() const { return supply_current_a_; }
-  /// Of the bearing.
+  /// Damping of the bearing.
   double joint_damping_n_m_s() const { return joint_.damping_n_m_s; }
   double joint_friction_n_m() const { return joint_.friction_n_m; }
   void set_joint_damping(double damping_n_m_s) { joint_.damping_n_m_s = damping_n_m_s; }

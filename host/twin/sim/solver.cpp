@@ -5,7 +5,7 @@
 
 #include "host/twin/sim/solver_lanes.hpp"
 
-// ODE's exported template instances.
+// These are exported template instances of ODE.
 #define VERP_IN_PLACE_OF(name) __asm__(name) __attribute__((visibility("default")))
 extern "C" {
 void verp_solve_lower(const double* l, double* b, unsigned n, unsigned skip)

@@ -228,7 +228,7 @@ struct Panel {
     }
   }
 
-  /// The pair's own block.
+  /// Completes the pair's own block.
   VERP_INLINE void finish(Index r, double z11, double z21, double z22) const {
     for (Index k = first; k < r; ++k) {
       const double p1 = at(k, r), p2 = at(k, r + 1);

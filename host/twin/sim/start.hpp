@@ -5,7 +5,7 @@
 
 namespace verp::sim {
 
-/// Includes the seed's variation.
+/// Includes the variation by the seed.
 struct Start {
   std::vector<double> joint_rad;
   Transform body_world;  ///< the root link's frame

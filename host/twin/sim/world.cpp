@@ -14,7 +14,7 @@
 namespace verp::sim {
 namespace {
 
-/// Instead of ODE's exit().
+/// Replaces ODE's exit from the program.
 struct OdeGaveUp : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -44,7 +44,7 @@ struct GeomTag {
   }
 };
 
-/// Of the last step, seen by one partner.
+/// A contact point of the last step, seen by one partner.
 struct Contact {
   int owner = kScenery;
   int node = 0;
@@ -56,7 +56,7 @@ struct Contact {
 
 class Scenery;
 
-/// Those of one link.
+/// A ray ignores the shapes of one link.
 struct RayFilter {
   int owner = kScenery - 1;
   int node = 0;
