@@ -21,7 +21,7 @@ const Robot& op3() {
   return robot;
 }
 
-/// Pages as editors leave them: some blank, unused ids, torque off, bytes of unknown meaning.
+/// Some are blank or unused, with torque off and bytes of unknown meaning.
 Motion some_motion() {
   Motion motion(kPages, blank_page());
   std::uint32_t random = 7;
@@ -60,7 +60,7 @@ TEST(RobotisMotion, AnEditOfAnAngleIsOneOfItsPage) {
   Motion motion(kPages, blank_page());
   Page& page = motion[9];
   page[kStepCount] = 1;
-  page[kFirstStep + 2 * 3] = 0x00;  // servo 3 at 2048: zero
+  page[kFirstStep + 2 * 3] = 0x00;  // servo 3 at zero
   page[kFirstStep + 2 * 3 + 1] = 0x08;
   page[kFirstStep + 63] = 125;
   seal(page);
@@ -95,7 +95,7 @@ TEST(RobotisMotion, AnAngleIsAddedBesideAServoWithoutTorque) {
   EXPECT_EQ(documents[0].frames[0].goals.size(), goals + 1);
 }
 
-// Each edit changes the page's bytes and reads back.
+// Each edit changes the page's bytes.
 TEST(RobotisMotion, EditsOfLinkExitRepeatAndTorqueAreOfItsPage) {
   const Params& params = op3().params;
   Motion motion(kPages, blank_page());
@@ -103,7 +103,7 @@ TEST(RobotisMotion, EditsOfLinkExitRepeatAndTorqueAreOfItsPage) {
     motion[page][0] = static_cast<std::uint8_t>('a' + page);
     motion[page][kStepCount] = 2;
     for (const std::size_t step : {kFirstStep, kFirstStep + 64}) {
-      motion[page][step + 2 * 3 + 1] = 0x08;  // servo 3 at 2048
+      motion[page][step + 2 * 3 + 1] = 0x08;  // servo 3
       motion[page][step + 2 * 3] = 0x00;
     }
     seal(motion[page]);
@@ -145,7 +145,7 @@ TEST(RobotisMotion, EditsOfLinkExitRepeatAndTorqueAreOfItsPage) {
   EXPECT_EQ(to_motion(params, documents)[1][kNextAt], 0);
 }
 
-// Two pages share a name; a third has the name that the second would get.
+// Two pages share a name; a third has the name that one of them would get.
 TEST(RobotisMotion, EachPageHasANameOfItsOwn) {
   Motion motion(kPages, blank_page());
   const auto call = [&](std::size_t page, const std::string& name) {
@@ -162,7 +162,6 @@ TEST(RobotisMotion, EachPageHasANameOfItsOwn) {
   EXPECT_TRUE(to_motion(op3().params, documents) == motion);
 }
 
-// The writer refuses at its line what a page cannot hold.
 TEST(RobotisMotion, WhatNoPageWouldKeepIsRefused) {
   Motion motion(kPages, blank_page());
   for (const std::size_t page : {1U, 2U}) {
@@ -228,7 +227,7 @@ TEST(RobotisMotion, FilesOfAnotherSizeOrADamagedPageAreRefused) {
   std::filesystem::remove(file);
 }
 
-// Their checksums are right: the pages are undamaged but meaningless.
+// Their checksums are right.
 TEST(RobotisMotion, PagesOfMoreStepsThanTheyHoldOrOfNoPositionsAreRefusedByNumber) {
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / ("rubbish" + std::to_string(getpid()) + ".bin");

@@ -29,7 +29,7 @@ inline const Robot& generic21() {
   return robot;
 }
 
-/// The error on compiling the action, or "".
+/// The compiler's error, or "".
 inline std::string refusal(const std::vector<std::string>& texts) {
   try {
     generic21().make(texts);

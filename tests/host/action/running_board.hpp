@@ -15,8 +15,8 @@
 #include "hal/fake/fake_flash.hpp"
 #include "tests/host/tool/link_controller.hpp"
 
-/// A board like those of boards/stm32, without servos, in a thread. Robot, actions and log are in
-/// its flash; it restarts with the actions it receives.
+/// A board without servos, in a thread. Robot, actions and log are in its flash; it restarts with
+/// the actions it receives.
 namespace verp::test {
 
 class RunningBoard {
@@ -44,7 +44,6 @@ class RunningBoard {
     });
   }
   ~RunningBoard() { stop(); }
-  /// Afterwards the test may read the flash.
   void stop() {
     stop_ = true;
     if (thread_.joinable()) thread_.join();
@@ -59,7 +58,6 @@ class RunningBoard {
   std::atomic<int> starts = 0;
 
  private:
-  /// One start, up to the next.
   void run() {
     store::finish_waiting(*home, *other, [] {});
     const auto& robot = *reinterpret_cast<const ParamsImage*>(home->memory(0));

@@ -8,7 +8,7 @@
 #include "host/twin/can/client.hpp"
 #include "tests/unit/images/actions_board.hpp"
 
-// verp action send over the robot's bus to the controller's node: object 5002h.
+// Actions go to object 5002h.
 
 namespace verp::action {
 namespace {
@@ -17,7 +17,7 @@ using app::test::FakeBoard;
 using app::test::SentActions;
 using verp::test::kRobot;
 
-/// The PC's end of a bus to the node, in its own time.
+/// In its own time.
 template <class Images>
 class NodeBus : public can::ClientBus {
  public:
@@ -49,7 +49,7 @@ class NodeBus : public can::ClientBus {
   std::uint64_t now_us_ = 0;
 };
 
-/// The error on sending, or "".
+/// The error, or "".
 template <class Bus>
 std::string sent(Bus& bus, const std::vector<std::uint8_t>& image) {
   can::Client client(bus, "can:test", 100'000);
@@ -71,7 +71,7 @@ struct BoardOnCan {
     bus.polled = [this] { live(); };
   }
   std::vector<std::uint8_t> image() const { return {fresh.bytes(), fresh.bytes() + sizeof fresh}; }
-  /// The board frees a place in flash and restarts with the actions it received.
+  /// Frees a place in flash and restarts with the received actions.
   void live() {
     if (place_is_made_after > 0 && board.place.begun > 0 && --place_is_made_after == 0) {
       board.place.busy = false;

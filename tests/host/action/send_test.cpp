@@ -10,8 +10,7 @@
 #include "tests/host/action/robots.hpp"
 #include "tests/host/action/running_board.hpp"
 
-// verp action send to a running board. After any failure the board keeps its old actions, and the
-// user learns why.
+// After any failure the board keeps its old actions, and the user learns why.
 
 namespace verp::action {
 namespace {
@@ -23,7 +22,7 @@ const Params& robot() {
   return test::generic21().params;
 }
 
-/// `count` actions of one frame each.
+/// One frame each.
 Image acts(std::size_t count, const Params& params = robot()) {
   std::vector<std::string> texts;
   for (std::size_t i = 1; i <= count; ++i) {
@@ -55,7 +54,7 @@ class SendActions : public ::testing::Test {
     while (!board_->port.opened) std::this_thread::yield();
     return *board_;
   }
-  /// The error on sending, or "".
+  /// The error, or "".
   std::string send(const Image& image, SendOptions options = {}) {
     options.robot = options.robot.empty() ? robot().name : options.robot;
     options.actions = 4;
@@ -89,7 +88,6 @@ TEST_F(SendActions, TheBoardStartsAnewWithThem) {
   EXPECT_EQ(board.starts, 3);
 }
 
-// After the cable is back, a new transfer succeeds.
 TEST_F(SendActions, ACableThatIsPulledAtAnyBlockCostsNothing) {
   const int blocks = static_cast<int>((fresh_.size() + 127) / 128);
   ASSERT_GE(blocks, 3);
@@ -111,7 +109,7 @@ TEST_F(SendActions, ABoardThatFallsSilentInTheMiddleIsTold) {
   EXPECT_TRUE(board.holds(old_));
 }
 
-// A block is one packet with a CRC: damaged ones come again.
+// A block has a CRC: damaged ones come again.
 TEST_F(SendActions, ABadCableCostsTimeOnly) {
   RunningBoard& board = start([](RunningBoard& its) { its.port.flips_per_million = 400; });
   EXPECT_EQ(send(fresh_), "");
@@ -125,7 +123,7 @@ TEST_F(SendActions, OfAnotherRobotAreRefused) {
   of_op3.robot = "op3";
   EXPECT_NE(send(fresh_, of_op3).find("its robot is generic21"), std::string::npos);
   Params other = robot();
-  other.joint[3].lower_rad -= 0.1F;  // under the same name
+  other.joint[3].lower_rad -= 0.1F;
   expect_refused(acts(4, other), "for another robot");
 }
 
@@ -152,7 +150,7 @@ TEST_F(SendActions, AFlashThatDoesNotKeepThemIsTold) {
   expect_refused(fresh_, "its flash did not keep a block");
 }
 
-// The board erases a used place while the sender waits.
+// The sender waits while the board erases.
 TEST_F(SendActions, APlaceIsMadeWhereOneWasUsed) {
   RunningBoard& board = start();
   EXPECT_EQ(send(fresh_, stopping([](std::size_t) { return false; })), "stopped");

@@ -29,7 +29,7 @@ TEST(ActionText, IsWrittenAsItIsRead) {
   }
 }
 
-// The message begins with `place`: file and line.
+// `place`: file and line.
 void expect_refused(const std::string& place, const std::string& what,
                     const std::vector<std::string>& texts) {
   const std::string why = refusal(texts);
@@ -93,7 +93,7 @@ TEST(ActionLibrary, IsWhatTheCoreTakesAndTheSameEveryTime) {
   EXPECT_EQ(frame.goal_tenth_mrad[0], 1745) << "10 degrees";
 }
 
-// If the compiler accepted it, the action would not do what it says.
+// Such an action would not do what it says.
 TEST(ActionLibrary, RefusesToMoveAFollowerElsewhereThanItsMotorDoes) {
   const Params params = verp::test::with_coupled_hips(generic21().params, -1);
   const auto refused = [&](const std::string& text) -> std::string {

@@ -5,13 +5,13 @@ namespace {
 
 using DoubtedServos = AppLoop;
 
-// After a loose plug the servo is limp, with factory gains and no profile: torque would throw it at
-// its goal. The loop restores its registers only after the robot has let go.
+// A servo that lost power is limp, with factory gains: torque would throw it at its goal. The loop
+// restores its registers after the robot has let go.
 TEST_F(DoubtedServos, AServoThatLostItsPowerIsGoneUntilTheRobotHasLetGo) {
   ready();
   wanted.torque_enable = all();
   ticks(5);
-  const int lost[] = {1, 3, 5, 8, 11, 12};  // more than fit into one tick
+  const int lost[] = {1, 3, 5, 8, 11, 12};  // more than fit into a tick
   std::uint32_t lost_bits = 0;
   for (int joint : lost) {
     lost_bits |= 1u << joint;
@@ -68,7 +68,6 @@ TEST_F(DoubtedServos, ADoubtedServoIsLetGoAllTheSame) {
   for (int j = 0; j < kJoints; ++j) EXPECT_FALSE(plant.setpoint(j).torque_on) << j;
 }
 
-// Otherwise the robot would walk on with a limp knee.
 TEST_F(DoubtedServos, AServoThatShutItsTorqueOffIsGoneUntilItIsRebooted) {
   ready();
   wanted.torque_enable = all();

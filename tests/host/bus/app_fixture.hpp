@@ -10,15 +10,14 @@
 #include "host/twin/bus/virtual_bus.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
-/// The control loop on a virtual bus. The header defines step(), so each source file is its own
-/// program.
+/// This header defines step(), so each source file is its own program.
 namespace verp {
 
 namespace test {
 inline Outputs wanted;
 }
 
-// Replaces the core's step() at link time; the test sets its outputs.
+// Replaces the core's step(); the test sets its outputs.
 void step(const Params&, const action::Library&, State& state, const Inputs&,
           Outputs& outputs) noexcept {
   ++state.digest.chain;
@@ -41,7 +40,7 @@ struct Memory {
   std::vector<TickRecord> records;
 };
 
-/// Passes frames on; a test can lose, record or corrupt them.
+/// Can lose, record or corrupt frames.
 struct Tap {
   bool send(const std::uint8_t* data, std::size_t size) {
     frames.emplace_back(data, data + size);
@@ -66,7 +65,7 @@ struct Tap {
   int lose_sends = 0;
   std::set<std::size_t> lost{};  ///< indices in `frames`
   int polls = 0;
-  unsigned faults_per_mille = 0;  ///< of received bytes: half lost, half changed
+  unsigned faults_per_mille = 0;  ///< of received bytes: lost or changed
   std::minstd_rand noise{};
 };
 

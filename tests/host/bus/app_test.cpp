@@ -27,7 +27,7 @@ std::int64_t read_i32(bus::VirtualBus& bus, int joint, std::uint16_t address) {
   return INT64_MIN;
 }
 
-// The servo's limits hold even if the controller is silent or wrong.
+// They hold even if the controller is silent or wrong.
 TEST_F(AppLoop, BringUpWritesEachJointsLimitsIntoItsServo) {
   for (int j = 0; j < kJoints; ++j) {
     JointParams& joint = params.joint[j];
@@ -83,7 +83,7 @@ TEST_F(AppLoop, ATickBringsEveryValueFresh) {
 
 TEST_F(AppLoop, OneTickIsOnePeriodOfBusTime) {
   ready();
-  ticks(4);  // the first three end later: they switch torque off
+  ticks(4);  // the first three switch torque off
   const std::uint64_t first_us = bus.now_us();
   ticks(97);
   EXPECT_EQ(bus.now_us() - first_us, 97u * params.period_us);
@@ -145,7 +145,7 @@ TEST_F(AppLoop, GoalsArriveBeforeTorqueAndOnlyWhereTorqueIsWanted) {
   EXPECT_EQ(app.inputs().position_count[2], 1002);
 }
 
-// A limp robot was moved and rises again; any two frames are lost.
+// The limp robot was moved; any two frames are lost.
 TEST_F(AppLoop, LostFramesWakeNoServoWithOldOrders) {
   params.rise_torque_percent = 30;
   constexpr int kOld = 1000, kNew = 3000, kTicks = 8;
@@ -185,7 +185,7 @@ TEST_F(AppLoop, LostFramesWakeNoServoWithOldOrders) {
   }
 }
 
-// A servo refuses a Goal PWM above its own PWM limit.
+// A servo refuses a Goal PWM above its PWM limit.
 TEST_F(AppLoop, AServosOwnLimitIsItsFullStrength) {
   std::uint8_t frame[32];
   const std::uint8_t own[2] = {200, 0};
@@ -204,7 +204,7 @@ TEST_F(AppLoop, AServosOwnLimitIsItsFullStrength) {
   EXPECT_EQ(plant.setpoint(1).pwm_limit, 200);
 }
 
-// `verp run` sets this limit for a first walk in a harness.
+// For a first walk in a harness.
 TEST_F(AppLoop, TorqueIsLimitedInEveryModeIfSomebodySaysSo) {
   ready();
   app.limit_torque(30);
@@ -218,7 +218,7 @@ TEST_F(AppLoop, TorqueIsLimitedInEveryModeIfSomebodySaysSo) {
   }
 }
 
-// An obstacle in the way never meets full strength, not even for one tick.
+// An obstacle never meets full strength, not even for a tick.
 TEST_F(AppLoop, ARiseIsTorqueLimitedFromBeforeTorqueUntilItsEnd) {
   params.rise_torque_percent = 40;
   ready();
@@ -242,7 +242,7 @@ TEST_F(AppLoop, ARiseIsTorqueLimitedFromBeforeTorqueUntilItsEnd) {
   for (int j = 0; j < 3; ++j) EXPECT_EQ(plant.setpoint(j).pwm_limit, dxl::kFullPwm);
 }
 
-// The loop repeats each joint's limit in turn.
+// Joints take turns.
 TEST_F(AppLoop, AServoThatMissedItsStrengthHearsItAgain) {
   ready();
   wanted.torque_enable = 0b111;

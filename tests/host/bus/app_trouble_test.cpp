@@ -6,7 +6,7 @@ namespace {
 
 using AppInTrouble = AppLoop;
 
-// The controller was reset in mid-walk, and one servo is gone.
+// After a reset in mid-walk, one servo is gone.
 TEST_F(AppInTrouble, ABringUpThatFailsLeavesNobodyStiff) {
   ready();
   wanted.torque_enable = all();
@@ -46,7 +46,7 @@ TEST_F(AppInTrouble, ALostTorqueFrameIsMadeGood) {
   wanted.torque_enable = all();
   ticks(5);
   wanted.torque_enable = 0;
-  tap.lose_sends = 3;  // both reads, and the frame that turns torque off
+  tap.lose_sends = 3;  // both reads, and torque off
   ticks(1);
   EXPECT_TRUE(plant.setpoint(0).torque_on);
   ticks(2);
@@ -115,7 +115,7 @@ TEST_F(AppInTrouble, AMissedPeriodIsSkippedAndReported) {
   ready();
   ticks(3);
   std::uint8_t byte = 0;
-  bus.poll(&byte, 1, 2 * params.period_us);  // another device held the bus
+  bus.poll(&byte, 1, 2 * params.period_us);  // another device holds the bus
   ticks(1);
   EXPECT_EQ(app.inputs().tick, 5u) << "ticks 3 and 4 had no time";
   EXPECT_EQ(bus.tick(), 5u);
@@ -141,7 +141,6 @@ TEST_F(AppInTrouble, AClocksTicksAreTakenAsTheyAre) {
   EXPECT_EQ(app.inputs().flags & kOverrun, 0);
 }
 
-// A missing sample is not fresh.
 TEST_F(AppInTrouble, AnImuOnTheBoardIsReadIfTheBusHasNone) {
   hal::ScriptedImu chip;
   app::App<Tap, Script, Memory, hal::ScriptedImu> on_bus{params, tap, script, memory, &chip};
@@ -162,7 +161,7 @@ TEST_F(AppInTrouble, AnImuOnTheBoardIsReadIfTheBusHasNone) {
   EXPECT_EQ(without.inputs().flags & kImuFresh, 0);
 }
 
-// The operator chooses, but never while the robot has torque.
+// Never while the robot has torque.
 TEST_F(AppInTrouble, TheChipOrTheBusSteersAsChosenBeforeTorqueComesOn) {
   ready();
   hal::ScriptedImu chip;
@@ -192,7 +191,6 @@ TEST_F(AppInTrouble, TheChipOrTheBusSteersAsChosenBeforeTorqueComesOn) {
   EXPECT_EQ(gyro_x(), 1);
 }
 
-// No damaged byte becomes a position or delays the loop.
 TEST_F(AppInTrouble, NoiseMakesValuesStaleButNeverWrong) {
   ready();
   for (int j = 0; j < kJoints; ++j) {

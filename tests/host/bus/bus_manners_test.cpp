@@ -8,8 +8,7 @@
 #include "host/twin/bus/virtual_bus.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
-/// How servos share one wire. The five XM430-W210 servos are those of the e-Manual's example of
-/// register 12 (docs/en/dxl/x/xm430-w210).
+/// The five servos are those of the e-Manual's example of register 12 (docs/en/dxl/x/xm430-w210).
 namespace verp {
 namespace {
 
@@ -20,7 +19,7 @@ class BusManners : public ::testing::Test {
  protected:
   static constexpr int kServos = 5;
 
-  /// Sends bytes of the e-Manual; returns what arrives within `timeout_us`.
+  /// Returns what arrives within `timeout_us`.
   Bytes exchange(const Bytes& frame, std::uint32_t timeout_us = 100'000) {
     EXPECT_TRUE(bus.send(frame.data(), frame.size()));
     Bytes buffer(4096);
@@ -43,7 +42,7 @@ class BusManners : public ::testing::Test {
     frame.resize(dxl::encode_ping(frame.data(), frame.size(), id));
     return exchange(frame, timeout_us);
   }
-  /// Ids of the complete packets in `bytes`; counts CRC errors.
+  /// Ids of complete packets; counts CRC errors.
   std::vector<int> ids_in(const Bytes& bytes) {
     dxl::Parser parser;
     std::vector<int> ids;
@@ -62,7 +61,7 @@ class BusManners : public ::testing::Test {
     }
     return -1;
   }
-  /// Ids of servos with the LED on, read one by one.
+  /// Ids of servos with the LED on.
   std::vector<int> lit() {
     std::vector<int> all;
     for (std::uint8_t id = 1; id <= kServos; ++id) {
@@ -78,7 +77,6 @@ class BusManners : public ::testing::Test {
   std::uint32_t noise = 0;
 };
 
-// The e-Manual's example of register 12.
 TEST_F(BusManners, ASecondaryIdMakesAGroupThatIsWrittenTogether) {
   for (std::uint8_t id = 1; id <= kServos; ++id) {
     EXPECT_EQ(ids_in(write(id, at::kSecondaryId, {5})), std::vector<int>{id});
@@ -110,8 +108,8 @@ TEST_F(BusManners, ASecondaryIdOf253AndMoreIsNone) {
   }
 }
 
-// e-Manual, Ping, example 2. The last three bytes differ (firmware and CRC): the manual has
-// firmware 38, here it is 45, the first with Fast Sync Read.
+// e-Manual, Ping, example 2. Firmware and CRC differ: the manual has firmware 38, here it is 45,
+// the first with Fast Sync Read.
 TEST_F(BusManners, APingToAllIsAnsweredInTurns) {
   const Bytes ping_all = {0xFF, 0xFF, 0xFD, 0x00, 0xFE, 0x03, 0x00, 0x01, 0x31, 0x42};
   const Bytes first = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x07, 0x00, 0x55, 0x00, 0x06, 0x04};
@@ -122,8 +120,8 @@ TEST_F(BusManners, APingToAllIsAnsweredInTurns) {
   EXPECT_TRUE(std::equal(second.begin(), second.end(), heard.begin() + 14));
 }
 
-// Dynamixel2Arduino, issue 106: within 10 ms ids 1 and 2 are found but not id 5; within 50 ms it
-// is. The vendor's SDK allows 3 ms per id.
+// Dynamixel2Arduino, issue 106: id 5 is found within 50 ms, not within 10. The vendor's SDK allows
+// 3 ms per id.
 TEST_F(BusManners, ThePlaceOfAnIdInAPingToAllIsItsNumber) {
   EXPECT_EQ(ids_in(ping(dxl::kBroadcast, 10'000)), (std::vector<int>{1, 2, 3}));
   Bytes rest(256);
@@ -136,7 +134,7 @@ TEST_F(BusManners, ThePlaceOfAnIdInAPingToAllIsItsNumber) {
   EXPECT_GE(bus.now_us(), begun_us + 3000u * (test::kRightFootId - 20));
 }
 
-// The replies destroy each other; the other servos still work.
+// The other servos still work.
 TEST_F(BusManners, TwoServosOfOneIdGarbleEachOther) {
   EXPECT_EQ(ids_in(write(2, at::kId, {3})), std::vector<int>{2});
   EXPECT_TRUE(ids_in(ping(3)).empty());
@@ -178,7 +176,7 @@ TEST_F(BusManners, AServoAtAnotherBaudRateIsSilentUntilTheBusHasIt) {
   EXPECT_EQ(ids_in(ping(dxl::kBroadcast, 20'000)), (std::vector<int>{1, 3, 4, 5}));
 }
 
-// Bytes that do not overlap arrive. A delay of one bit changes everything.
+// A delay of one bit changes everything.
 TEST(Collision, LowLevelsWin) {
   const Bytes one = {0xF0, 0x55}, other = {0x0F, 0xAA};
   EXPECT_EQ(bus::heard({{one, 0}}), one);

@@ -17,7 +17,7 @@
 namespace verp {
 namespace {
 
-/// The controller's end, hand-coded over two pipes.
+/// The controller's end, over two pipes.
 class BusServer : public ::testing::Test {
  protected:
   void start(bus::ServerHooks hooks, bus::RunOptions options = {}) {

@@ -1,7 +1,6 @@
 #include "tests/host/bus/app_fixture.hpp"
 
-/// When the bus is lost, each servo stops and takes no goal until the controller rearms its
-/// watchdog.
+/// A servo that lost the bus stops and takes no goal until its watchdog is rearmed.
 namespace verp::test {
 namespace {
 
@@ -52,7 +51,7 @@ TEST_F(BusWatchdog, StopsTheServoWhereItIsWhenNoPacketComes) {
   quiet(4 * kUnit);
   EXPECT_EQ(watchdog(1), 5);
   plant.measured[0].position_count = 1234;
-  plant.setpoint(0).goal_count = 1234;  // the position so far
+  plant.setpoint(0).goal_count = 1234;  // the present position
   quiet(6 * kUnit);
   EXPECT_EQ(watchdog(1), dxl::kBusWatchdogTripped);
   EXPECT_EQ(plant.setpoint(0).goal_count, 1234);
@@ -107,7 +106,7 @@ TEST_F(BusWatchdog, ARobotCutOffForSecondsArmsAgain) {
   ready();
   wanted.torque_enable = all();
   ticks(5);
-  quiet(2'000'000);  // the controller crashes and restarts
+  quiet(2'000'000);  // the controller restarts
   EXPECT_TRUE(tripped(0) && tripped(kJoints - 1));
   ready();
   wanted.torque_enable = 0;
@@ -119,7 +118,6 @@ TEST_F(BusWatchdog, ARobotCutOffForSecondsArmsAgain) {
   EXPECT_EQ(plant.setpoint(4).goal_count, 2500);
 }
 
-// Bus and torque return in the same tick.
 TEST_F(BusWatchdog, ARobotThatArmsAsSoonAsTheBusIsBackMoves) {
   ready();
   wanted.torque_enable = all();
@@ -136,8 +134,8 @@ TEST_F(BusWatchdog, ARobotThatArmsAsSoonAsTheBusIsBackMoves) {
   for (int j = 0; j < kJoints; ++j) EXPECT_EQ(plant.setpoint(j).goal_count, 2500) << j;
 }
 
-// The bus returns while the robot has torque, as when it sits down after a loss. The servos must
-// accept goals before torque goes off. One lost frame does not matter.
+// The bus returns while the robot sits down: servos must accept goals before torque goes off. One
+// frame may be lost.
 TEST_F(BusWatchdog, ARobotWhoseBusComesBackUnderTorqueMoves) {
   ready();
   wanted.torque_enable = all();
@@ -154,7 +152,6 @@ TEST_F(BusWatchdog, ARobotWhoseBusComesBackUnderTorqueMoves) {
     EXPECT_EQ(watchdog(params.joint[j].servo_id), app::bus_watchdog_units(params)) << j;
 }
 
-// The servo missed every frame meanwhile.
 TEST_F(BusWatchdog, AServoThatComesBackAloneMoves) {
   ready();
   wanted.torque_enable = all();
@@ -167,7 +164,7 @@ TEST_F(BusWatchdog, AServoThatComesBackAloneMoves) {
   EXPECT_EQ(plant.setpoint(4).goal_count, 2500);
 }
 
-// The pause is longer than the watchdogs wait.
+// Longer than the watchdogs wait.
 TEST_F(BusWatchdog, APauseOfTheControllerLeavesNoServoBehind) {
   ready();
   wanted.torque_enable = all();

@@ -8,7 +8,7 @@
 
 namespace verp::test {
 
-/// Joints jump to their goals; the plant records when each was sampled.
+/// Joints jump to their goals; samples are recorded.
 class FakePlant final : public sim::Plant {
  public:
   std::uint64_t now_us() const override { return now_us_; }
@@ -51,7 +51,7 @@ inline constexpr std::uint8_t kImuId = 100;
 inline constexpr std::uint8_t kLeftFootId = 101;
 inline constexpr std::uint8_t kRightFootId = 102;
 
-/// `joints` XM430-W210 servos with ids from 1, an IMU and two feet, 2 Mbaud, 10 ms.
+/// XM430-W210 servos with ids from 1, an IMU and two feet, 2 Mbaud, 10 ms.
 inline Params bus_params(int joints, bool fast = true) {
   Params params;
   params.joint_count = static_cast<std::uint8_t>(joints);

@@ -8,7 +8,7 @@
 #include "host/twin/bus/virtual_bus.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
-// Instructions beyond read, write and sync, by the e-Manual.
+// By the e-Manual.
 namespace verp {
 namespace {
 
@@ -137,7 +137,7 @@ TEST_F(BusInstructions, FactoryResetKeepsWhatItIsToldToKeep) {
   EXPECT_EQ(one(reset(2, dxl::Reset::kAllButIdAndBaud)).id, 2);
   EXPECT_EQ(read(2, at::kReturnDelay, 1).data, Bytes{250});
   EXPECT_EQ(read(2, at::kPositionPGain, 2).data, (Bytes{0x20, 0x03}));
-  // Now at 57600 baud, it does not understand this bus.
+  // It now has 57600 baud.
   EXPECT_EQ(one(reset(2, dxl::Reset::kAllButId)).error, Error::kNone);
   EXPECT_TRUE(plain(2, Instruction::kPing).empty());
 }
@@ -228,7 +228,7 @@ TEST_F(BusInstructions, BulkWriteWritesEachItsOwnAndStopsAtACutEntry) {
   EXPECT_EQ(plant.setpoint(2).d_gain, 0);
 }
 
-// The e-Manual's use: it reads and writes scattered registers as one block.
+// As in the e-Manual, scattered registers make one block.
 TEST_F(BusInstructions, IndirectDataStandsForTheBytesItsAddressesName) {
   plant.measured[0].temperature_c = 41;
   const auto point = [&](std::uint16_t pair, std::uint16_t to) {

@@ -24,7 +24,7 @@ LinkDelay held(double time_us) {
       .asked = 80, .answered = 80, .median_us = time_us, .p90_us = time_us, .worst_us = time_us};
 }
 
-/// A /sys tree with one USB adapter whose latency timer is `time_ms`.
+/// A /sys tree of one USB adapter.
 struct Sys {
   explicit Sys(int time_ms) {
     const fs::path adapter = root / "bus/usb-serial/devices/ttyUSB7";
@@ -39,7 +39,7 @@ struct Sys {
 const link::Endpoint kAdapter{link::Endpoint::Kind::kSerial, "/dev/ttyUSB7", 2'000'000, 0};
 const link::Endpoint kSocket{link::Endpoint::Kind::kUnix, "/tmp/twin", 0, 0};
 
-// The user cancels the search at once or midway.
+// At once or midway.
 TEST(LinkFit, GivingUpTheSearchForAServoIsNoFaultOfTheRobot) {
   const std::string place =
       (fs::temp_directory_path() / ("verp-fit-bus-" + std::to_string(::getpid()))).string();
@@ -58,7 +58,7 @@ TEST(LinkFit, GivingUpTheSearchForAServoIsNoFaultOfTheRobot) {
   EXPECT_THROW(measure_delay(client, params, [] { return false; }), DeviceError);
 }
 
-// Any size, rate and period; both reads of a tick time out.
+// Any size, rate and period; both reads time out.
 TEST(LinkFit, WhatFitsEndsWithinThePeriod) {
   std::minstd_rand random(3);
   int fitting = 0;
@@ -82,7 +82,7 @@ TEST(LinkFit, WhatFitsEndsWithinThePeriod) {
   EXPECT_LT(fitting, 1800);
 }
 
-// The reference robot's expected adapter: latency timer 1 ms.
+// Latency timer 1 ms.
 TEST(LinkFit, OneMillisecondEachWayFitsTwentyOneServosAt100Hz) {
   Params params = verp::test::bus_params(21, true);
   params.baud = 2'000'000;
@@ -137,7 +137,7 @@ TEST(LinkFit, TheRemedyNamesTheAdaptersTimerThePeriodAndTheRate) {
   EXPECT_NE(remedy(hopeless, params, kSocket, sys.folder()).find("adapter"), std::string::npos);
 }
 
-// In real time, the twin rejects only adapters known to be too slow.
+// In real time; only adapters known to be slow.
 TEST(LinkFit, ASlowAdapterIsTurnedAwayByTheTwin) {
   const Params params = verp::test::bus_params(21);
   {

@@ -10,8 +10,8 @@
 #include "host/twin/bus/lockstep_server.hpp"
 #include "tests/support/link_faults.hpp"
 
-/// A controller's link to a server in the same thread, which answers while the controller waits. A
-/// seeded generator loses, doubles or flips bytes.
+/// A controller's link to a server in the same thread. A seeded generator loses, doubles or flips
+/// bytes.
 namespace verp::test {
 
 class ServedLink {
@@ -39,7 +39,7 @@ class ServedLink {
 
   LinkFaults outbound, inbound;
   bool cut = false;
-  int cut_every = 0;  ///< after so many answers the link is cut and the answer lost
+  int cut_every = 0;  ///< so many answers, one is lost and the link cut
   std::uint64_t quiet_reads = 0;
   std::uint64_t faults = 0;
 
@@ -65,7 +65,7 @@ class ServedLink {
 };
 static_assert(hal::ByteLink<ServedLink>);
 
-/// Restores the link on each hundredth call, and may give up.
+/// Restores the link on each hundredth call.
 struct Waiting {
   bool operator()() {
     ++calls;

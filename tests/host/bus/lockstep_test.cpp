@@ -14,7 +14,7 @@
 namespace verp {
 namespace {
 
-/// Returns the PC's last order once.
+/// The PC's order, once.
 struct Port {
   app::OperatorOrder order(std::uint32_t) {
     const app::OperatorOrder order = next;
@@ -46,7 +46,7 @@ std::vector<TickRecord> records_here(const Params& params) {
   return walker.records;
 }
 
-/// A twin, its server, and a controller behind a link that may be bad.
+/// The link may be bad.
 class Lockstep : public ::testing::Test {
  protected:
   using Bus = app::LockstepBus<test::ServedLink, test::Waiting&>;
@@ -58,7 +58,7 @@ class Lockstep : public ::testing::Test {
     for (int i = 0; i < ticks; ++i) loop.tick();
     std::uint8_t none[1];
     ending = true;
-    // The next tick's first frame ends the last tick.
+    // This ends the last tick.
     const std::uint8_t ids[] = {1, 2};
     std::uint8_t frame[32];
     const std::size_t size = dxl::encode_sync_read(frame, sizeof frame, dxl::Instruction::kSyncRead,
@@ -105,7 +105,7 @@ class Lockstep : public ::testing::Test {
   Loop loop{params, bus, port, port};
 };
 
-// The controller's bits are the same here and behind a link, and the PC's shadow has them too.
+// The PC's shadow has the same bits.
 TEST_F(Lockstep, RecordsWhatTheLoopInThisProcessRecords) {
   run();
   EXPECT_TRUE(same(port.records, records_here(params)));
@@ -114,7 +114,6 @@ TEST_F(Lockstep, RecordsWhatTheLoopInThisProcessRecords) {
   EXPECT_EQ(server.counters().repeats + bus.counters().repeats, 0u);
 }
 
-// A user writes this register, with or without a controller.
 TEST(SetUpright, IsARegisterOfTheTwinsClock) {
   const Params params = test::bus_params(2);
   test::FakePlant plant;
@@ -143,7 +142,7 @@ TEST(SetUpright, IsARegisterOfTheTwinsClock) {
   EXPECT_EQ(error_of(1), dxl::Error::kResultFail);
 }
 
-// The controller repeats its request, so no bit of the run changes.
+// The controller repeats its request.
 TEST_F(Lockstep, MakesGoodWhatTheLinkSpoilsOnTheWayToTheController) {
   const std::vector<TickRecord> expected = records_here(params);
   link.inbound = {.lost = 0.002, .doubled = 0.002, .flipped = 0.002};
@@ -155,7 +154,7 @@ TEST_F(Lockstep, MakesGoodWhatTheLinkSpoilsOnTheWayToTheController) {
   EXPECT_LE(server.counters().repeats, bus.counters().repeats);
 }
 
-// The loop goes on, and the PC's shadow still matches the controller.
+// The loop goes on, and the PC's shadow still matches.
 TEST_F(Lockstep, LetsADamagedFrameBeLostOnTheBus) {
   link.outbound = {.lost = 0.001, .doubled = 0.001, .flipped = 0.001};
   run();
@@ -164,14 +163,14 @@ TEST_F(Lockstep, LetsADamagedFrameBeLostOnTheBus) {
   EXPECT_EQ(bus.counters().damaged, server.counters().damaged);
   EXPECT_GT(loop.counters().timeouts, 0u);
   EXPECT_EQ(shadow.difference(), "");
-  shadow_records.resize(port.records.size());  // the loop above may have ended one more
+  shadow_records.resize(port.records.size());  // one more tick may have ended
   EXPECT_TRUE(same(shadow_records, port.records));
 }
 
 TEST_F(Lockstep, NeverHangsOnAVeryBadLink) {
   link.outbound = link.inbound = {.lost = 0.01, .doubled = 0.01, .flipped = 0.01};
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
-  loop.bring_up();  // may fail: a request may reach no servo
+  loop.bring_up();  // a request may reach no servo
   std::uint64_t before_us = bus.now_us();
   for (int i = 0; i < 100; ++i) {
     loop.tick();
@@ -183,7 +182,6 @@ TEST_F(Lockstep, NeverHangsOnAVeryBadLink) {
   EXPECT_GT(link.faults, 500u);
 }
 
-// Time stops while the link is cut.
 TEST_F(Lockstep, WaitsOutACutLinkWithoutASingleTimeout) {
   const std::vector<TickRecord> expected = records_here(params);
   link.cut_every = 37;
@@ -193,7 +191,7 @@ TEST_F(Lockstep, WaitsOutACutLinkWithoutASingleTimeout) {
   EXPECT_GT(server.counters().repeats, 10u);
 }
 
-// The twin may be gone before the tick's next poll.
+// It may be gone before the next poll.
 TEST_F(Lockstep, EndsTheTickWithATwinThatHungUpBehindItsStop) {
   run(5);
   ASSERT_TRUE(bus.stopped());
@@ -245,7 +243,7 @@ TEST_F(Lockstep, RefusesOtherParamsByName) {
   EXPECT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
 }
 
-// A third-party controller has no core version of ours.
+// A third-party controller has no core version.
 TEST_F(Lockstep, MeetsAStrangerWhereNobodyComparesBits) {
   const lockstep::Hello stranger;
   const auto verdict = [&] {
@@ -262,8 +260,7 @@ TEST_F(Lockstep, MeetsAStrangerWhereNobodyComparesBits) {
   EXPECT_EQ(verdict(), lockstep::Verdict::kAccepted);
 }
 
-// Serial and CAN check this: one core version stands for one digest
-// (tests/golden/core_versions.txt).
+// One core version stands for one digest (tests/golden/core_versions.txt).
 TEST_F(Lockstep, RefusesAnotherCoreByName) {
   lockstep::Hello theirs{.core_version = kCoreVersion,
                          .params_size = sizeof(Params),

@@ -10,7 +10,7 @@
 #include "host/twin/bus/virtual_bus.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
-// The modem on a robot's bus: Write sends, Read receives.
+// Write sends, Read receives.
 
 namespace verp::bus {
 namespace {
@@ -44,7 +44,7 @@ class Modem : public ::testing::Test {
     bus.add(std::move(device));
   }
 
-  /// Error, then data; empty if there is no answer.
+  /// Error, then data; empty: no answer.
   Bytes answer(const Bytes& frame) {
     bus.send(frame.data(), frame.size());
     Bytes bytes(512);

@@ -9,7 +9,7 @@
 #include "host/twin/bus/virtual_bus.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
-// The operator's port on the whole loop: real core, virtual servos, raw bytes.
+// Real core, virtual servos, raw bytes.
 namespace verp {
 namespace {
 
@@ -25,7 +25,7 @@ class OperatorOnTheLoop : public ::testing::Test {
     device.order(0);
   }
 
-  /// Sends a frame, serves the port, and returns the reply's data.
+  /// Returns the reply's data.
   std::vector<std::uint8_t> ask(std::size_t size) {
     EXPECT_EQ(wire.right().write(frame, size, 0), size);
     while (device.poll()) {
@@ -120,12 +120,12 @@ TEST_F(OperatorOnTheLoop, ATuningWriteIsInTheInputsOfExactlyOneTickAndThenInForc
 TEST_F(OperatorOnTheLoop, AnUnpluggedServoIsSeenInTheTableOfDevices) {
   const auto ticks = [&](int count) {
     for (int i = 0; i < count; ++i) {
-      plant.motion.gyro_count[0] ^= 1;  // an IMU that repeats itself counts as stale
+      plant.motion.gyro_count[0] ^= 1;  // an IMU that repeats itself is stale
       loop.tick();
     }
   };
   ticks(10);
-  constexpr int kJoint = 20;  // answers last, so its silence stops no other
+  constexpr int kJoint = 20;  // answers last
   bus.set_connected(params.joint[kJoint].servo_id, false);
   ticks(60);
   device.report({.bus = loop.counters(), .bus_crc_errors = loop.crc_errors()});

@@ -37,7 +37,6 @@ struct PipePair {
   Pipe to_controller;
 };
 
-/// A stream for firmware/app/remote_bus.hpp.
 struct PipeEnd {
   std::size_t read_some(void* data, std::size_t capacity) {
     const ssize_t count = ::read(pipe.read_end(), data, capacity);
@@ -56,7 +55,7 @@ struct PipeEnd {
   Pipe& pipe;
 };
 
-/// The streams of the bus::BusServer at the other end.
+/// For a bus::BusServer at the other end.
 inline bus::ByteStreams server_streams(PipePair& pipes) {
   return {
       .read_some = [end = PipeEnd{pipes.from_controller}](

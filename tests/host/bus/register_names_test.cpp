@@ -33,7 +33,7 @@ TEST(RegisterNames, EveryKnownModelHasANameAndOrderedRegisters) {
   }
 }
 
-// Neighbouring registers check each other's sizes: the table has gaps only where the e-Manual has.
+// Neighbours check each other: the table has only the e-Manual's gaps.
 TEST(RegisterNames, ServoRegistersHaveTheManualsSizes) {
   const auto size = [](const char* name) {
     return find_register(dxl::kModelXm430W350, name)->bytes();
@@ -46,7 +46,7 @@ TEST(RegisterNames, ServoRegistersHaveTheManualsSizes) {
   EXPECT_EQ(size("homing_offset"), 4u);
 }
 
-// Users need one of the clock's registers; the rest is for controllers.
+// Users need one of them.
 TEST(RegisterNames, TheTwinsClockIsNamed) {
   EXPECT_EQ(model_name(lockstep::kClockModel), "twin's clock");
   const NamedRegister* upright = find_register(lockstep::kClockModel, "set_upright");
@@ -67,7 +67,7 @@ TEST(RegisterNames, TheControllersPageIsWhatTheTableSays) {
       << "out of date: ./verp bus registers > firmware/app/registers.md";
 }
 
-// The e-Manual's bits (Hardware Error Status, 70), and an unknown one.
+// e-Manual, Hardware Error Status (70), and an unknown bit.
 TEST(RegisterNames, HardwareErrorsAreToldInWords) {
   EXPECT_EQ(hardware_errors(0x01), "input voltage");
   EXPECT_EQ(hardware_errors(0x04 | 0x20), "overheating, overload");

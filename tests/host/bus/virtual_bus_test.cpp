@@ -88,7 +88,7 @@ TEST_F(VirtualBus, BroadcastPingIsAnsweredByAllInOrderOfId) {
 }
 
 TEST_F(VirtualBus, BytesAndReturnDelayTakeTheirTime) {
-  // 14 bytes out, 250 * 2 us, 15 bytes back, 5 us each at 2 Mbaud.
+  // 14 bytes out, 250 * 2 us, 15 back, 5 us each.
   read(1, at::kHomingOffset, 4);
   EXPECT_EQ(bus.now_us(), 14u * 5 + 500 + 15 * 5);
   EXPECT_EQ(write(1, at::kReturnDelay, {0}), 0);
@@ -192,7 +192,7 @@ TEST_F(VirtualBus, RefusesWritesAsTheProtocolSays) {
 }
 
 TEST_F(VirtualBus, ARefusedWriteChangesNothing) {
-  // Only the operating mode is invalid.
+  // The operating mode is invalid.
   EXPECT_EQ(write(1, at::kReturnDelay, {0, 4, 99}), code(dxl::Error::kDataRange));
   EXPECT_EQ(read(1, at::kReturnDelay, 3).data, (Bytes{250, 0, 3}));
 }
@@ -293,7 +293,7 @@ TEST_F(VirtualBus, StatusLevelOneAnswersReadsButNotWrites) {
   EXPECT_EQ(read(1, at::kLed, 1).data, Bytes{1});
 }
 
-// Counted from power-up, the wait would already be over and a master would wait forever.
+// Counted from power-up, the wait would be over.
 TEST_F(VirtualBus, AWaitForNobodysAnswerEndsItsTimeAfterTheRequest) {
   for (const bool real_time : {false, true}) {
     bus::VirtualBus line{params, plant};

@@ -6,7 +6,7 @@
 
 namespace verp::test {
 
-/// An operator that walks from tick 20, and a recorder.
+/// Walks from tick 20 and records.
 struct Walker {
   app::OperatorOrder order(std::uint32_t tick) const {
     app::OperatorOrder order;

@@ -9,13 +9,10 @@
 #include "host/show/render/renderer.hpp"
 #include "host/show/scene/build.hpp"
 
-// The camera's shortcuts cost no more picture quality than stated.
-
 namespace verp::render {
 namespace {
 
-/// A line tilted by `angle_rad`, dark on its left, bright on its right; each pixel is the mean of n
-/// x n samples.
+/// Tilted; dark left, bright right; each pixel is the mean of n x n samples.
 Image line(double angle_rad, double shift_px, int n) {
   constexpr int kWidth = 64, kHeight = 48, kDark = 40, kBright = 200;
   Image image{{kWidth, kHeight}, {}};
@@ -70,8 +67,7 @@ TEST(SmoothedEdges, LeaveWhatIsEvenAndWhatIsLevelAlone) {
   }
 }
 
-/// Objects of every size all around the eye, one at a time: the picture shows whatever a pixel's
-/// ray meets.
+/// Objects of every size around the eye, one at a time.
 TEST(LeftOutOfAPicture, IsNothingOfWhichAPixelIsToBeSeen) {
   OffscreenContext context;
   Renderer renderer;
@@ -101,7 +97,7 @@ TEST(LeftOutOfAPicture, IsNothingOfWhichAPixelIsToBeSeen) {
     const scene::Vec3 at = scene::Vec3(any(random), any(random), any(random));
     if (at.norm() < ball.size_m.x() + 0.1) continue;
     ball.pose.translation() = camera.eye_m + at;
-    // The driver's ball has flat faces; a ball of 0.97 of its radius fits inside.
+    // The drawn ball has flat faces; 0.97 of its radius fits inside.
     const double cosine = std::cos(std::asin(0.97 * ball.size_m.x() / at.norm()));
     int met = 0;
     for (int y = 0; y < size.height; ++y) {

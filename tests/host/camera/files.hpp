@@ -11,7 +11,7 @@
 
 namespace verp::camera::test {
 
-/// generic21 with another camera, and a world with a red ball, as the test's own files.
+/// generic21 with another camera, and a world with a red ball.
 class Files {
  public:
   Files() {
@@ -27,7 +27,7 @@ class Files {
 
   const std::filesystem::path& folder() const { return folder_; }
 
-  /// A robot whose sensor has this `type` and `inner` in its <camera>.
+  /// With this `type` and `inner` in <camera>.
   std::string robot(const std::string& type, const std::string& inner) const {
     std::ifstream in(model::find_model("generic21"));
     std::string text{std::istreambuf_iterator<char>(in), {}};
@@ -41,7 +41,7 @@ class Files {
     return write("robot.sdf", text);
   }
 
-  /// A world with the ball, radius 0.05 m, at `x y z`.
+  /// The ball of 0.05 m is at `x y z`.
   std::string world(const std::string& ball) const {
     return write("world.sdf", R"(<?xml version="1.0"?>
 <sdf version="1.9" xmlns:verp="https://verp.dev/sdf/1"><world name="balls">

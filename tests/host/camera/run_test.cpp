@@ -14,7 +14,7 @@
 #include "host/trace/record/trace.hpp"
 #include "tests/host/tool/program.hpp"
 
-// Cameras do not change a run; its trace has all their pictures, in time.
+// The trace has all pictures, in time.
 
 namespace verp::tool::test {
 namespace {

@@ -11,7 +11,7 @@
 #include "host/show/scene/build.hpp"
 #include "tests/host/camera/files.hpp"
 
-// Objects appear where the lens puts them, at their distance, with the file's noise.
+// Objects appear where the lens puts them, with the file's noise.
 
 namespace verp::camera::test {
 namespace {
@@ -22,7 +22,7 @@ constexpr const char* kSkew =
 constexpr const char* kBarrel =
     "<distortion><k1>-0.25</k1><k2>0.08</k2><k3>0</k3><p1>0.002</p1><p2>-0.003</p2></distortion>";
 
-/// Stands at the origin and looks along x at the ball.
+/// Looks along x from the origin.
 struct Sight {
   Files files;
   model::Entity robot;
@@ -74,8 +74,7 @@ Eigen::Vector2d red_middle(const render::Image& image) {
   return sum / count;
 }
 
-/// The centre of the ball's outline, pixel by pixel of its solid angle. Off the axis the outline is
-/// an oval, whose centre is not the ball's.
+/// Of the ball's outline, by solid angle. Off the axis the outline is an oval with another centre.
 Eigen::Vector2d outline_middle(const model::CameraSensor& camera, const model::Vec3& ball_lens_m) {
   constexpr double kRadius_m = 0.05;
   const double distance_m = ball_lens_m.norm();
@@ -109,7 +108,7 @@ TEST(Sight, ABallIsInThePictureWhereTheLensHasIt) {
     const model::Vec3 in_lens =
         model::in_lens(sight.camera, sight.link().inverse() * model::Vec3(x, y, z));
     const Eigen::Vector2d expected = outline_middle(sight.camera, in_lens);
-    // The ball's centre projects within two pixels by the lens' own formula.
+    // Within two pixels by the lens' own formula.
     EXPECT_LT((expected - model::pixel_of(sight.camera, in_lens.head<2>() / in_lens.z())).norm(), 2)
         << lens << ball;
     EXPECT_LT((red_middle(image) - expected).norm(), 1) << lens << ball;
@@ -129,7 +128,7 @@ TEST(Sight, DepthIsThatOfTheFloorToItsMillimetre) {
         const model::Vec3 ray = eye.linear() * model::Vec3(1, -direction->x(), -direction->y());
         const double depth_m = -eye.translation().z() / ray.z();
         if (depth_m > 3) continue;
-        // Per pixel downwards; with a lens the nearest drawn pixel counts.
+        // Per pixel downwards; a lens takes the nearest drawn pixel.
         const double slope_m = depth_m * depth_m / (sight.camera.fy_px * eye.translation().z());
         EXPECT_NEAR(sight.value(x, y), 1000 * depth_m, 1 + (*lens == 0 ? 0 : 600 * slope_m))
             << x << ' ' << y << lens;
@@ -180,7 +179,7 @@ TEST(Sight, NoiseIsAsTheFileSaysAndOfTheSeedAndTheTimeAlone) {
   };
   const render::Image clean = image(Sight("camera", "", "0.8 0 0.4"));
   const render::Image noisy = image(Sight("camera", noise, "0.8 0 0.4"));
-  // A normal distribution's mean deviation is 0.8 sigma; white and black clip some.
+  // A normal distribution's mean deviation; white and black clip some.
   EXPECT_NEAR(apart(clean, noisy), 0.798 * 255 * 0.02, 0.5);
   EXPECT_EQ(noisy.rgb, image(Sight("camera", noise, "0.8 0 0.4")).rgb);
   EXPECT_GT(apart(noisy, image(Sight("camera", noise, "0.8 0 0.4", 2000))), 1);

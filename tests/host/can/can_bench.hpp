@@ -12,7 +12,7 @@
 
 namespace verp::test {
 
-/// `joints` CiA 402 drives with nodes from 1, an IMU and two feet, 1 Mbit/s, 10 ms.
+/// CiA 402 drives from node 1, an IMU and two feet, 1 Mbit/s, 10 ms.
 inline Params can_params(int joints) {
   constexpr float kCountsPerRad = 16384 / 6.2831853F;
   Params params = bus_params(joints);
@@ -23,7 +23,6 @@ inline Params can_params(int joints) {
   return params;
 }
 
-/// A master independent of the firmware's.
 class CanBench {
  public:
   explicit CanBench(int joints) : CanBench(can_params(joints)) {}

@@ -11,7 +11,6 @@
 
 #include "common/protocol/canopen/sdo.hpp"
 
-// The PC identifies nodes by SDO and reports a silent one.
 namespace verp::can {
 namespace {
 
@@ -31,11 +30,11 @@ struct Object {
   }
 };
 
-/// Nodes whose objects have four bytes; waiting takes no wall time.
+/// Objects of four bytes; waiting takes no wall time.
 class FakeNodes final : public ClientBus {
  public:
   bool send(const CanFrame& frame) override {
-    if (frame.data[0] >> 5 != canopen::sdo::request::kUpload) return true;  // aborts of the client
+    if (frame.data[0] >> 5 != canopen::sdo::request::kUpload) return true;  // the client's aborts
     const bool further = frame.id == 0x6D2;
     if (further && !has_further_channel) return true;
     const Object object{static_cast<std::uint8_t>(further ? 127 : frame.id - 0x600),
@@ -43,7 +42,7 @@ class FakeNodes final : public ClientBus {
     by_further += further ? 1 : 0;
     const int times = ++asked[object];
     if (silent && silent(object, times)) return true;
-    if (!holds.contains({object.node, {0x1000, 0}})) return true;  // no node has this id
+    if (!holds.contains({object.node, {0x1000, 0}})) return true;  // an absent node
     answers_.push_back(answer(object));
     if (further) answers_.back().id = 0x6C2;
     if (after_answer) after_answer(object);
@@ -73,11 +72,11 @@ class FakeNodes final : public ClientBus {
   /// Another client's answer.
   void overhear(const Object& object) { answers_.push_back(answer(object)); }
 
-  bool has_further_channel = false;  ///< node 127 has the channel of 1202h
-  int by_further = 0;                ///< requests by it
+  bool has_further_channel = false;  ///< at node 127, by 1202h
+  int by_further = 0;
   std::map<Object, std::uint32_t> holds;
   std::map<Object, int> asked;
-  std::function<bool(const Object&, int times)> silent;  ///< true: no answer
+  std::function<bool(const Object&, int times)> silent;
   std::function<void(const Object&)> after_answer;
 
  private:
@@ -123,7 +122,7 @@ TEST_F(CanClient, WhatGotNoAnswerIsAskedOnceMore) {
   EXPECT_EQ(found->revision, 1u);
 }
 
-// The late answer meets the next request. The resulting abort is no refusal.
+// The late answer meets the next request, whose abort is no refusal.
 TEST_F(CanClient, WhatALateAnswerSpoiltIsAskedOnceMore) {
   nodes.add(19);
   nodes.silent = [&](const Object& object, int times) {
@@ -140,7 +139,7 @@ TEST_F(CanClient, WhatALateAnswerSpoiltIsAskedOnceMore) {
   EXPECT_EQ((nodes.asked[{19, {0x1018, 1}}]), 2);
 }
 
-// The node may fall silent at any object. The client does not wait for each remaining one.
+// It may fall silent at any object. The client does not wait for each.
 TEST_F(CanClient, ANodeThatFallsSilentIsToldApartFromOneThatRefuses) {
   for (const Address last :
        {Address{0x1000, 0}, Address{0x1008, 0}, Address{0x1018, 1}, Address{0x1018, 2}}) {
@@ -179,7 +178,7 @@ TEST_F(CanClient, AScanOfNobodyFindsNobody) {
   EXPECT_TRUE(client.scan().empty());
 }
 
-// Another client's transfer only shows that the node is there.
+// It only shows that the node is there.
 TEST_F(CanClient, AnAnswerToAnothersRequestIsNotTakenForADeviceType) {
   nodes.add(19);
   nodes.add(3);
@@ -196,7 +195,7 @@ TEST_F(CanClient, AnAnswerToAnothersRequestIsNotTakenForADeviceType) {
   EXPECT_EQ(found[1].device_type, 0x20192u);
 }
 
-// Another client reads the same object by the default channel, with another value.
+// Another client reads the same object by the default channel.
 TEST_F(CanClient, TheControllersNodeIsAskedByAChannelOfItsOwn) {
   nodes.add(127);
   nodes.has_further_channel = true;
@@ -222,7 +221,7 @@ TEST_F(CanClient, ANode127WithoutThatChannelIsAskedByTheDefaultOne) {
   EXPECT_EQ(found->product, 0x200u + 127);
 }
 
-// Ctrl-C in a scan; the result is marked as incomplete.
+// The result is marked as incomplete.
 TEST_F(CanClient, AScanThatIsStoppedHasWhatItFoundSoFar) {
   for (const int node : {3, 19, 100}) nodes.add(static_cast<std::uint8_t>(node));
   bool over = false;

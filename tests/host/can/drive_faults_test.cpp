@@ -3,8 +3,6 @@
 #include "host/twin/can/device_node.hpp"
 #include "tests/host/can/virtual_drive.hpp"
 
-// When a virtual CiA 402 drive releases its joint.
-
 namespace verp {
 namespace {
 
@@ -16,7 +14,7 @@ namespace cia402 = canopen::cia402;
 namespace plan = canopen::plan;
 namespace object = canopen::cia402::object;
 
-// CAN's counterpart of the serial servos' Bus Watchdog.
+// As Bus Watchdog on serial servos.
 TEST_F(VirtualDrive, HoldsByItselfWhenItsMasterIsSilent) {
   bench.enable(kNode);
   target(9000);
@@ -99,7 +97,7 @@ TEST_F(VirtualDrive, AMasterThatIsSilentBeforeThereIsTorqueIsToldAndIsNoFault) {
   EXPECT_EQ(bench.value(kNode, object::kErrorCode), 0);
 }
 
-// A faulty tool may write any home offset.
+// Any home offset is possible.
 TEST_F(VirtualDrive, ItsCounterGoesOnAtTheOtherEndOf32Bits) {
   measured().position_count = 10;
   bench.write(kNode, object::kHomeOffset, -0x7FFFFFFF, 4);
@@ -128,7 +126,7 @@ TEST_F(VirtualDrive, OverheatingIsAFaultUntilItIsCool) {
   EXPECT_EQ(bench.value(kNode, object::kErrorCode), 0);
 }
 
-// 18 V is low for a motor of 24 V and high for one of 12 V.
+// 18 V is low for 24 V, high for 12 V.
 TEST_F(VirtualDrive, WhatSupplyIsLowOrHighIsThatOfItsMotor) {
   bench.plant.rated.nominal_v = 24;
   bench.bus.plug_in(std::make_unique<can::DriveNode>(can::drive_identity(402, 50), 50, bench.plant,

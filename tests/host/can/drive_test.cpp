@@ -3,8 +3,6 @@
 #include "host/twin/can/device_node.hpp"
 #include "tests/host/can/virtual_drive.hpp"
 
-// A virtual CiA 402 drive's objects, seen by a master.
-
 namespace verp {
 namespace {
 
@@ -145,7 +143,7 @@ TEST_F(VirtualDrive, AQuickStopEndsTorqueOrHoldsAsItsOptionSays) {
   EXPECT_EQ(bench.state(kNode), State::kOperationEnabled) << "option 6 lets it go on";
 }
 
-// A CiA 402 master waits for it after starting a drive.
+// A CiA 402 master waits for it.
 TEST_F(VirtualDrive, TellsItsStatuswordWheneverItBecomesOperational) {
   using canopen::NmtCommand;
   for (const NmtCommand first : {NmtCommand::kResetNode, NmtCommand::kResetCommunication,
@@ -171,7 +169,7 @@ TEST_F(VirtualDrive, MeasuresSpeedAndTorque) {
   EXPECT_EQ(bench.value(kNode, object::kActualTorque), -250);
 }
 
-// The drive gives its increments per turn and its rated values.
+// Increments per turn and rated values.
 TEST_F(VirtualDrive, GivesPositionAndTorqueTheirScale) {
   EXPECT_EQ(bench.value(kNode, {0x608F, 0}), 2);
   EXPECT_EQ(bench.value(kNode, {0x608F, 1}), 16384);

@@ -16,7 +16,7 @@
 #include "host/twin/can/virtual_can.hpp"
 #include "host/twin/sim/robot.hpp"
 
-// Joint velocity and torque, from the physics to a client of the controller's node.
+// From the physics to a client of the controller's node.
 namespace verp::can {
 namespace {
 
@@ -25,11 +25,11 @@ using Controller = app::OperatorNode<VirtualCan, Log>;
 
 enum Effort : unsigned { kVelocity, kTorque, kEfforts };
 
-/// A joint's range between a drive's request and answer.
+/// Between a drive's request and answer.
 struct Truth {
   std::int32_t least = 0, most = 0;
   std::uint64_t at_us = 0;
-  unsigned number = 0;  ///< of the request
+  unsigned number = 0;
 
   void take(std::int32_t value) {
     least = std::min(least, value);
@@ -38,8 +38,7 @@ struct Truth {
   bool holds(std::int32_t value) const { return least <= value && value <= most; }
 };
 
-/// Reads joint_velocity and joint_torque from the controller's node in turn, and hears the
-/// controller's requests to its drives.
+/// Reads joint_velocity and joint_torque, and hears the controller's requests.
 class Reader : public Node {
  public:
   Reader(const Params& params, sim::Plant& plant) : params_(params), plant_(plant) {}
@@ -66,7 +65,7 @@ class Reader : public Node {
   std::array<std::int32_t, kEfforts> largest{};
 
  private:
-  /// A drive whose telemetry is then due loses a turn.
+  /// A drive with telemetry due loses a turn.
   static constexpr unsigned kTurns = 2;
 
   int joint() const { return next_ % params_.joint_count; }
@@ -109,8 +108,7 @@ class Reader : public Node {
     }
   }
 
-  // The value may be of the turn before if the answer came only with the end of this tick or the
-  // next.
+  // It may be of the turn before if the answer came late.
   void judge(std::uint64_t now_us) {
     const std::int32_t told = effort() == kVelocity
                                   ? static_cast<std::int32_t>(canopen::get_le(bytes_.data(), 4))
@@ -132,7 +130,7 @@ class Reader : public Node {
   canopen::SdoClient client_{Controller::kNode};
   std::array<std::uint8_t, 4> bytes_{};
   int next_ = 0;
-  unsigned requests_ = 0;  ///< by the controller, for efforts
+  unsigned requests_ = 0;  ///< for efforts
   std::array<std::array<Truth, kMaxJoints>, kEfforts> last_{}, before_{};
 };
 
@@ -152,8 +150,8 @@ struct Desk {
   Controller& node;
 };
 
-// Each value is exact to the count and at most two turns old. A turn is 21 drives' velocities and
-// torques, one request in four ticks.
+// Exact to the count and at most two turns old. A turn is 21 drives' velocities and torques, one
+// request in four ticks.
 TEST(Efforts, ReadFromAWalkingControllersNodeAreWhatEachJointDidInItsTurn) {
   const model::Entity entity = model::load_robot(model::find_model("generic21"), "can");
   const Params params = model::make_params(entity);

@@ -35,8 +35,7 @@ TEST(BusLoad, TwentyOneDrivesAt125HzStayUnder70PercentAtWorst) {
   EXPECT_FALSE(row.no_room);
 }
 
-// The live check is on by default where it fits. It takes two frames of eight bytes a tick, no more
-// with the IMU on the bus.
+// The live check takes two frames of eight bytes a tick, no more with the IMU on the bus.
 TEST(BusLoad, TheLiveCheckFitsBeside21DrivesAt125Hz) {
   Params params = test::can_params(21);
   const LoadRow row = row_of(can::load_table(params, kDataBaud), 125, 1, false);
@@ -50,7 +49,7 @@ TEST(BusLoad, TheLiveCheckFitsBeside21DrivesAt125Hz) {
   EXPECT_FALSE(plan::has_room_to_publish(params, false));
 }
 
-// The counts take twelve bytes, two frames a tick. Without an IMU on the bus, its frames are saved.
+// Twelve bytes; the IMU's own frames are saved.
 TEST(BusLoad, AnOwnImuIsToldInTwoFramesMore) {
   Params params = test::can_params(21);
   const plan::TickLoad load(params, {});
@@ -67,7 +66,7 @@ TEST(BusLoad, AnOwnImuIsToldInTwoFramesMore) {
   EXPECT_FALSE(plan::has_room_to_publish(params, true)) << "the device on the bus answers as well";
 }
 
-// Orders are not part of each tick, but need room.
+// Orders need room beside the ticks.
 TEST(BusLoad, NewOrdersInEachTickFitBesideTheLiveCheck) {
   const Params params = test::can_params(21);
   const plan::TickLoad load(params, {});
@@ -89,7 +88,7 @@ TEST(BusLoad, AFasterTickNeedsTwoBusesOrFd) {
   EXPECT_FALSE(row_of(rows, 200, 1, true).no_room);
 }
 
-// The named drive is the first without room; those before it fit.
+// The first drive without room is named.
 TEST(BusLoad, WhatDoesNotFitIsNamed) {
   Params params = test::can_params(21);
   const int first = row_of(can::load_table(params, kDataBaud), 200, 1, false).no_room.value_or(21);
@@ -119,8 +118,7 @@ TEST(BusLoad, GrowsWithTheRateAndShrinksWithBusesAndFd) {
   }
 }
 
-// Each bus carries half of the drives; only SYNC, heartbeat, controlword and telemetry are there
-// twice.
+// Only SYNC, heartbeat, controlword and telemetry are there twice.
 TEST(BusLoad, TwoBusesShareTheDrives) {
   const std::vector<LoadRow> rows = can::load_table(test::can_params(21), kDataBaud);
   const LoadRow one = row_of(rows, 100, 1, false);
@@ -129,12 +127,12 @@ TEST(BusLoad, TwoBusesShareTheDrives) {
   EXPECT_LE(two.bits_bare, one.bits_bare * 2 / 3);
 }
 
-/// Sets the robot up by the plan and runs ticks like its controller.
+/// Sets the robot up and runs ticks.
 class PlannedTicks {
  public:
   explicit PlannedTicks(const Params& params) : bench(params) {}
 
-  /// Bits per tick match `row` within 5 %, with and without stuff bits.
+  /// Within 5 %, with and without stuff bits.
   void expect(const LoadRow& row) {
     set_up_all();
     std::uint64_t bare = 0, exact = 0;
@@ -219,7 +217,7 @@ TEST(PlannedTicks, PutOnTheWireWhatTheTableSays) {
   PlannedTicks(params).expect(row_of(can::load_table(params, kDataBaud), 100, 1, false));
 }
 
-// The fuller bus: the first half of the drives, and the IMU.
+// Half of the drives, and the IMU.
 TEST(PlannedTicks, OfAHalfRobotAreThoseOfTwoBuses) {
   const LoadRow row = row_of(can::load_table(test::can_params(21), kDataBaud), 200, 2, false);
   Params half = test::can_params(11);

@@ -13,7 +13,7 @@
 #include "tests/host/bus/walker.hpp"
 #include "tests/host/can/served_can.hpp"
 
-// The whole control loop over CAN, with its twin in this process or behind a bus.
+// The twin is in this process or behind a bus.
 namespace verp::can {
 namespace {
 
@@ -68,7 +68,7 @@ class CanLoop : public ::testing::Test {
     };
     return hooks;
   }
-  /// No frame reports the last tick's end, so the PC lacks that tick.
+  /// No frame reports the last tick's end.
   void expect_shadowed(std::vector<TickRecord> records) {
     EXPECT_EQ(shadow.difference(), "");
     records.pop_back();
@@ -84,7 +84,7 @@ class CanLoop : public ::testing::Test {
   Params params = can_robot();
   test::FakePlant plant;
   VirtualCan twin{params, plant};
-  /// Gives orders when the twin learns of a tick's beginning, like `verp hil`.
+  /// Orders come as a tick begins, like in `verp hil`.
   struct Linked : test::Walker {
     app::OperatorOrder order(std::uint32_t) {
       const app::OperatorOrder given = latest;
@@ -126,7 +126,6 @@ TEST_F(CanLoop, RecordsTheSameBitsOverABusThatLosesAnswers) {
   EXPECT_GT(wire.faults, 100u);
 }
 
-// The run goes on although frames to the twin are lost.
 TEST_F(CanLoop, IsKnownBitByBitThoughItsFramesAreLost) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   auto loop = std::make_unique<app::App<decltype(bus), Linked, Linked>>(params, bus, operator_link,
@@ -138,7 +137,7 @@ TEST_F(CanLoop, IsKnownBitByBitThoughItsFramesAreLost) {
   expect_shadowed(operator_link.records);
 }
 
-// The twin misses one tick's beginning, or two in a row.
+// One tick's beginning, or two in a row.
 TEST_F(CanLoop, IsKnownBitByBitThoughBeginningsOfTicksAreLost) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   auto loop = std::make_unique<app::App<decltype(bus), Linked, Linked>>(params, bus, operator_link,
@@ -152,7 +151,7 @@ TEST_F(CanLoop, IsKnownBitByBitThoughBeginningsOfTicksAreLost) {
   expect_shadowed(operator_link.records);
 }
 
-// The shadow names the first tick whose frames differ from this PC's.
+// The shadow names the first such tick.
 TEST_F(CanLoop, FramesOfAnotherControllerAreNoticed) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   test::Walker walker;

@@ -10,8 +10,7 @@
 #include "tests/host/bus/fake_plant.hpp"
 #include "tests/host/can/served_can.hpp"
 
-// A controller behind a CAN bus that may lose, double and reorder frames. The twin's time waits for
-// the controller.
+// The bus may lose, double and reorder frames. The twin waits for the controller.
 namespace verp::can {
 namespace {
 
@@ -34,7 +33,7 @@ struct Heard {
 
 constexpr int kTicks = 200;
 
-/// Starts the nodes, then sends rounds of goals and SYNCs.
+/// Starts nodes, then sends goals and SYNCs.
 template <hal::CanBus Bus>
 std::vector<Heard> drive(const Params& params, Bus& bus) {
   constexpr std::uint32_t kTimeout_us = 700;
@@ -102,7 +101,7 @@ class CanLockstep : public ::testing::Test {
   Bus bus{wire, Patient{&patience}};
 };
 
-// The frames come at the same microsecond here and behind a bus.
+// At the same microsecond.
 TEST_F(CanLockstep, BringsWhatABusInThisProcessBrings) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   const std::vector<Heard> heard = drive(params, bus);
@@ -123,7 +122,7 @@ TEST_F(CanLockstep, MakesGoodWhatIsLostOrDoubledOnTheWayToTheController) {
   EXPECT_EQ(bus.counters().damaged, 0u);
 }
 
-// A controller's mailboxes let SYNC overtake, because priorities differ.
+// Priorities differ, so SYNC may overtake.
 TEST_F(CanLockstep, TakesNoHarmFromAnotherOrderOnTheWay) {
   wire.outbound = {.swapped = 0.5};
   wire.inbound = {.swapped = 0};
@@ -153,7 +152,7 @@ TEST(CanSetUpright, IsAMessageOfTheTwinsClock) {
   EXPECT_TRUE(server.unannounced().empty()) << "no frame of the robot's bus";
 }
 
-// The smallest receive FIFO. It holds a whole answer, so a slow controller loses nothing.
+// The smallest receive FIFO holds a whole answer.
 TEST_F(CanLockstep, AnAnswerFitsAnSja1000) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   wire.most_room = 0;
@@ -162,7 +161,7 @@ TEST_F(CanLockstep, AnAnswerFitsAnSja1000) {
   EXPECT_LE(wire.most_room, 64u);
 }
 
-// The live check, for example, sends such requests.
+// For example the live check's.
 TEST_F(CanLockstep, AnAnswerFitsAnSja1000WithARequestToTheController) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   wire.most_room = 0;
@@ -185,7 +184,7 @@ TEST_F(CanLockstep, KeepsNoRequestsForAControllerThatIsGone) {
   EXPECT_EQ(wire.requests_heard, 4u);
 }
 
-// Both ends count the lost frame, and the run goes on.
+// Both ends count the lost frame.
 TEST_F(CanLockstep, LetsALostFrameBeLostOnTheBus) {
   wire.outbound = {.lost = 0.01, .doubled = 0.01};
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
@@ -195,7 +194,6 @@ TEST_F(CanLockstep, LetsALostFrameBeLostOnTheBus) {
   EXPECT_FALSE(bus.lost());
 }
 
-// Other devices share the interface; both ends ignore their frames.
 TEST_F(CanLockstep, IgnoresWhatOthersSay) {
   wire.outbound = {.foreign = 0.1};
   wire.inbound = {.foreign = 0.1};

@@ -15,7 +15,7 @@
 #include "host/twin/can/virtual_can.hpp"
 #include "host/twin/sim/robot.hpp"
 
-// A walk ordered on the drives' bus with only host/guide/canopen.md's bytes.
+// With host/guide/canopen.md's bytes only.
 namespace verp::can {
 namespace {
 
@@ -30,7 +30,7 @@ constexpr Bytes kWalk = {0x2F, 0x50, 0x20, 0, 2, 0, 0, 0};
 constexpr Bytes kAhead = {0x2B, 0x52, 0x20, 0, 0x2C, 0x01, 0, 0};
 constexpr Bytes kMode = {0x40, 0x90, 0x20, 0, 0, 0, 0, 0};
 
-/// A third-party tool; keeps node 127's last answer.
+/// Keeps node 127's last answer.
 class Tool : public Node {
  public:
   std::uint8_t id() const override { return 126; }
@@ -75,7 +75,7 @@ class OrderedByItsNode : public ::testing::Test {
   void run(int ticks) {
     for (int i = 0; i < ticks; ++i) loop->tick();
   }
-  /// The answer must come within a few ticks and have this command byte.
+  /// Within a few ticks, with this command byte.
   void ask(const Bytes& request, std::uint8_t command) {
     const int before = tool->answers;
     tool->requests.push_back(request);
@@ -83,7 +83,7 @@ class OrderedByItsNode : public ::testing::Test {
     ASSERT_EQ(tool->answers, before + 1);
     EXPECT_EQ(tool->answer[0], command) << int{request[0]} << ' ' << int{request[4]};
   }
-  /// Repeats the order at 10 Hz.
+  /// At 10 Hz.
   void repeat(const Bytes& order, int times) {
     for (int i = 0; i < times; ++i) {
       ask(order, 0x60);
@@ -114,7 +114,7 @@ class OrderedByItsNode : public ::testing::Test {
 TEST_F(OrderedByItsNode, WalksWhileItIsOrderedToAndStandsWhenTheOrdersEnd) {
   ASSERT_EQ(loop->bring_up().status, app::BringUpStatus::kReady);
   run(2);
-  ask(kStand, 0x80);  // refused before the first relax
+  ask(kStand, 0x80);
   ask(kRelax, 0x60);
   EXPECT_EQ(told_mode(), Mode::kRelaxed);
   repeat(kStand, 30);

@@ -51,7 +51,7 @@ TEST_F(OtherNodesTest, WhatAMasterOrAnotherRobotSendsIsNone) {
   EXPECT_EQ(others.found(), 0);
 }
 
-// These are cangen's frames: half have all eight bytes, like most nodes' answers.
+// cangen's frames: half have eight bytes, like most answers.
 TEST_F(OtherNodesTest, AFewRandomFramesAreNone) {
   std::mt19937 random(1);
   for (int run = 0; run < 10'000; ++run) {

@@ -7,7 +7,7 @@
 #include "common/protocol/canopen/sync.hpp"
 #include "tests/host/can/can_bench.hpp"
 
-// The twin's bus in wall-clock time, for a master with its own time.
+// In wall-clock time, for a master with its own time.
 namespace verp::can {
 namespace {
 
@@ -20,7 +20,7 @@ CanFrame ask_1000(std::uint8_t node) {
 
 class CanRealTime : public ::testing::Test {
  protected:
-  /// Passes a frame on without delay, as a PC that is never late.
+  /// As a PC that is never late.
   void hear(const CanFrame& frame, std::uint64_t clock_us) { hear(frame, clock_us, clock_us); }
   void hear(const CanFrame& frame, std::uint64_t came_us, std::uint64_t clock_us) {
     server.hear(std::vector{RealtimeServer::ReceivedFrame{frame, came_us}}, clock_us, answer);
@@ -63,7 +63,7 @@ TEST_F(CanRealTime, FramesReachTheBusWhenTheyCame) {
   EXPECT_EQ(begun_us[3], 59'000u);
 }
 
-// They crossed a wire in this order, so no SYNC may overtake.
+// No SYNC may overtake.
 TEST_F(CanRealTime, FramesKeepTheirOrder) {
   std::vector<std::uint32_t> heard;
   bench.bus.set_listener([&](const CanFrame& frame, std::uint64_t, std::uint64_t) {
@@ -89,7 +89,7 @@ TEST_F(CanRealTime, CountsWhatIsFasterThanTheWire) {
   EXPECT_EQ(server.counters().dropped, 1000 - hal::kCanQueue) << "there is room again";
 }
 
-// A slower PC would fall further behind with each turn.
+// A slower PC would fall further behind each turn.
 TEST_F(CanRealTime, SkipsWhatItCannotMakeUpFor) {
   hear(ask_1000(1), 1'000'000);
   EXPECT_TRUE(server.kept_up()) << "nothing was skipped";
@@ -102,7 +102,7 @@ TEST_F(CanRealTime, SkipsWhatItCannotMakeUpFor) {
   }
   EXPECT_FALSE(server.kept_up());
   EXPECT_EQ(server.counters().late, 0u);
-  // A frame from before the skip takes effect now.
+  // From before the skip; it takes effect now.
   hear(ask_1000(1), 10'500'000);
   EXPECT_EQ(bench.bus.now_us(), 1'000'000u);
   for (std::uint64_t clock_us = 11'000'000; clock_us <= 12'100'000; clock_us += 50'000) {
@@ -113,7 +113,7 @@ TEST_F(CanRealTime, SkipsWhatItCannotMakeUpFor) {
   EXPECT_TRUE(server.kept_up()) << "for a second";
 }
 
-// Frames arrive faster than this PC handles them.
+// Frames come faster than this PC handles them.
 TEST_F(CanRealTime, IsNeverFurtherBehindTheClockHoweverOldTheFramesAre) {
   hear(ask_1000(1), 0);
   constexpr std::uint64_t kFrames = 1000, kApart_us = 2000, kTakes_us = 50'000;
@@ -134,8 +134,7 @@ TEST_F(CanRealTime, IsNeverFurtherBehindTheClockHoweverOldTheFramesAre) {
   }));
 }
 
-// The twin's time takes three times as long as the clock's. Earlier, each waiting frame took its
-// own turn, and answers came later and later.
+// The twin takes three times as long as the clock: waiting frames must share turns.
 TEST_F(CanRealTime, WhoAsksMoreOftenThanThereAreTurnsIsAnsweredInTime) {
   hear(ask_1000(1), 0);
   constexpr std::uint64_t kApart_us = 5000, kEnd_us = 10'000'000, kSlow = 3;

@@ -12,13 +12,13 @@
 #include "hal/contract/can_bus.hpp"
 #include "host/twin/can/lockstep_server.hpp"
 
-/// A controller's bus to a server in the same thread, which answers while the controller waits. A
-/// seeded generator loses, doubles or swaps frames.
+/// A controller's bus to a server in the same thread. A seeded generator loses, doubles or swaps
+/// frames.
 namespace verp::can {
 
 struct Odds {
-  double lost = 0, doubled = 0, swapped = 0;  ///< shares of frames
-  double foreign = 0;                         ///< share of frames after another sender's frame
+  double lost = 0, doubled = 0, swapped = 0;  ///< of frames
+  double foreign = 0;                         ///< after another sender's frame
 };
 
 class ServedCan {
@@ -50,11 +50,11 @@ class ServedCan {
 
   Odds outbound, inbound;
   bool cut = false;
-  unsigned lost_beginnings = 0;  ///< so many SYNCs 1 do not reach the server
+  unsigned lost_beginnings = 0;  ///< SYNCs 1 that the server misses
   unsigned faults = 0, strangers = 0;
-  unsigned requests = 0;  ///< for the controller's node, one with each answer
+  unsigned requests = 0;  ///< for the controller's node, with each answer
   unsigned requests_heard = 0;
-  std::size_t most_room = 0;  ///< of one answer, in a receive FIFO
+  std::size_t most_room = 0;  ///< of an answer, in a receive FIFO
 
  private:
   void serve() {
@@ -76,7 +76,7 @@ class ServedCan {
   static CanFrame request() {
     return canopen::classic_frame(canopen::sdo_request_id(canopen::plan::kControllerNode), 8);
   }
-  // CAN keeps the order within one identifier; the clock's frames come last.
+  // CAN keeps an identifier's order; the clock's frames come last.
   void spoil(const CanFrame& frame, const Odds& odds, std::deque<CanFrame>& to) {
     std::uniform_real_distribution<double> chance(0, 1);
     if (odds.foreign > 0 && chance(random_) < odds.foreign) to.push_back(stranger());
@@ -93,7 +93,7 @@ class ServedCan {
     ++faults;
   }
 
-  /// A frame that no controller sends: 29 bits, remote, an unused identifier, or one of a node.
+  /// 29 bits, remote, an unused identifier, or a node's.
   CanFrame stranger() {
     CanFrame frame;
     frame.size = 8;

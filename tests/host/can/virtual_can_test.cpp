@@ -183,7 +183,7 @@ TEST(VirtualCan, CountsFramesThatFindNoRoom) {
   request.data[2] = 0x10;
   for (unsigned round = 0; round < 4; ++round) {
     for (unsigned i = 2; i < hal::kCanQueue; ++i) ASSERT_TRUE(bench.bus.send(request));
-    bench.sync(1);  // sends all that waits, unread
+    bench.sync(1);  // sends all that waits
   }
   unsigned read = 0;
   for (CanFrame frame; bench.bus.poll(frame, 1000);) ++read;

@@ -30,7 +30,7 @@ class VirtualDrive : public ::testing::Test {
     }
     return all;
   }
-  /// Watches the master by 1016h, for `beats` heartbeats 20 ms apart.
+  /// By 1016h, for `beats` heartbeats of 20 ms.
   void watch_master(std::int16_t option, std::int16_t quick_stop, int beats) {
     bench.write(kNode, canopen::cia402::object::kAbortConnection, option, 2);
     bench.write(kNode, canopen::cia402::object::kQuickStopOption, quick_stop, 2);

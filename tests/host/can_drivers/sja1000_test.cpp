@@ -38,7 +38,7 @@ struct Rig {
 };
 using Ids = std::vector<std::uint32_t>;
 
-// 8 MHz of quanta: 1 + 5 before the sample, 2 behind it (data sheet 6.5.1, 6.5.2).
+// Quanta of 8 MHz, 1 + 5 before the sample, 2 behind (data sheet 6.5.1, 6.5.2).
 TEST(Sja1000Driver, OpensWithTheTimingOfItsCrystal) {
   Rig rig;
   EXPECT_FALSE(rig.model.in_reset());
@@ -53,7 +53,7 @@ TEST(Sja1000Driver, RefusesARateThatItsCrystalCannotGive) {
   EXPECT_FALSE(driver.send(numbered(1, 1)));
 }
 
-/// Without a chip all reads give ones, or zeros.
+/// All reads give ones, or zeros.
 struct NoChip {
   std::uint8_t value;
   std::uint8_t read8(std::uint32_t) { return value; }
@@ -90,7 +90,7 @@ TEST(Sja1000Driver, AFrameOnTheWireStaysThereAndIsSentOnce) {
   EXPECT_EQ(rig.heard_ids(), (Ids{0x500, 0x100}));
 }
 
-// The withdrawn frame stays before a later one of its identifier.
+// It stays before a later one of its identifier.
 TEST(Sja1000Driver, WhatGaveWayKeepsItsOrder) {
   Rig rig;
   rig.model.wire.hold(true);

@@ -41,7 +41,7 @@ struct Rig {
 };
 using Ids = std::vector<std::uint32_t>;
 
-// 100 MHz: 5 times 20 quanta, 1 + 15 before the sample, 4 behind it (UG1087, BRPR and BTR).
+// 100 MHz: 5 times 20 quanta, 1 + 15 before the sample, 4 behind (UG1087, BRPR and BTR).
 TEST(ZynqmpCanDriver, OpensWithTheTimingOfItsClock) {
   Rig rig;
   EXPECT_TRUE(rig.model.joined());
@@ -70,7 +70,7 @@ TEST(ZynqmpCanDriver, KnowsThatThereIsNoController) {
 TEST(ZynqmpCanDriver, SendsTheMostUrgentOfThoseThatWait) {
   Rig rig;
   ASSERT_TRUE(rig.driver.send(numbered(0x600, 1)));
-  rig.settle();  // its completion must not count for the next frame
+  rig.settle();  // must not count for the next frame
   rig.model.wire.hold(true);
   for (const std::uint32_t id : {0x500u, 0x400u, 0x100u, 0x300u}) {
     ASSERT_TRUE(rig.driver.send(numbered(id, id)));

@@ -6,8 +6,8 @@
 
 #include "tests/host/compare/traces.hpp"
 
-// The comparison finds delays within 1 ms and offsets within 0.1 degrees per joint under encoder
-// noise. It gives no number that cannot be known.
+// Delays within 1 ms, offsets within 0.1 degrees per joint under encoder noise; unknowable numbers
+// are left out.
 
 namespace verp::compare::test {
 namespace {
@@ -19,7 +19,7 @@ const record::Trace& walk() {
 
 void expect_injected(double delay_s, double offset_rad) {
   const Comparison c = compare(walk(), later(walk(), delay_s, offset_rad));
-  EXPECT_EQ(c.alignment, Alignment::kOrdered);  // these readings do not fit the decisions
+  EXPECT_EQ(c.alignment, Alignment::kOrdered);  // readings do not fit the decisions
   ASSERT_TRUE(c.delay_s);
   EXPECT_NEAR(*c.delay_s, delay_s, 1e-3);
   int with_delay = 0;
@@ -78,7 +78,7 @@ TEST(Compare, RunsThatBeganAtDifferentTimesAreLaidTogetherByWhatTheControllerBeg
   EXPECT_NEAR(*ordered.delay_s, 0, 1e-3);
 }
 
-// The other run is a twin with its own noise, not an edited copy.
+// A twin with its own noise, not an edited copy.
 TEST(Compare, ATwinWhoseServosActLaterIsLateByThat) {
   session::WalkPlan plan = plan_of(5, 2);
   plan.twin.goal_delay_s = 0.010;

@@ -11,7 +11,7 @@
 #include "host/run/session/session.hpp"
 #include "host/trace/record/trace.hpp"
 
-/// The twin's walks, and those of a late, misaligned robot.
+/// The twin's walks, and a late, misaligned robot's.
 namespace verp::compare::test {
 
 inline constexpr double kDegree = std::numbers::pi / 180;
@@ -36,7 +36,7 @@ inline record::Trace trace_of(const session::WalkPlan& plan, const std::string& 
   return trace;
 }
 
-/// Joints `delay_s` later, readings `offset_rad` higher, noise of two counts.
+/// Two counts of noise.
 inline record::Trace later(const record::Trace& a, double delay_s, double offset_rad) {
   record::Trace b = a;
   b.file = "b.mcap";
@@ -59,7 +59,7 @@ inline record::Trace later(const record::Trace& a, double delay_s, double offset
   return b;
 }
 
-/// Recorded from `ticks` ticks later and numbered from there.
+/// Numbered from that tick.
 inline record::Trace begun_later(const record::Trace& a, std::uint32_t ticks) {
   record::Trace b = a;
   b.file = "b.mcap";

@@ -23,7 +23,7 @@ About half_around() {
   return about;
 }
 
-/// A level laser's scan among these walls.
+/// For a level laser.
 struct Wall {
   Point from, to;
 };
@@ -69,7 +69,7 @@ TEST(Packet, NumbersComeBackAndWhatIsShortIsNotGood) {
   EXPECT_EQ(in.kind(), 'X');
   EXPECT_NEAR(in.get(1e-3), -1.234, 1e-9);
   EXPECT_NEAR(in.pose().at_m.y, -0.25, 1e-9);
-  EXPECT_NEAR(in.get(1e-3), 32.767, 1e-9);  // out of range: the largest value
+  EXPECT_NEAR(in.get(1e-3), 32.767, 1e-9);  // out of range
   EXPECT_TRUE(in.good());
   const std::string part = data.substr(0, 5);
   Unpacked more(part);
@@ -93,12 +93,12 @@ TEST(Scan, AThingAheadIsFoundAndAWallIsNone) {
   EXPECT_NEAR(middle_of(about, found[0]).x, 1.0 + kBehindSurface_m, 0.01);
 }
 
-// Leaning forward, it would mistake the floor for a wall.
+// Else it would mistake the floor for a wall.
 TEST(Scan, RaysThatMayHaveMetTheFloorAreLeftOut) {
   const About about = half_around();
   Scan scan = scan_of(about, {}, {{{2, -3}, {2, 3}}});
   EXPECT_GT(hits(about, scan).size(), 50u);
-  scan.pitch_rad = 0.2;  // the ray ahead meets the floor after 1.5 m
+  scan.pitch_rad = 0.2;  // the floor is 1.5 m ahead
   const std::vector<Hit> left = hits(about, scan);
   for (const Hit& hit : left) EXPECT_GT(std::abs(direction_rad(hit.at_m)), 0.3);
 }
@@ -118,7 +118,7 @@ TEST(Estimate, SightsMendWhatOdometryLost) {
   const Pose real{{1.1, 0.15}, 0.1};
   Estimate estimate({{0, 0}, 0}, 0.02, 0.02);
   estimate.move({});
-  for (int i = 1; i <= 100; ++i) estimate.move({{0.01 * i, 0}, 0});  // unnoticed slips and turns
+  for (int i = 1; i <= 100; ++i) estimate.move({{0.01 * i, 0}, 0});  // slips and turns
   EXPECT_GT(distance(estimate.pose().at_m, real.at_m), 0.15);
   const double before_m = estimate.within_m();
   const Point posts[] = {{2, 1}, {2, -1}};
@@ -141,7 +141,7 @@ TEST(Grid, AMapIsMadeAndTheRobotFoundInIt) {
   EXPECT_FALSE(grid.taken(Grid::cell(1), Grid::cell(0)));
   const Pose real{{0.06, -0.04}, 0.03};
   const Pose found = matched(grid, {}, hits(about, scan_of(about, real, walls)));
-  EXPECT_LT(distance(found.at_m, real.at_m), 0.04);  // less than a cell
+  EXPECT_LT(distance(found.at_m, real.at_m), 0.04);
   EXPECT_NEAR(found.yaw_rad, real.yaw_rad, 0.012);
 }
 
@@ -157,7 +157,7 @@ TEST(Way, GoesRoundAWallAndKeepsClearOfIt) {
     long_m += distance(found[i - 1], found[i]);
     highest_m = std::fmax(highest_m, found[i].y);
   }
-  EXPECT_GT(highest_m, 0.75);  // half a robot's width from the wall's end
+  EXPECT_GT(highest_m, 0.75);  // half a robot's width past the wall's end
   EXPECT_LT(long_m, 3.2);
   EXPECT_TRUE(way(grid, {0, 0}, {100, 0}).empty());
 }

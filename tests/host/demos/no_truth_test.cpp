@@ -9,7 +9,7 @@
 namespace verp::demos {
 namespace {
 
-/// A floor, a post at this distance, and a ball that rolls away.
+/// A floor, a post, and a ball that rolls away.
 class World {
  public:
   World(const std::string& name, double post_x_m, double ball_x_m)
@@ -51,8 +51,7 @@ Seen what_they_are_told(const World& world) {
   return {told.all(), told.scans(), told.messages()};
 }
 
-// Objects out of sight change no bit of a brain's input. An object in sight does, so the test can
-// see a change.
+// Objects out of sight change no bit of a brain's input; an object in sight does.
 TEST(NoTruth, WhatABrainCannotSenseChangesNothingThatItIsTold) {
   const Seen here = what_they_are_told(World("here", 60, 40));
   const Seen elsewhere = what_they_are_told(World("elsewhere", 70, 55));

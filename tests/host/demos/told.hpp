@@ -9,7 +9,7 @@
 
 namespace verp::demos::test {
 
-/// All inputs of the brains, one hash each.
+/// One hash per input.
 class Told {
  public:
   explicit Told(Options& options) {

@@ -50,7 +50,7 @@ std::vector<Radio> radio_of(const fs::path& file) {
   return out;
 }
 
-// Equal seeds give equal runs. A message is in the traces of its speaker and its hearers.
+// A message is in the traces of its speaker and its hearers.
 TEST(Trace, OfADemoReplaysAndHasWhatWasSaid) {
   const Folder folder;
   Options options;
@@ -93,7 +93,6 @@ TEST(Trace, OfADemoReplaysAndHasWhatWasSaid) {
       EXPECT_GT(radio.tick, said[radio.number].tick);
     }
   }
-  // No robot takes messages after its last tick.
   const auto count = recorded.radio.fates[static_cast<std::size_t>(radio::Fate::kHeard)];
   EXPECT_GT(heard, 20u);
   EXPECT_LE(heard, count);

@@ -8,7 +8,7 @@
 namespace verp::edit {
 namespace {
 
-/// The user builds one leg and then mirrors it.
+/// One leg, then its mirror image.
 TEST(Biped, GrowsFromAnEmptyFileAndIsSound) {
   const files::TemporaryDirectory folder;
   const std::string file = (folder.path() / "biped.sdf").string();

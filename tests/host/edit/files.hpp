@@ -25,7 +25,7 @@ inline std::string robot(const std::string& name) {
   return std::string(VERP_SOURCE_DIR "/common/robots/") + name + "/robot.sdf";
 }
 
-/// Lines that a diff removes and adds.
+/// By a diff.
 inline std::pair<int, int> changed_lines(const std::string& from, const std::string& to) {
   const std::string rows = difference(from, to, "f");
   int less = 0, more = 0;
@@ -38,7 +38,7 @@ inline std::pair<int, int> changed_lines(const std::string& from, const std::str
 
 constexpr std::pair<int, int> kOneLine = {1, 1};
 
-/// Sets the mass of the last link of somebody's file that has one.
+/// Of the last link that has a mass.
 inline void expect_a_mass_changes_one_line(const std::string& file) {
   Document document = Document::open(file);
   const std::string before = document.text();

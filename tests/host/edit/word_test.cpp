@@ -25,7 +25,7 @@ Ended run(const std::string& words) {
   return ended;
 }
 
-/// A cube's corner, 1 x 2 x 3 along the axes, as STL text.
+/// A cube's corner of 1 x 2 x 3, as STL text.
 std::string tetrahedron(bool closed) {
   const char* corners[] = {"0 0 0", "1 0 0", "0 2 0", "0 0 3"};
   const int faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
@@ -85,9 +85,9 @@ TEST_F(EditWord, AMeshBecomesALinkWithItsOwnInertia) {
   const Triangles triangles = read_triangles(mesh, 0.01);
   const Filling inside = filling(triangles);
   EXPECT_TRUE(inside.closed);
-  EXPECT_NEAR(inside.volume_m3, 1e-6, 1e-12);  // a sixth of 1 x 2 x 3 cm
+  EXPECT_NEAR(inside.volume_m3, 1e-6, 1e-12);  // a sixth
   EXPECT_LT((inside.centre_m - Vec3(0.0025, 0.005, 0.0075)).norm(), 1e-9);
-  // A corner of a, b, c has 3/80 (b2 + c2) about x, and a b/80 off the diagonal.
+  // 3/80 (b2 + c2) about x, a b/80 off the diagonal.
   EXPECT_NEAR(inside.inertia_per_kg(0, 0), 3.0 / 80 * (4 + 9) * 1e-4, 1e-10);
   EXPECT_NEAR(inside.inertia_per_kg(0, 1), 2.0 / 80 * 1e-4, 1e-10);
   const Ended ended =

@@ -16,7 +16,7 @@
 #include "tests/unit/images/actions_board.hpp"
 #include "tests/unit/support/test_robot.hpp"
 
-// A node behaves as its EDS says, which the test parses like another maker's tool.
+// The test parses the EDS like another maker's tool.
 namespace verp::eds {
 namespace {
 
@@ -48,7 +48,7 @@ std::uint32_t number(const Section& section, const char* key) {
   return static_cast<std::uint32_t>(std::stoul(section.at(key), nullptr, 0));
 }
 
-/// The type's size in bytes; 0 if it varies.
+/// 0: variable.
 std::uint32_t bytes_of(std::uint32_t type) {
   switch (static_cast<DataType>(type)) {
     case DataType::kInteger8:
@@ -71,7 +71,7 @@ std::uint32_t bytes_of(std::uint32_t type) {
   return 0;
 }
 
-/// Returns null if no section describes the value.
+/// Null if no section has the value.
 const Section* section_of(const Sections& sections, unsigned index, unsigned subindex) {
   char name[16];
   std::snprintf(name, sizeof name, "%X", index);
@@ -83,7 +83,7 @@ const Section* section_of(const Sections& sections, unsigned index, unsigned sub
   return member == sections.end() ? nullptr : &member->second;
 }
 
-/// Exactly the sheet's objects, as it describes them, over every address that a node may have.
+/// Over every address that a node may have.
 template <class Objects>
 void expect_same(const Sections& sections, Objects& node, unsigned least = 101) {
   unsigned found = 0;
@@ -108,13 +108,13 @@ void expect_same(const Sections& sections, Objects& node, unsigned least = 101) 
   EXPECT_GE(found, least);
 }
 
-/// "" if the sheet gives no default.
+/// "": no default.
 std::string initial_of(const Section& section) {
   const auto found = section.find("DefaultValue");
   return found == section.end() ? "" : found->second;
 }
 
-/// Returns a negative value's low bits.
+/// Low bits of negative values.
 std::uint64_t evaluate(const std::string& text, std::uint8_t node) {
   constexpr const char* kNode = "$NODEID+";
   if (text.rfind(kNode, 0) == 0) return node + std::stoull(text.substr(8), nullptr, 0);
@@ -122,7 +122,7 @@ std::uint64_t evaluate(const std::string& text, std::uint8_t node) {
                              : std::stoull(text, nullptr, 0);
 }
 
-/// Its objects hold the sheet's defaults and map as the sheet allows.
+/// The objects hold the sheet's defaults and map as it allows.
 template <class Node>
 void expect_fresh(const Sections& sections, Node& node, std::uint8_t id) {
   int compared = 0;
@@ -184,7 +184,6 @@ void expect_same_tpdos(const Sections& sections, Objects& node, std::uint8_t id)
   }
 }
 
-/// Each object is in exactly one of the three lists.
 void expect_listed(const Sections& sections) {
   std::map<unsigned, int> listed;
   for (const char* list : {"MandatoryObjects", "OptionalObjects", "ManufacturerObjects"}) {
@@ -223,11 +222,11 @@ void expect_device(const Description& description, Node& node, std::uint8_t id, 
 TEST(Eds, TheControllersSheetIsWhatTheControllerAnswers) {
   const Sections sections = parse(to_text(controller()));
   expect_listed(sections);
-  auto board = std::make_unique<app::test::FakeBoard>();  // a board with all images
+  auto board = std::make_unique<app::test::FakeBoard>();  // with all images
   using Log = app::TickLog<app::test::FakeImages>;
   auto log = std::make_unique<Log>(board->images);
   log->keep({}, {});
-  log->hold(Log::kAll);  // makes its ticks readable
+  log->hold(Log::kAll);  // makes ticks readable
   auto registers =
       std::make_unique<app::OperatorRegisters<Log>>(test::kRobot, app::OperatorSetup{}, *log);
   app::ControllerObjects<Log> objects(*registers, *log);
@@ -239,12 +238,11 @@ TEST(Eds, TheControllersSheetIsWhatTheControllerAnswers) {
   expect_same_tpdos(sections, node->objects(), kNode);
 }
 
-// The twin's devices hold a robot's numbers.
+// A robot's numbers.
 TEST(Eds, TheDevicesSheetsAreWhatTheyAnswer) {
   constexpr std::uint8_t kNode = 37;
   verp::test::FakePlant plant;
-  // Commissioning sets the gains. With a default of 0, a tool that writes a sheet's defaults would
-  // erase them.
+  // With a default of 0, a tool that writes defaults would erase the gains.
   const can::DriveSetup commissioned{
       .counts_per_rad = 2608, .p_gain = 778, .i_gain = 3, .d_gain = 91};
   can::DriveNode of_drive(can::drive_identity(402, kNode), kNode, plant, 0, commissioned);
@@ -255,7 +253,7 @@ TEST(Eds, TheDevicesSheetsAreWhatTheyAnswer) {
   expect_device(foot(), of_foot, kNode, 40);
 }
 
-// A tool sets nodes up by defaults, and takes an empty one for 0 or an error.
+// A tool takes an empty default for 0 or an error.
 TEST(Eds, AllThatIsSetUpOnTheBusHasADefaultAndNoneIsEmpty) {
   for (const Sheet& sheet : sheets()) {
     const Sections sections = parse(to_text(sheet.describe()));
@@ -274,7 +272,6 @@ TEST(Eds, AllThatIsSetUpOnTheBusHasADefaultAndNoneIsEmpty) {
   }
 }
 
-// The objects exist but hold no data.
 TEST(Eds, AControllerWithoutImagesAnswersForThem) {
   app::OperatorRegisters<app::NoImages> registers(test::kRobot, app::OperatorSetup{},
                                                   app::no_images);
@@ -309,11 +306,10 @@ std::size_t count_of(const std::vector<Entry>& entries, std::uint16_t first, std
       [&](const Entry& each) { return each.at.index >= first && each.at.index <= last; }));
 }
 
-// 2002h means what its maker defines.
 TEST(Eds, AnotherMakersDriveHasOnlyTheProfilesNames) {
   const canopen::Identity ours = drive().identity;
   const auto known = known_entries(ours);
-  EXPECT_EQ(count_of(known, 0x2000, 0x5FFF), 5u);  // telemetry, three gains and their count
+  EXPECT_EQ(count_of(known, 0x2000, 0x5FFF), 5u);  // telemetry, three gains and a count
   canopen::Identity others[] = {ours, ours};
   others[0].vendor = 0x22;
   others[1].product += 1;
@@ -332,7 +328,7 @@ TEST(Eds, KnownEntriesStandWhereTheSheetHasThem) {
     EXPECT_TRUE(names.emplace(each.at.index << 8 | each.at.subindex, each.value.name).second);
   }
   EXPECT_EQ(names.at(0x100000), "Device type");
-  EXPECT_EQ(names.at(0x140005), "Event timer");  // subindex 4 is reserved
+  EXPECT_EQ(names.at(0x140005), "Event timer");
   EXPECT_EQ(names.at(0x200203), "D gain");
 }
 

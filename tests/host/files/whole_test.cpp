@@ -40,7 +40,6 @@ TEST(Replace, ALinkStaysOne) {
   EXPECT_EQ(read(file), "new");
 }
 
-// The reader gets the bytes, and the pipe remains.
 TEST(Replace, APipeIsWrittenTo) {
   const TemporaryDirectory folder;
   const fs::path pipe = folder.path() / "pipe";

@@ -13,8 +13,7 @@
 
 #include "tests/support/rom_boot_loader.hpp"
 
-/// A boot loader on a pseudo-terminal, like a board with BOOT0 high. A pseudo-terminal has no
-/// parity, so the tool's 8E1 is not checked.
+/// A pseudo-terminal has no parity, so the tool's 8E1 is not checked.
 namespace verp::test {
 
 class BootLoaderPort {
@@ -25,12 +24,12 @@ class BootLoaderPort {
     bool mute = false;
   };
 
-  /// The chip must outlive this; the test may read it after unplug().
+  /// The chip must outlive this.
   explicit BootLoaderPort(RomBootLoader& chip) : BootLoaderPort(chip, Trouble{}) {}
   BootLoaderPort(RomBootLoader& chip, const Trouble& trouble) : chip_(chip), trouble_(trouble) {
     char name[64];
     if (::openpty(&ours_, &theirs_, name, nullptr, nullptr) != 0) std::abort();
-    // A child with an open end would keep the port alive after the cut.
+    // A child's copy would keep the port alive after the cut.
     for (const int end : {ours_, theirs_}) ::fcntl(end, F_SETFD, FD_CLOEXEC);
     termios settings{};
     ::tcgetattr(theirs_, &settings);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-/// The model answers with the bytes of AN3155.
+/// The bytes of AN3155.
 namespace verp::test {
 namespace {
 
@@ -20,7 +20,7 @@ RomBootLoader awake(const RomBootLoader::Chip& chip = {}) {
   return loader;
 }
 
-/// AN3155, Write Memory: the flow chart for four bytes at `offset` of the flash.
+/// AN3155, Write Memory, four bytes at `offset`.
 Bytes write_four(RomBootLoader& chip, std::uint8_t offset, const Bytes& data) {
   const auto sum = static_cast<std::uint8_t>(0x08 ^ offset);
   Bytes reply = talk(chip, {0x31, 0xCE, 0x08, 0x00, 0x00, offset, sum});

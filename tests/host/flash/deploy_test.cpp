@@ -1,7 +1,6 @@
 #include "tests/host/flash/flash_fixture.hpp"
 
-/// `verp deploy` stops at the first failed step. Success needs an emulated board
-/// (tests/target/deploy).
+/// Stops at the first failed step. Success needs an emulated board (tests/target/deploy).
 namespace verp::flash::test {
 namespace {
 
@@ -17,7 +16,7 @@ class Deploy : public Flash {
     put(folder_ / name, {text.begin(), text.end()});
     fs::permissions(folder_ / name, fs::perms::owner_all);
   }
-  /// Only the last step failed, with this message.
+  /// Only the last step failed.
   static void expect_stop(const Outcome& outcome, int status, const std::string& step,
                           const std::string& needle) {
     EXPECT_EQ(outcome.status, status) << outcome.err;
@@ -44,7 +43,7 @@ TEST_F(Deploy, StopsWhenTheBuildFailsWithTheCompilersWords) {
   EXPECT_NE(outcome.err.find("build.log"), std::string::npos);
 }
 
-// A limit on file sizes simulates a full disk.
+// A file size limit simulates a full disk.
 TEST_F(Deploy, StopsWhenTheWalkFails) {
   const Outcome outcome =
       shell("ulimit -f 200; " VERP_PROGRAM " deploy generic21 --for 3 --json --no-build --board " +
@@ -58,7 +57,7 @@ TEST_F(Deploy, StopsWhenTheCoreCannotReplay) {
   expect_stop(deploy("--no-build", "VERP_QEMU=./broken"), 3, "replay", "HardFault at 0x08000123");
 }
 
-// A dry run also works before there is an image.
+// Also before there is an image.
 TEST_F(Deploy, ADryRunOnlySays) {
   for (const char* program : {"cmake", "flock", "qemu-system-arm", "openocd", "dfu-util"}) {
     script(program, "#!/bin/sh\ntouch ran\nexit 1\n");

@@ -5,7 +5,7 @@
 #include "host/boards/flash/tool_run.hpp"
 #include "host/os/process/child.hpp"
 
-/// The errors of Debian 12's tools, and what `verp flash` makes of them.
+/// Debian 12's tools' errors.
 namespace verp::flash::test {
 namespace {
 
@@ -13,7 +13,7 @@ using Kind = FlashError::Kind;
 
 Job job_for(Tool tool) {
   const Recipe& recipe = find_recipe("olimex_h405");
-  // A port that exists on every PC.
+  // Exists on every PC.
   return {recipe, read_memory_map(recipe.board),
           tool,   tool == Tool::kStm32flash ? "/dev/null" : "",
           {},     "/tmp"};
@@ -106,7 +106,7 @@ Kind kind_of_check(Tool tool, const std::string& output) {
   } catch (const FlashError& error) {
     return error.kind();
   }
-  return Kind::kUsage;  // stands for a pass: no check throws it
+  return Kind::kUsage;  // a pass: no check throws it
 }
 
 TEST(Diagnosis, OnlyTheBoardsOwnChipPasses) {
@@ -152,7 +152,7 @@ TEST(ToolRun, ToolThatIsNotInstalledNamesItsPackage) {
   }
 }
 
-// This tool even ignores the interrupt.
+// It ignores the interrupt.
 TEST(ToolRun, StopEndsTheTool) {
   const ToolRun run = run_tool({"sh", "-c", "trap '' INT; echo there; while :; do sleep 0.1; done"},
                                "sh", {.stop = [] { return true; }});

@@ -14,8 +14,7 @@
 #include "tests/host/flash/boot_loader_port.hpp"
 #include "tests/host/tool/program.hpp"
 
-/// The verp program and a board to flash. In a firmware build, VERP_TEST_BOARD and
-/// VERP_FIRMWARE_DIR name its board and real image.
+/// In a firmware build, VERP_TEST_BOARD and VERP_FIRMWARE_DIR name the board and its real image.
 namespace verp::flash::test {
 
 namespace fs = std::filesystem;
@@ -64,7 +63,7 @@ class Flash : public tool::test::Program {
     for (std::uint8_t& byte : data) byte = static_cast<std::uint8_t>(random() >> 8);
     return data;
   }
-  /// A vector table of this board, then noise.
+  /// A vector table, then noise.
   Bytes made_up_code(unsigned seed) const {
     Bytes code = noise(50'000, seed);
     const std::uint32_t table[] = {map_.ram.begin + 4096, map_.code.begin + 0x201};
@@ -105,7 +104,7 @@ class Flash : public tool::test::Program {
   Outcome flash(const std::string& arguments) const {
     return verp("flash --board " + board_ + " " + arguments);
   }
-  /// Exit 3, nothing on stdout, one line on stderr that contains `needle`.
+  /// Exit 3, no stdout, one line on stderr with `needle`.
   static void expect_trouble(const Outcome& outcome, const std::string& needle) {
     EXPECT_EQ(outcome.status, 3) << outcome.err;
     EXPECT_EQ(outcome.out, "");

@@ -5,8 +5,8 @@ namespace {
 
 class Killed : public Flash {
  protected:
-  /// Kills `verp flash` while `program` runs, whose process id is in the file `id`. Reports whether
-  /// that process ends within 20 s; a zombie counts as ended.
+  /// Kills `verp flash` while `program` runs (process id in the file `id`). Reports whether that
+  /// ends within 20 s; a zombie counts as ended.
   Outcome killed(const std::string& environment, const std::string& program,
                  const std::string& arguments) const {
     const std::string script = "#!/bin/sh\necho $$ >id.part && mv id.part id\nexec sleep 600\n";

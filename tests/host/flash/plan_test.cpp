@@ -9,11 +9,10 @@
 #include "host/os/files/shell_line.hpp"
 #include "host/os/files/temporary_directory.hpp"
 
-/// The tests cover every board, tool and choice of pieces.
+/// Every board, tool and choice of pieces.
 namespace verp::flash::test {
 namespace {
 
-/// Records what a plan reads, composes and writes.
 class PlanRunner {
  public:
   void run(const Step& step) {
@@ -116,7 +115,6 @@ TEST_F(Plan, EveryWriteIsVerified) {
   });
 }
 
-// Pieces share a sector only as the map says.
 TEST(Recipe, MemoryMapsLieInTheirChipsSectors) {
   for (const Recipe& recipe : recipes()) {
     if (recipe.chip == nullptr) continue;
@@ -199,7 +197,7 @@ TEST(ShellLine, ShellTakesItApartIntoTheSameWords) {
   EXPECT_EQ(out, expected);
 }
 
-// OpenOCD's commands are a language: a port or path must stay one word of it or be refused.
+// A port or path must stay one word of OpenOCD's language.
 TEST_F(Plan, NoPortOrPathIsTakenForACommandOfOpenocd) {
   const Recipe& recipe = find_recipe("olimex_h405");
   const auto words_of = [](const Job& made) {

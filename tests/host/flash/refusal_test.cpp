@@ -1,12 +1,12 @@
 #include "tests/host/flash/flash_fixture.hpp"
 
-/// `verp flash` refuses these before any tool runs.
+/// Refused before any tool runs.
 namespace verp::flash::test {
 namespace {
 
 class Refusal : public Flash {
  protected:
-  /// The file's error must come before the board is contacted.
+  /// Before the board is contacted.
   void expect_refused_file(const std::string& arguments, const std::string& needle) const {
     expect_refused("flash --board " + board_ + " " + arguments, needle);
   }
@@ -95,7 +95,6 @@ TEST_F(Refusal, WordsThatMakeNoSense) {
   expect_refused("deploy nobody --board olimex_h405", "nobody");
 }
 
-// "No such board" would be false: boards/ has them.
 TEST_F(Refusal, BoardsThatOnlyTheirTestsStartAreNamedAsSuch) {
   for (const std::string board : {"qemu_rv32", "zcu102_r5"}) {
     const std::string remedy = "exists only in an emulator, where ./verp test --on " + board;
@@ -128,8 +127,8 @@ TEST_F(Refusal, DryRunRunsNothing) {
   EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 2) << outcome.out;
 }
 
-/// A fake dfu-util on a file: `-l`, `-U` and `-D` at `-s ADDRESS[:LENGTH]`, with the messages of
-/// 0.11. SPOIL changes written bytes.
+/// A fake dfu-util 0.11 on a file: `-l`, `-U` and `-D` at `-s ADDRESS[:LENGTH]`. SPOIL changes
+/// written bytes.
 constexpr const char* kDfuUtil = R"sh(#!/bin/bash
 while [ $# -gt 0 ]; do
   case $1 in

@@ -4,7 +4,7 @@
 
 #include "tests/host/flash/flash_fixture.hpp"
 
-/// Debian's stm32flash writes into a boot loader that follows AN3155.
+/// Debian's stm32flash and a boot loader by AN3155.
 namespace verp::flash::test {
 namespace {
 
@@ -65,7 +65,7 @@ TEST_F(SerialFlash, RobotOrActionsAloneLeaveEverythingElse) {
   EXPECT_EQ(chip.flash, expected);
 }
 
-// Flashing the actions separately gives the same bytes.
+// As when the actions are flashed separately.
 TEST_F(SerialFlash, ARobotBringsItsActions) {
   RomBootLoader chip = used(this->chip());
   const Bytes own = actions();
@@ -124,7 +124,7 @@ TEST_F(SerialFlash, RobotAloneNamesTheFirmwareThatDrivesIt) {
 
 TEST_F(SerialFlash, WrongChipIsLeftAsItIs) {
   RomBootLoader::Chip other = chip();
-  other.device_id = 0x419;  // STM32F42x: stm32flash knows it, and would write
+  other.device_id = 0x419;  // STM32F42x: stm32flash would write
   RomBootLoader chip = used(other);
   const Bytes before = chip.flash;
   expect_trouble(over_serial(chip), "device id 0x419, not");
@@ -174,7 +174,7 @@ TEST_F(SerialFlash, CableCutHalfwayIsToldAndTheNextFlashSucceeds) {
   expect_code(chip);
 }
 
-// The sector was erased with the actions in it; one command restores both.
+// The sector held the actions; one command restores both.
 TEST_F(SerialFlash, CutWhileARobotIsWrittenLosesNoActions) {
   RomBootLoader chip = used(this->chip());
   Bytes expected = chip.flash;
@@ -184,7 +184,7 @@ TEST_F(SerialFlash, CutWhileARobotIsWrittenLosesNoActions) {
       over_serial(chip, "--params generic21 --actions none", {.cut_after_writes = 3});
   expect_trouble(outcome, "cable pulled?");
   ASSERT_NE(chip.flash, expected);
-  const std::size_t remedy = outcome.err.find("--actions ");  // to the line's end
+  const std::size_t remedy = outcome.err.find("--actions ");
   ASSERT_NE(remedy, std::string::npos) << outcome.err;
   const Outcome again = over_serial(chip, "--params generic21 " + outcome.err.substr(remedy));
   ASSERT_EQ(again.status, 0) << again.err;
@@ -196,7 +196,7 @@ TEST_F(SerialFlash, CutWhileARobotIsWrittenLosesNoActions) {
   EXPECT_FALSE(fs::exists(folder_ / "work" / board_ / "kept_actions.bin"));
 }
 
-// The boot loader still waits for the lost bytes.
+// The boot loader waits for the lost bytes.
 TEST_F(SerialFlash, WithoutAResetAfterACutTheRemedyIsTold) {
   RomBootLoader chip = used(this->chip());
   BootLoaderPort cut(chip, {.cut_after_writes = 50});

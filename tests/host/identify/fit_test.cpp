@@ -9,8 +9,7 @@
 #include "host/twin/sim/robot.hpp"
 #include "tests/host/sim/test_robots.hpp"
 
-// The fit finds another twin's numbers from its motion alone, under encoder noise. It reports
-// numbers that the motion does not determine.
+// From motion alone, under encoder noise. Undetermined numbers are reported.
 
 namespace verp::identify {
 namespace {
@@ -34,7 +33,7 @@ model::Entity arm() {
   return entity;
 }
 
-/// Fast to and fro for `fast_s`, then slowly.
+/// Fast for `fast_s`, then slowly.
 Recording told(const model::Entity& entity, double fast_s, double length_s) {
   Recording recording;
   recording.params.joint_count = 1;
@@ -69,7 +68,7 @@ Recording told(const model::Entity& entity, double fast_s, double length_s) {
   return recording;
 }
 
-/// The robot as its file describes it, which is wrong.
+/// As its file says, which is wrong.
 model::Entity believed() {
   model::Entity entity = arm();
   double factor = 1.25;
@@ -101,7 +100,7 @@ TEST(Fit, FindsTheNumbersOfATwinThatWasGivenOthers) {
             0.3 * fit.rms_rad(before, 0, recording.ticks.size()));
 }
 
-// Too slow to show a delay of a few ms.
+// Too slow to show a few ms.
 TEST(Fit, LeavesANumberThatTheMotionDoesNotTell) {
   const Recording recording = told(arm(), 0, 12);
   model::Entity entity = believed();

@@ -11,7 +11,7 @@
 namespace verp::identify {
 namespace {
 
-// Real robots play it: `verp action check` must find nothing.
+// `verp action check` must find nothing.
 TEST(Motion, OfAnyRobotKeepsItsLinksApartAndItsServosWithinTheirLimits) {
   for (const char* name : {"op3", "darwin_op"}) {
     const model::Entity robot = model::load_robot(model::find_model(name));

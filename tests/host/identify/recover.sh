@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# recover.sh VERP ROBOT.SDF [SEED] [SECONDS]: a generic21 with other servos than its file's plays the motion of one
-# minute in a stand. `verp identify` finds each number within a tenth from the trace. host/guide/real-servos.md quotes the
-# output.
+# recover.sh VERP ROBOT.SDF [SEED] [SECONDS]: a generic21 with other servos than its file's plays the motion in a
+# stand. `verp identify` finds each number within a tenth. host/guide/real-servos.md quotes the output.
 set -euo pipefail
 verp=$1 robot=$2 seed=${3:-5} length_s=${4:-60}
 scratch=$(mktemp -d)

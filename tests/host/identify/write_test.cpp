@@ -13,7 +13,7 @@
 #include "host/robot/model/load.hpp"
 #include "host/study/identify/numbers.hpp"
 
-// A sound robot with the found numbers; no other line differs.
+// Only the found numbers' lines differ.
 
 namespace verp::identify {
 namespace {
