@@ -34,7 +34,7 @@ for struct in listed["structs"]:
         const = "const " if field.get("const") else ""
         print(f"extern {const}{field['type']}{stars} (*{name}_{field['name']}){lengths};")
         print(f"extern __typeof__((({name}*)0)->{field['name']})* {name}_{field['name']};")
-        # No field is missing: only alignment leaves gaps.
+        # Only alignment leaves gaps.
         assert 0 <= field["offset"] - end < 8, f"{name}.{field['name']}"
         end = field["offset"] + field["size"]
 for function in listed["functions"] + listed["callbacks"]:

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# abi_list.sh FOLDER CC: abi.json matches verp.h, by the script that made it and by a compiler. A changed header and an
-# undocumented function are found.
+# abi_list.sh FOLDER CC: abi.json matches verp.h, by its own script and by a compiler. Changed headers and undocumented
+# functions are found.
 set -euo pipefail
 folder=$1 cc=$2 here=$(dirname "$0")
 scratch=$(mktemp -d)
@@ -15,11 +15,11 @@ list "$folder/verp.h" | diff "$folder/abi.json" - ||
   say "verp.h (>) is not what abi.json (<) lists; mend it: host/apps/libverp/abi_list.py > host/apps/libverp/abi.json"
 compiles "$folder/abi.json" "$folder" || say "the compiler reads verp.h otherwise than abi.json lists it"
 
-# Users need a comment directly above each function.
+# Each function needs a comment directly above it.
 bare=$(awk '/^(int|uint32_t|const char\*) verp_[a-z_]+\(/ && before !~ /\*\/$/ {print $0} {before = $0}' "$folder/verp.h" | grep -o 'verp_[a-z_]*(' || true)
 [[ -z $bare ]] || say "verp.h says nothing about ${bare//$'\n'/ }"
 
-# Script and compiler must both notice each change.
+# Both must notice each change.
 changes=('s/int16_t vx_tenth_mm_s;/int32_t vx_tenth_mm_s;/' 's/VERP_BUSY = -3/VERP_BUSY = -13/' 's/uint32_t robot, uint64_t\* digest/uint32_t robot, uint32_t* digest/'
   's/double low;/double high_;/' 's/int verp_decide(uint64_t token)/int verp_decide(uint64_t token, int how)/' 's/VERP_POSE = 12/VERP_POSE = 13/'
   's/float zmp_m\[2\]/uint32_t zmp_m[2]/')

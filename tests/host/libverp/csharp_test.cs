@@ -1,5 +1,4 @@
-// C#: its bits and its errors. The host never crashes, and a controller's exception arrives
-// complete.
+// C#: the host never crashes, and a controller's exception arrives complete.
 using System;
 using System.IO;
 using System.Threading;
@@ -33,7 +32,7 @@ static class CsharpTest {
     ref verp_tick seen = ref session.Seen();
     double seen_m = seen.truth.body_m[2];
     session.Dispose();
-    session.Dispose();  // a second call does no harm
+    session.Dispose();  // harmless
     Says("verp_session_tick: this session was closed", () => session.Tick());
     Says("verp_session_digest: this session was closed", () => session.Digest());
     That(seen.truth.body_m[2] == seen_m, "what was seen lives on");
@@ -62,7 +61,7 @@ static class CsharpTest {
     }
     new WeakReference(Walking());
     GC.Collect();
-    GC.WaitForPendingFinalizers();  // close one that has no owner
+    GC.WaitForPendingFinalizers();  // close one without owner
   }
 
   static void WrongArgumentsAreErrorsThatNameTheCall() {
@@ -182,7 +181,7 @@ static class CsharpTest {
   }
   static void Attach(Session session) { session.Control(moment => moment.Outputs.torque_enable = 0); }
 
-  // A callback collects: the runtime scans the stack that it runs on.
+  // A callback collects: the runtime scans its stack.
   static void RobotsOfOneWorldMayCollectGarbage() {
     using (Session session = Walking(1, 2)) {
       int ticks = 0;

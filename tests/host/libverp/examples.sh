@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# examples.sh VERP PROGRAMS SOURCES OCTAVE CSHARP GROUP: each example of a group prints the same in C, C++, Python, Octave and
-# C#. `walks`: a walk has the digest of `verp walk`, and its trace replays. `others`: your own controller, tuning, radio.
-# `pictures`: the example that needs OpenGL, whose files are equal too.
+# examples.sh VERP PROGRAMS SOURCES OCTAVE CSHARP GROUP: each example of a group prints the same in C, C++, Python,
+# Octave and C#. `walks`: a walk has the digest of `verp walk`, and its trace replays. `others`: your own controller,
+# tuning, radio. `pictures`: needs OpenGL; its files are equal too.
 set -euo pipefail
 verp=$1 programs=$2 sources=$3 octave=$4 csharp=$5
 scratch=$(mktemp -d)
@@ -9,11 +9,11 @@ trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
 say() { echo "examples: $*" && exit 1; }
 
-made() { # the bytes of the picture that the last program left, if any
+made() { # the bytes of the last program's picture
   [[ ! -e seen.ppm ]] || { head -c 15 seen.ppm | tr '\n' ' ' && cksum <seen.ppm && rm seen.ppm; }
 }
 
-same() { # name argument...: runs it in all languages
+same() { # name argument...: runs all languages
   local name=$1 c cpp py m cs arguments
   shift
   c=$("$programs/example_${name}_c" "$@" && made) || say "$name.c failed: $c"
@@ -47,8 +47,7 @@ digest=$("$verp" walk --for 3 --json | sed -nE 's/^ *"digest": "(0x[0-9a-f]+)".*
 [[ $words == *" $digest" ]] || say "verp walk has digest $digest, the examples say $words"
 bound=$(/usr/bin/python3 "$sources/bind.py" "$VERP_LIBRARY" 3) || say "bind.py failed: $bound"
 [[ $bound == "$words" ]] || say "a binding from abi.json says '$bound', the others '$words'"
-# Linked or loaded, ODE must call the library's solver loops, not its own (host/twin/sim/solver.hpp): otherwise walks take
-# several times as long.
+# ODE must call the library's solver loops (host/twin/sim/solver.hpp), or walks take several times as long.
 for language in "$programs/example_walk_c" "/usr/bin/python3 $sources/walk.py"; do
   LD_DEBUG=bindings LD_DEBUG_OUTPUT=bound $language 1 >walked
   grep -qE 'file .*libode\S* .*to \S*libverp\S* .*solveL1Transposed' bound.* || say "$language has ODE's own loops"

@@ -57,7 +57,7 @@ TEST(LibverpHostile, PlansThatAreTooLong) {
   EXPECT_TRUE(core.plan(0.1, 0, 0, 0).empty());
 }
 
-// The physics diverge, which the result must not call a good run.
+// The physics diverge.
 TEST(LibverpHostile, APushBeyondAllNumbersIsInTheResult) {
   Opened opened;
   opened.add();
@@ -111,7 +111,6 @@ TEST(LibverpHostile, TextsThatAreEmpty) {
                "file is empty");
 }
 
-/// No sensor or operator sends such bytes.
 TEST(LibverpHostile, CoreTakesAnyBytes) {
   const verp_lib::Core core;
   std::mt19937 chance(1);
@@ -154,7 +153,7 @@ TEST(LibverpHostile, ManyThreadsOnOneHandle) {
   EXPECT_GE(told, 39) << "closed, or busy, but for one";
 }
 
-/// The C++ interface checks arguments itself, with C's messages.
+/// It has C's messages.
 TEST(LibverpHostile, CppNamesTheCall) {
   const auto says = [](const std::string& words, const std::function<void()>& call) {
     try {

@@ -12,12 +12,12 @@ say() { echo "install: $*" && exit 1; }
 "$to/bin/verp" check generic21 >check.txt || say "verp check failed"
 grep -q "$to/share/verp/common/robots/generic21/robot.sdf" check.txt || say "verp does not read its own robots: $(head -3 check.txt)"
 "$to/bin/verp" check --help >/dev/null
-# Here it is lib; Debian's multiarch folder is for /usr only.
+# Debian's multiarch folder is for /usr only.
 PC=$(dirname "$(find "$to" -name verp.pc)")
 LIB=$(dirname "$PC")
 [[ $(env -u VERP_LIBRARY PYTHONPATH="$to/lib/python3/dist-packages" PYTHONDONTWRITEBYTECODE=1 LD_LIBRARY_PATH="$LIB" \
   /usr/bin/python3 -c 'import verp; print(len(verp.Core().joint_names))') == 21 ]] || say "the Python package does not run"
-if [[ -e $to/libexec/verp/verp_camera ]]; then # built only with the OpenGL packages
+if [[ -e $to/libexec/verp/verp_camera ]]; then # needs the OpenGL packages
   render() {
     env -u VERP_LIBRARY -u VERP_CAMERA_PROGRAM PYTHONPATH="$to/lib/python3/dist-packages" PYTHONDONTWRITEBYTECODE=1 LD_LIBRARY_PATH="$LIB" \
       /usr/bin/python3 -c 'import verp; s = verp.Session(); s.add(); print(s.render("front", width=64, height=48).shape)' 2>&1

@@ -1,5 +1,4 @@
-# libverp from Python, Octave and C#, each where its tools are. REQUIRED_FILES are those that the commands use without naming
-# them, for tests/wanted.
+# Python, Octave and C#, where their tools are. REQUIRED_FILES are used but not named by the commands (tests/wanted).
 set(library $<TARGET_FILE_DIR:verp_shared>)
 set(for_python "PYTHONPATH=${CMAKE_SOURCE_DIR}/host/apps/libverp/python;PYTHONDONTWRITEBYTECODE=1;VERP_LIBRARY=$<TARGET_FILE:verp_shared>")
 add_test(NAME host.libverp.install COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/install.sh ${CMAKE_COMMAND} ${CMAKE_BINARY_DIR})
@@ -60,7 +59,7 @@ else()
   verp_left_out("tests of libverp from C#" "mono-mcs or mono-runtime")
 endif()
 
-# The examples are compared between all languages.
+# Compared between all languages.
 set(examples_test ${CMAKE_CURRENT_SOURCE_DIR}/examples.sh)
 set(programs ${CMAKE_CURRENT_BINARY_DIR})
 if(python AND octave AND csharp)

@@ -13,7 +13,6 @@
 namespace verp::abi::test {
 namespace {
 
-/// The library contains the code of `verp`.
 TEST(Libverp, WalksAsASessionDoes) {
   const session::WalkPlan plan = session::test::plan_of("");
   const session::WalkResult wanted = session::walk(plan);
@@ -27,7 +26,7 @@ TEST(Libverp, WalksAsASessionDoes) {
   EXPECT_STREQ(result.failure, "");
 }
 
-/// A session's view of each tick is enough to decide it again.
+/// A session's view of a tick suffices to decide it again.
 TEST(Libverp, CoreDecidesWhatTheSessionDid) {
   Opened opened;
   opened.add();
@@ -83,7 +82,7 @@ int freeze(const verp_moment* moment, void*) {
   return 0;
 }
 
-/// It never calls the robot's own, so the run has another digest.
+/// The robot's own is never called, so the digest differs.
 TEST(Libverp, ReplacedControllerHasTheRobot) {
   Opened opened;
   opened.add();
@@ -113,7 +112,7 @@ TEST(Libverp, OwnControllerThatDecidesLikeTheRobotsIsTheSameRun) {
   EXPECT_EQ(digest_with([](const verp_lib::Moment& moment) { moment.decide(); }), digest_with({}));
 }
 
-/// With walk_s 0 only orders move the robot. A parameter, a mass and a push act too.
+/// With walk_s 0 only orders move the robot.
 TEST(Libverp, DrivesARobotByOrders) {
   Opened opened;
   opened.add([](verp_robot& robot) { robot.walk_s = 0; });

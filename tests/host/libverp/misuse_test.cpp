@@ -83,7 +83,7 @@ TEST(LibverpMisuse, NamesAndRanges) {
   EXPECT_EQ(verp_session_tick(session, 1, nullptr, nullptr), VERP_OK) << "and it still runs";
 }
 
-/// These errors do not need the drawing program.
+/// Found without the drawing program.
 TEST(LibverpMisuse, PicturesThatAreNone) {
   Opened opened;
   opened.add();
@@ -156,7 +156,7 @@ TEST(LibverpMisuse, ViewsThatAreNone) {
                "verp_session_render", "view is null");
 }
 
-/// The error says what is missing, where it was looked for, and which package has it.
+/// The error names it, the places searched, and its package.
 TEST(LibverpMisuse, ProgramThatDrawsIsMissing) {
   Opened opened;
   opened.add();
@@ -228,7 +228,7 @@ TEST(LibverpMisuse, ControllersThatFail) {
   EXPECT_THROW(session.tick(), std::out_of_range) << "C++ gets its own exception back";
 }
 
-/// Missing feet, unknown phases and modes, any goals are sent and measured as they are.
+/// Missing feet, unknown phases and modes, any goals are sent as they are.
 TEST(LibverpMisuse, ControllersThatPutOutAnything) {
   for (const int byte : {0x00, 0x03, 0x7f, 0x80, 0xff}) {
     Opened opened;
@@ -257,7 +257,7 @@ TEST(LibverpMisuse, RobotsInEachOther) {
   EXPECT_EQ(verp_session_add(opened.session, &robot, nullptr), VERP_OK) << verp_last_error();
 }
 
-/// The second thread and the callback get an error at once and break nothing.
+/// Both get an error at once.
 TEST(LibverpMisuse, TwoThreadsAndACallback) {
   Opened opened;
   opened.add();
@@ -309,7 +309,7 @@ TEST(LibverpMisuse, NumbersThatAreNoneAreNamed) {
   EXPECT_EQ(verp_core_close(core), VERP_OK);
 }
 
-// The child exits with all destructors, in the middle of a recorded walk.
+// The child exits with all destructors, in mid-walk.
 TEST(LibverpMisuse, ForkedProcessHarmsNoTraceOfItsParent) {
   const std::string trace = testing::TempDir() + "forked-" + std::to_string(getpid()) + ".mcap";
   std::uint64_t digest = 0;
@@ -325,7 +325,7 @@ TEST(LibverpMisuse, ForkedProcessHarmsNoTraceOfItsParent) {
             verp_session_tick(opened.session, 50, nullptr, nullptr) == VERP_BAD_HANDLE &&
             std::string(verp_last_error()).find("forked") != std::string::npos &&
             verp_session_close(opened.session) == VERP_BAD_HANDLE;
-        std::uint64_t ticks = 0;  // the child may open its own handles
+        std::uint64_t ticks = 0;  // handles of its own
         verp_core own = nullptr;
         const bool works = verp_core_open("generic21", nullptr, nullptr, &own) == VERP_OK &&
                            verp_core_digest(own, &ticks) == VERP_OK;

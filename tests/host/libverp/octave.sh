@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# octave.sh MATLAB MODULES [argument of octave-cli...]: Octave with the interface in its path, without its complaints
-# about display and history. An error exits with status 1.
+# octave.sh MATLAB MODULES [argument of octave-cli...]: Octave with the interface in its path. An error exits with
+# status 1.
 matlab=$1 modules=$2
 shift 2
 errors=$(mktemp)

@@ -8,7 +8,7 @@
 
 namespace verp::abi::test {
 
-/// Robots walk like those of plans.hpp.
+/// Robots of plans.hpp.
 struct Opened {
   explicit Opened(const char* world = nullptr) {
     const verp_world what = {sizeof what, 0, world};

@@ -139,7 +139,7 @@ class MisuseTest(unittest.TestCase):
         kept = session.seen()
         for each in (core, session, env):
             each.close()
-        env.close()  # as in Gymnasium, a second call does no harm
+        env.close()  # as in Gymnasium, harmless
         self.assertEqual(kept["time_s"], 0)
         takes_more = {"tune": ("gait.lift_m", 0.01), "tuning": ("gait.lift_m",), "read": ("trunk.mass_kg",), "set": ("trunk.mass_kg", 1),
                       "push": ("trunk", (1, 0, 0), 1), "command": (verp.WALK,), "send": (b"",), "control": (None,), "count": (0, 0),
@@ -204,7 +204,7 @@ class MisuseTest(unittest.TestCase):
 
         def slow(*given: object) -> int:
             status = control(*given)
-            if not entered.is_set():  # the first set it, and waits until the second did or is blocked
+            if not entered.is_set():  # the first waits until the second set it or is blocked
                 entered.set()
                 over.wait(0.5)
             return status

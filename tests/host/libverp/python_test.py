@@ -104,7 +104,7 @@ class SessionTest(unittest.TestCase):
             session.add(walk_s=1, record=str(trace))
             session.tick(50)
             child = os.fork()
-            if child == 0:  # the child exits as Python does: collects, closes
+            if child == 0:  # exits as Python does: collects, closes
                 code = "not refused"
                 try:
                     session.tick()
@@ -171,7 +171,7 @@ class EnvTest(unittest.TestCase):
         still = run(0)
         self.assertEqual(still, run(0))
         self.assertNotEqual(still[1], run(0.2)[1])
-        self.assertGreater(still[0], 0.003)  # it has begun to walk
+        self.assertGreater(still[0], 0.003)
 
     def test_action_that_is_none_is_refused(self) -> None:
         env = Env()
@@ -214,7 +214,7 @@ class EnvTest(unittest.TestCase):
                 envs.step(envs.no_action())
             signal.signal(signal.SIGALRM, before)
             for process in envs._processes:
-                os.kill(process.pid, signal.SIGINT)  # a terminal's Ctrl-C reaches them too
+                os.kill(process.pid, signal.SIGINT)  # Ctrl-C reaches them too
                 os.kill(process.pid, signal.SIGCONT)
             np.testing.assert_array_equal(envs.reset(seed=3)[0], first)
             self.assertEqual(envs.step(envs.no_action())[4][0]["digest"], wanted)
@@ -222,7 +222,7 @@ class EnvTest(unittest.TestCase):
     def test_vector_says_who_was_killed_and_that_it_was_closed(self) -> None:
         with VectorEnv(1) as envs:
             killed = envs._processes[0]
-            os.kill(killed.pid, signal.SIGSTOP)  # leaves its request unread
+            os.kill(killed.pid, signal.SIGSTOP)  # its request stays unread
             envs._pipes[0].send((0, "step", envs.no_action()[0]))
             os.kill(killed.pid, signal.SIGKILL)
             killed.join()

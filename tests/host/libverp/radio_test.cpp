@@ -15,7 +15,7 @@
 #include "tests/host/libverp/expect_error.hpp"
 #include "tests/host/libverp/opened.hpp"
 
-// A session's robots talk by a simulated radio; their traces have every message and replay.
+// The robots' traces have every message and replay.
 namespace verp::abi::test {
 namespace {
 
@@ -38,7 +38,7 @@ verp_radio quiet() {
   return radio;
 }
 
-/// A trace's /radio messages by event.
+/// By event.
 std::map<std::string, int> kept(const std::string& file) {
   std::ostringstream bytes;
   bytes << std::ifstream(file, std::ios::binary).rdbuf();
@@ -119,7 +119,7 @@ TEST(LibverpRadio, EqualRunsHearEqualAndTheirTraceReplays) {
         said += session.send(1, "and " + std::to_string(i), 0);
         take_all();
       }
-      take_all();  // the last ticks, which may be fewer than five
+      take_all();  // the last ticks
       runs.push_back(all);
       digest = session.result(1).digest;
     }
@@ -131,7 +131,7 @@ TEST(LibverpRadio, EqualRunsHearEqualAndTheirTraceReplays) {
   EXPECT_EQ(runs[0], runs[1]);
 }
 
-/// Each controller sends the number of messages it has heard.
+/// Each sends how many messages it has heard.
 TEST(LibverpRadio, ControllersTalkInsideTheirTicks) {
   struct Talker {
     verp_session session;

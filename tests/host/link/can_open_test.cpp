@@ -15,12 +15,12 @@
 #include "host/os/link/can_port.hpp"
 #include "host/os/link/link.hpp"
 
-// A kernel that refuses CAN sockets, unlike this PC's. tests/can covers vcan.
+// A kernel that refuses CAN sockets. tests/can covers vcan.
 
 namespace verp::link {
 namespace {
 
-/// From now on socket(AF_CAN, ...) fails with `error`.
+/// From now on socket(AF_CAN, ...) fails.
 bool refuse_can_sockets(int error) {
   sock_filter rules[] = {
       BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
@@ -35,7 +35,7 @@ bool refuse_can_sockets(int error) {
          ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
 }
 
-/// The error on opening `link` when CAN sockets fail with `error`.
+/// If CAN sockets fail with `error`.
 std::string refusal(int error, const std::string& link) {
   int ends[2];
   EXPECT_EQ(::pipe(ends), 0);
@@ -90,7 +90,7 @@ TEST(OpenCan, IsNoStreamOfBytes) {
   }
 }
 
-// At the wrong rate only error frames would arrive.
+// A wrong rate gives only error frames.
 TEST(CanBitRate, OfAnotherRobotIsToldWithTheRemedy) {
   CanInterface interface;
   interface.name = "can3";
@@ -99,7 +99,7 @@ TEST(CanBitRate, OfAnotherRobotIsToldWithTheRemedy) {
             "can3 runs at 500000 bit/s, the bus of generic21 at 1000000; ip link set can3 down && "
             "ip link set can3 up type can bitrate 1000000, or change baud in <verp:bus>");
   EXPECT_EQ(bit_rate_trouble(interface, "generic21", 500'000), "");
-  interface.bitrate = 0;  // vcan, or an adapter whose rate is set elsewhere
+  interface.bitrate = 0;  // vcan, or a rate set elsewhere
   EXPECT_EQ(bit_rate_trouble(interface, "generic21", 1'000'000), "");
 }
 

@@ -47,7 +47,7 @@ TEST(Endpoint, IsWrittenAsItIsRead) {
   }
 }
 
-// One line says what is wrong and what to write instead.
+// In one line.
 TEST(Endpoint, RefusesWithARemedy) {
   const struct {
     const char* text;
@@ -99,7 +99,7 @@ TEST(Endpoint, RefusesWithARemedy) {
   EXPECT_EQ(refusal("unix:/" + std::string(106, 'a')), "");
 }
 
-// Any text gives an endpoint that parses to itself again, or an EndpointError.
+// Any text gives an endpoint that parses to itself, or an EndpointError.
 TEST(Endpoint, IsTotal) {
   std::mt19937 random(1);
   const std::string letters = "serialptcunx-:/@[].0129 \t";

@@ -11,8 +11,6 @@
 #include "host/os/link/link.hpp"
 #include "tests/contract/pc/link_pairs.hpp"
 
-// Each error is one line with a remedy.
-
 namespace verp::link {
 namespace {
 
@@ -111,7 +109,7 @@ std::string target(const std::string& link) {
   return ::readlink(link.c_str(), name, sizeof name - 1) > 0 ? name : "";
 }
 
-// The first keeps its symlink and its peer, even when the second ends.
+// The first keeps its symlink and its peer.
 TEST(Open, NeverTakesATerminalThatIsServed) {
   const test::Folder folder;
   const Link first(parse_endpoint("pty:" + folder.link()));
@@ -126,7 +124,7 @@ TEST(Open, NeverTakesATerminalThatIsServed) {
   EXPECT_TRUE(peer.connected());
 }
 
-// The left symlink is replaced whether its terminal number is free or, by chance, ours.
+// Whether its terminal number is free or ours.
 TEST(Open, TakesTheTerminalOfAProgramThatWasKilled) {
   const test::Folder folder;
   ASSERT_EQ(::symlink("/dev/pts/99999999", folder.link().c_str()), 0);
@@ -138,7 +136,7 @@ TEST(Open, TakesTheTerminalOfAProgramThatWasKilled) {
   }
   EXPECT_EQ(target(folder.link()), "") << "removed at its end";
   ASSERT_EQ(::symlink(name.c_str(), folder.link().c_str()), 0);
-  const Link again(parse_endpoint("pty:" + folder.link()));  // usually gets the same number
+  const Link again(parse_endpoint("pty:" + folder.link()));  // usually the same number
   EXPECT_EQ(::access(target(folder.link()).c_str(), F_OK), 0);
 }
 
@@ -184,7 +182,7 @@ TEST(Open, SetsAnyRate) {
   }
 }
 
-// A program may open the port before the twin sets the servos' rate.
+// A program may open the port before the twin sets the rate.
 TEST(Open, ATerminalKeepsTheRateThatItsPeerHasSet) {
   Link found(parse_endpoint("pty:"));
   found.set_rate(2'000'000);
@@ -195,7 +193,7 @@ TEST(Open, ATerminalKeepsTheRateThatItsPeerHasSet) {
   EXPECT_EQ(taken.rate(), 57600U);
 }
 
-// A USB serial port often returns with the same name as another device.
+// A USB serial port often returns as another device.
 TEST(Reconnect, FindsWhatStandsAtTheSamePath) {
   const test::Folder folder;
   auto terminal = std::make_unique<Link>(parse_endpoint("pty:" + folder.link()));

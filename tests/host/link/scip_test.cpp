@@ -6,7 +6,7 @@
 #include "host/os/link/scip_range_finder.hpp"
 #include "tests/support/scip_sensor.hpp"
 
-// SCIP 2.0 by its specification, and a laser on a pseudo-terminal.
+// By the specification, with a laser on a pseudo-terminal.
 
 namespace verp::link {
 namespace {
@@ -43,7 +43,7 @@ TEST(Scip, FindsRepliesByteByByteAndLeavesDamagedOnesOut) {
   EXPECT_TRUE(replies.next());
 }
 
-/// A laser's link with a sensor and its reader.
+/// A sensor and its reader.
 struct Bench {
   Link near{parse_endpoint("pty:")};
   Link far{parse_endpoint("serial:" + near.place() + "@115200")};
@@ -51,7 +51,7 @@ struct Bench {
   ScipRangeFinder<Link> finder;
   hal::RangeScan scan;
 
-  /// Long, so that a busy PC does not look like a silent sensor.
+  /// A busy PC must not look like a silent sensor.
   explicit Bench(std::uint32_t silent_ms = 60'000)
       : finder(near, {.first = 0, .last = 99, .least_mm = 20, .silent_ms = silent_ms}) {}
 
@@ -78,7 +78,7 @@ TEST(ScipRangeFinder, ReadsScansOverAPseudoTerminal) {
   bench.start();
   std::vector<std::uint32_t> ranges(100);
   for (std::uint32_t i = 0; i < 100; ++i) ranges[i] = 100 + 37 * i;
-  ranges[3] = 19;      // an error code for that step
+  ranges[3] = 19;      // an error code
   ranges[4] = 100000;  // beyond 16 bits
   for (std::uint32_t turn = 1; turn <= 5; ++turn) {
     ranges[0] = 1000 + turn;

@@ -8,7 +8,7 @@
 #include "host/os/link/v4l2_camera.hpp"
 #include "tests/support/video_device.hpp"
 
-// V4L2 only; tests/contract covers every camera.
+// tests/contract covers every camera.
 namespace verp::link {
 namespace {
 
@@ -22,7 +22,7 @@ struct Eye {
   inline static std::uint64_t time_ns = 1;
 };
 
-/// The error on opening the device, after which nothing stays open.
+/// Opening fails, and nothing stays open.
 struct Refusal {
   Kind kind{};
   std::string line;
@@ -133,7 +133,7 @@ TEST(V4l2, APictureInPartOrDamagedIsLost) {
   EXPECT_EQ(frame.sequence, 4u);
   EXPECT_EQ(frame.lost, 3u);
   EXPECT_EQ(camera.damaged(), 3u);
-  // The complete picture counts, although a damaged one follows.
+  // A damaged picture follows.
   device.make_picture();
   device.make_picture(0.9);
   ASSERT_EQ(camera.read(frame), CameraStatus::kFresh);
@@ -208,7 +208,6 @@ TEST(V4l2, UnpluggedItLetsGoOfTheDeviceSaysWhyAndStartsAnew) {
   EXPECT_EQ(camera.faults(), 3u);
 }
 
-/// One pixel after another.
 std::vector<std::uint8_t> rgb(PixelFormat format, std::uint32_t width_px,
                               const std::vector<std::uint8_t>& bytes) {
   const std::uint32_t row = hal::row_bytes(format, width_px);
@@ -225,8 +224,8 @@ TEST(Rgb, OfEachFormat) {
   EXPECT_EQ(rgb(PixelFormat::kRgb, 2, {1, 2, 3, 4, 5, 6}), (Bytes{1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(rgb(PixelFormat::kGrey, 2, {7, 9}), (Bytes{7, 7, 7, 9, 9, 9}));
   EXPECT_EQ(rgb(PixelFormat::kYuyv, 2, {16, 128, 235, 128}), (Bytes{0, 0, 0, 255, 255, 255}));
-  // BT.601's colour bars of 100 %: red 81, 90, 240; green 145, 54, 34; blue 41, 240, 110, each
-  // rounded by the standard.
+  // BT.601's colour bars of 100 %: red 81, 90, 240; green 145, 54, 34; blue 41, 240, 110, rounded
+  // by the standard.
   const auto near = [](const Bytes& seen, const Bytes& meant) {
     ASSERT_EQ(seen.size(), meant.size());
     for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_NEAR(seen[i], meant[i], 2) << i;

@@ -5,7 +5,7 @@
 #include "tests/host/live/viewer.hpp"
 #include "tests/host/record/sample.hpp"
 
-// Viewers get the trace's content, or several robots' merged traces.
+// The content of a trace, or of several merged ones.
 
 namespace verp::live {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 using record::TraceWriter;
 using test::Viewer;
 
-/// Its beginning and three ticks, without a file.
+/// Its beginning and three ticks.
 void run(record::mcap::Listener* listener) {
   const Params params = record::test::sample_params();
   TraceWriter writer("", params, {}, {.listener = listener});

@@ -9,8 +9,8 @@
 
 #include "tests/host/live/viewer.hpp"
 
-// Viewers get messages in order, from the last one before they joined. No viewer, however slow or
-// malformed, costs the sender or another viewer anything.
+// Messages come in order, from the last before a viewer joined. No slow or malformed viewer costs
+// others anything.
 
 namespace verp::live {
 namespace {
@@ -38,14 +38,14 @@ std::vector<Data> read_up_to(const Viewer& viewer, const std::string& last) {
   return all;
 }
 
-/// One hour; tests of the timeout set less.
+/// One hour.
 ServerOptions patient() {
   ServerOptions options;
   options.patience = options.patience_all = std::chrono::hours(1);
   return options;
 }
 
-// The robot's loop must not wait for a server thread that has lost the processor.
+// The robot's loop must not wait for a server thread without processor.
 TEST(Live, RunsBeforeOthersWhereTheSystemLetsAThread) {
   const auto urgent_threads = [] {
     int count = 0;
@@ -88,7 +88,7 @@ TEST(Live, AViewerGetsTheLastMessageAndThenAllInOrder) {
       << "a channel that comes later is offered, too";
   viewer.subscribe(71, c);
   viewer.say(R"({"op":"unsubscribe","subscriptionIds":[72]})");
-  viewer.next_text("no subscription 72");  // now the server knows 71
+  viewer.next_text("no subscription 72");  // the server knows 71
   for (std::uint64_t i = 0; i < 100; ++i)
     server.send(i % 2 == 0 ? a : c, 100 + i, std::to_string(i));
   const std::vector<Data> got = read_up_to(viewer, "99");
@@ -214,7 +214,7 @@ TEST(Live, RubbishIsAnsweredOrEndsOneConnectionAndTakesNothingFromOthers) {
   EXPECT_EQ(server.counts().dropped, 0u);
 }
 
-// Any page may contact this port; the browser reports its origin.
+// Any page may contact this port; browsers report its origin.
 TEST(Live, APageOfAStrangerMayNotWatch) {
   ServerOptions options = patient();
   options.origins = {"https://viewer.example"};

@@ -12,12 +12,12 @@
 #include <string>
 #include <string_view>
 
-/// Shares no code with the server: it handles the bytes of RFC 6455 and Foxglove's protocol. A
-/// minute without a byte fails the test.
+/// Shares no code with the server (RFC 6455 and Foxglove's protocol). A minute without a byte fails
+/// the test.
 namespace verp::live::test {
 
 struct Received {
-  int opcode = -1;  ///< 1 text, 2 binary, 8 close; -1: the socket is closed
+  int opcode = -1;  ///< 1 text, 2 binary, 8 close; -1: closed socket
   std::string bytes;
 };
 
@@ -29,7 +29,7 @@ class Viewer {
       "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
       "Sec-WebSocket-Protocol: foxglove.websocket.v1\r\n\r\n";
 
-  /// `buffer`: unread bytes that its socket holds; 0: the default.
+  /// `buffer`: of the socket, bytes; 0: default.
   explicit Viewer(std::uint16_t port, int buffer = 0) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
     const timeval minute{60, 0};
     ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &minute, sizeof(minute));
@@ -51,7 +51,7 @@ class Viewer {
     socket_ = -1;
   }
 
-  /// Returns false if the peer is gone.
+  /// False if the peer is gone.
   bool put(std::string_view bytes) const {
     while (!bytes.empty()) {
       const ssize_t count = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
@@ -61,13 +61,13 @@ class Viewer {
     return true;
   }
 
-  /// From now on put() gives up after this time.
+  /// put() gives up after this time.
   void lose_patience() const {
     const timeval moment{0, 200'000};
     ::setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &moment, sizeof(moment));
   }
 
-  /// The head of the HTTP answer.
+  /// The HTTP answer's head.
   std::string greet(std::string_view words = kGreeting) const {
     put(words);
     std::string head;
@@ -79,7 +79,7 @@ class Viewer {
     return head;
   }
 
-  /// Masked like a client's.
+  /// Masked as a client's.
   static std::string frame(int opcode, std::string_view bytes) {
     std::string out(1, static_cast<char>(0x80 | opcode));
     if (bytes.size() < 126) {
@@ -113,7 +113,7 @@ class Viewer {
     }
     return {head[0] & 0x0f, take(static_cast<std::size_t>(length))};
   }
-  /// The next text with `needle` in it; "" if there is none.
+  /// "" if no text has `needle`.
   std::string next_text(std::string_view needle) const {
     for (Received got = next(); got.opcode >= 0 && got.opcode != 8; got = next()) {
       if (got.opcode == 1 && got.bytes.find(needle) != std::string::npos) return got.bytes;
@@ -122,7 +122,7 @@ class Viewer {
   }
 
  private:
-  /// Returns fewer than `size` bytes if the peer is gone.
+  /// Fewer than `size` bytes if the peer is gone.
   std::string take(std::size_t size) const {
     std::string bytes(size, '\0');
     std::size_t have = 0;
@@ -144,7 +144,7 @@ struct Data {
   std::string bytes;
 };
 
-/// The data of a message with opcode 1; empty for others, such as the time.
+/// Of opcode 1; empty for others.
 inline std::optional<Data> data_of(const Received& got) {
   if (got.opcode != 2 || got.bytes.size() < 13 || got.bytes[0] != 1) return {};
   Data data;
@@ -154,7 +154,7 @@ inline std::optional<Data> data_of(const Received& got) {
   return data;
 }
 
-/// Returns empty if the stream ended.
+/// Empty if the stream ended.
 inline std::optional<Data> next_data(const Viewer& viewer) {
   for (Received got = viewer.next(); got.opcode >= 0; got = viewer.next()) {
     if (auto data = data_of(got)) return data;

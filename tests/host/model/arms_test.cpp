@@ -8,8 +8,8 @@
 namespace verp::model {
 namespace {
 
-/// Angular momentum about the vertical through the body's origin, from the stand pose at these
-/// joint rates. Central differences of all links' positions.
+/// About the vertical through the body's origin, from the stand pose, by central differences of all
+/// links' positions.
 double momentum(const Params& params, const float (&rate_rad_s)[kMaxJoints]) {
   constexpr double kStep_s = 0.01;
   double sum = 0;
@@ -42,13 +42,13 @@ double leg_height_m(const Params& params, int side) {
   return static_cast<double>(leg.hip_body_m.z - sole_m.z());
 }
 
-// The hips swing the legs apart at 1 m/s; a tenth of the legs' momentum may remain.
+// The hips swing the legs apart at 1 m/s; a tenth of the momentum may remain.
 TEST(Arms, TurnAgainstTheLegs) {
   for (const char* name : {"generic21", "op3", "darwin_op"}) {
     const Params params = make_params(load_robot(robot_file(name)));
     float rate_rad_s[kMaxJoints] = {};
     for (int side = 0; side < kFeet; ++side) {
-      // The hip's y joint: positive is backward, forward if mirrored.
+      // The hip's y joint: positive is backward.
       for (int k = 0; k < 3; ++k) {
         const int j = params.leg[side].joint[k];
         if (math::abs(params.joint[j].axis.y) < 0.9F) continue;

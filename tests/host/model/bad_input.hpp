@@ -15,7 +15,7 @@ inline int line_of(const std::string& text, const std::string& part) {
   return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(at), '\n'));
 }
 
-/// generic21 with the first `old_part` replaced.
+/// With the first `old_part` replaced.
 inline std::string edited(const std::string& old_part, const std::string& new_part) {
   std::string text = read_text(robot_file("generic21"));
   const auto at = text.find(old_part);
@@ -24,7 +24,7 @@ inline std::string edited(const std::string& old_part, const std::string& new_pa
   return text;
 }
 
-/// Loading must fail at `line_part`'s line with one line that contains `message_part`.
+/// One line, at `line_part`'s line, with `message_part`.
 inline void expect_refused(const std::string& text, const std::string& line_part,
                            const std::string& message_part) {
   const TemporaryFile file("robot.sdf", text);

@@ -5,7 +5,7 @@
 #include "host/robot/model/load.hpp"
 #include "tests/host/model/bad_input.hpp"
 
-/// Each error names file, line and remedy.
+/// Errors name file, line and remedy.
 namespace verp::model {
 namespace {
 
@@ -139,7 +139,7 @@ TEST(BadInput, NegativeMassIsRefused) {
   expect_refused(edited("<mass>1.1</mass>", "<mass>-1.1</mass>"), "<mass>-1.1</mass>", "mass");
 }
 
-/// These values exceed float32 or any robot.
+/// Beyond float32 or any robot.
 TEST(BadInput, AbsurdMagnitudesAreRefused) {
   const struct {
     const char *old_part, *new_part, *line_part, *message;

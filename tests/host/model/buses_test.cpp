@@ -12,7 +12,7 @@
 namespace verp::model {
 namespace {
 
-/// The error on loading an edited generic21 by `bus`.
+/// Of an edited generic21.
 std::string refusal(const std::string& old_part, const std::string& new_part,
                     const std::string& bus = "") {
   std::string text = read_text(robot_file("generic21"));
@@ -98,8 +98,7 @@ TEST(Buses, OneThatCannotCarryATickIsRefused) {
   EXPECT_NE(line.find("a tick's packets take"), std::string::npos) << line;
 }
 
-// The packets take 87 % of the period, and more than all of it when every drive changes its state.
-// The error is at the bus's line.
+// 87 % of the period, and over 100 % when every drive changes its state.
 TEST(Buses, OneWithoutRoomNamesTheFirstDriveThatDoesNotFit) {
   const std::string slow = kCan + " period_us=\"10000\"";
   const std::string fast = kCan + " period_us=\"6000\"";
@@ -127,7 +126,7 @@ TEST(Buses, TheDriveThatIsNamedIsTheFirstThatDoesNotFit) {
   EXPECT_THROW(require_bus(entity, params), LoadError);
 }
 
-// The share is under 80 %, but such a tick would run into the next.
+// Under 80 %, but such a tick would run into the next.
 TEST(Buses, AChangeOfAllStatesHasToFitThePeriod) {
   const Entity entity = load_robot(robot_file("generic21"), "can");
   Params params = make_params(entity);

@@ -1,5 +1,5 @@
-# cmake -DGENERATOR=PROGRAM -DROBOT=FOLDER -P compare_generated.cmake: fails unless the generator makes FOLDER/robot.sdf
-# from FOLDER/NAME.table.
+# cmake -DGENERATOR=PROGRAM -DROBOT=FOLDER -P compare_generated.cmake: fails unless the generator makes
+# FOLDER/robot.sdf from FOLDER/NAME.table.
 cmake_path(GET ROBOT FILENAME name)
 execute_process(COMMAND ${GENERATOR} ${ROBOT}/${name}.table OUTPUT_VARIABLE made RESULT_VARIABLE status)
 file(READ ${ROBOT}/robot.sdf committed)

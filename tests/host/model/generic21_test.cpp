@@ -12,7 +12,7 @@
 #include "host/robot/model/robot_table.hpp"
 #include "tests/host/model/test_files.hpp"
 
-/// The paper's humanoid, and VERP's coordinate frame.
+/// The paper's humanoid in VERP's frame.
 namespace verp::model {
 namespace {
 
@@ -47,7 +47,7 @@ TEST(Generic21, IsKidSize) {
 }
 
 TEST(Generic21, LinksWeighAtLeastTheirServos) {
-  // The table distributes 21 servos of 82 g.
+  // 21 servos of 82 g.
   RobotTable table(std::string(VERP_SOURCE_DIR) + "/common/robots/generic21/generic21.table");
   const auto pair = [&](const char* link) {
     return 2 * table.number(std::string(link) + "_servos");
@@ -129,7 +129,7 @@ TEST(Generic21, LongerThighIsOneNumber) {
   EXPECT_NEAR(g.thigh_m, 0.1023, 1e-9);
   const Params params = make_params(longer);
   EXPECT_NEAR(params.tuning.gait.hip_height_m, 0.79194 * (0.1023 + 0.093), 1e-6);
-  // In the stand pose the hip is above the ankle at the gait's height.
+  // The hip is above the ankle at the gait's height.
   float angle_rad[kMaxJoints] = {};
   for (int j = 0; j < params.joint_count; ++j) angle_rad[j] = params.joint[j].stand_rad;
   const int ankle = find_joint(params, "l_ankle_pitch") + 1;
@@ -150,7 +150,7 @@ TEST(RobotTable, MisspeltKeyIsRefused) {
   EXPECT_THROW(RobotTable{twice.path()}, LoadError);
 }
 
-/// The paper: x left, y up, z forward. Here: x forward, y left, z up. (x, y, z)_paper = (y, z, x).
+/// The paper: x left, y up, z forward; (x, y, z)_paper = (y, z, x).
 Vec3 paper(const Vec3& ours) {
   return {ours.y(), ours.z(), ours.x()};
 }
@@ -160,12 +160,12 @@ TEST(PaperFrame, AxesAreACyclicPermutationOfOurs) {
   EXPECT_EQ(paper(Vec3::UnitY()), Vec3::UnitX());  // left
   EXPECT_EQ(paper(Vec3::UnitZ()), Vec3::UnitY());  // up
   const Vec3 a(1, 2, 3), b(-2, 5, 7);
-  EXPECT_EQ(paper(a.cross(b)), paper(a).cross(paper(b)));  // right-handed stays right-handed
+  EXPECT_EQ(paper(a.cross(b)), paper(a).cross(paper(b)));  // stays right-handed
 }
 
 TEST(PaperFrame, WorldOriginLiesOnTheGroundBetweenTheSoles) {
   const std::string sdf = read_text(robot_file("generic21"));
-  // The trunk's height is the sum of the legs' and the trunk's lengths.
+  // The sum of the legs' and the trunk's lengths.
   EXPECT_NE(sdf.find("<pose relative_to=\"__model__\">0 0 0.3045 0 0 0</pose>"), std::string::npos);
   const Params params = make_params(generic21());
   for (int foot = 0; foot < kFeet; ++foot) {
@@ -189,11 +189,11 @@ TEST(PaperFrame, BodyFrameIsTheTrunksCentreNotTheCentreOfMass) {
   EXPECT_LT(kinematics::center_of_mass(params, verp::Pose{}, zero).z(), -0.03F);
 }
 
-/// A link's point and its motion at a small positive angle.
+/// A point's motion at a small positive angle.
 struct Sense {
   const char* joint;
-  Vec3 point_m;  ///< in the link's frame
-  Vec3 goes;     ///< in our frame
+  Vec3 point_m;  ///< link's frame
+  Vec3 goes;     ///< our frame
   const char* words;
 };
 

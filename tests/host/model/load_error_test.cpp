@@ -5,7 +5,7 @@
 namespace verp::model {
 namespace {
 
-// The message quotes the file to a terminal that obeys control bytes.
+// A terminal obeys control bytes.
 TEST(LoadError, IsOneLineOfPrintedBytes) {
   EXPECT_STREQ(LoadError("f.sdf", 3, "a\x1b[2Jb\x7F\nc", "mend\tit").what(),
                "f.sdf:3: a?[2Jb? c; mend it");

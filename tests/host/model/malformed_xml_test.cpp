@@ -19,7 +19,7 @@ std::string with_line(const std::string& text, int line, bool twice) {
   return out;
 }
 
-// tinyxml2 names the element's first line; for a whole robot that is the file's.
+// tinyxml2 names the element's first line.
 TEST(MalformedXml, ATagLeftOutOrGivenTwiceIsToldWhereItIs) {
   const std::string folder = VERP_SOURCE_DIR "/tests/host/model/odd_robot/";
   int faults = 0;

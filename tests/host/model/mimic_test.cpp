@@ -24,7 +24,6 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-/// The odd robot with edited texts.
 class Odd {
  public:
   Odd(const std::string& urdf, const std::string& wrapper)
@@ -86,7 +85,7 @@ TEST(Mimic, HipsOfOneMotorAreOneServoOnTheBus) {
   EXPECT_EQ(check_image(&image, sizeof image), ImageFault::kNone);
 }
 
-// Arms instead of hips, every kind of ratio, either of the two first.
+// Arms instead of hips, any ratio, either of the two first.
 TEST(Mimic, BothLimitsAndSpeedsHoldForBoth) {
   struct Row {
     double multiplier, offset;

@@ -7,8 +7,7 @@
 #include "host/robot/model/load.hpp"
 #include "tests/host/model/test_files.hpp"
 
-/// Third-party files with one fault each, which crashed or passed the loader. The error must be
-/// within five lines of it.
+/// Third-party files with one fault each. The error must be within five lines of it.
 namespace verp::model {
 namespace {
 
@@ -63,7 +62,7 @@ void expect_sdf_refused(const std::string& text, const std::string& fault,
 void expect_urdf_refused(const std::string& inside, const std::string& fault,
                          const std::string& said) {
   std::string text = "<robot name=\"small\">\n" + urdf_link("a") + urdf_link("b");
-  // Far from the first line, so naming that line does not pass.
+  // Far from the first line.
   for (int i = 0; i < 20; ++i) text += "<!-- servos and gears -->\n";
   text += inside + "</robot>\n";
   const TemporaryFile urdf("small.urdf", text);
@@ -101,7 +100,7 @@ TEST(OthersFiles, TwoThatIncludeEachOtherAreRefused) {
   EXPECT_TRUE(error.file.ends_with("pong.sdf")) << error.what();
 }
 
-// libsdformat requests files by their <uri> alone: the second part would get the first one's file.
+// libsdformat requests files by <uri> alone: the second part would get the first file.
 TEST(OthersFiles, OneTextForTwoFilesIsRefused) {
   const std::string folder = ::testing::TempDir() + "/two_of_a_name";
   for (const char* each : {"/a", "/b"}) {
@@ -118,7 +117,7 @@ TEST(OthersFiles, OneTextForTwoFilesIsRefused) {
   EXPECT_TRUE(error.file.ends_with("b/part.sdf")) << error.what();
 }
 
-// Each file includes the next one twice: the last would be read 2^20 times.
+// Each includes the next twice: 2^20 reads.
 TEST(OthersFiles, FilesThatMultiplyAreRefusedAtOnce) {
   const std::string folder = ::testing::TempDir();
   for (int i = 0; i < 20; ++i) {
@@ -200,9 +199,9 @@ TEST(OthersFiles, UrdfJointOfAnUnknownTypeIsRefused) {
 
 struct Fault {
   const char* what;
-  const char* from;   ///< in the joint's text, or in the next link's
+  const char* from;   ///< in the text of the joint or the next link
   const char* until;  ///< end of the replaced text; "": of `from`
-  const char* to;     ///< replacement; NAME is the joint's name
+  const char* to;     ///< NAME is the joint's name
   const char* said;   ///< part of the message
   bool in_link = false;
 };
@@ -285,7 +284,7 @@ TEST(OthersFiles, TenOfEachFaultOfAUrdfAreRefusedWhereTheyStand) {
   std::filesystem::remove(urdf_path);
 }
 
-// libsdformat names the link, which our loader once took for the model.
+// libsdformat names the link.
 TEST(OthersFiles, APoseThatHangsOnItselfIsRefusedAtItsLink) {
   std::string text = read_text(robot_file("generic21"));
   const std::string pose = "<pose relative_to=\"r_hip_cross\">";
@@ -298,8 +297,7 @@ TEST(OthersFiles, APoseThatHangsOnItselfIsRefusedAtItsLink) {
   EXPECT_NEAR(error.line, line, 5) << error.what();
 }
 
-// libsdformat looks into the working directory first. There it found the unprepared URDF, in which
-// a link and joint share a name: two faults.
+// libsdformat looks into the working directory first, where the unprepared URDF is.
 TEST(OthersFiles, OddRobotIsTheSameForWhoeverStandsInItsFolder) {
   const std::string folder = VERP_SOURCE_DIR "/tests/host/model/odd_robot";
   const auto before = std::filesystem::current_path();
@@ -309,7 +307,7 @@ TEST(OthersFiles, OddRobotIsTheSameForWhoeverStandsInItsFolder) {
   std::filesystem::current_path(before);
 }
 
-// The smallest wrapper: its file gives no pose, gain or gait.
+// The file gives no pose, gain or gait.
 TEST(OthersFiles, OddRobotStandsOnWhatIsFoundForIt) {
   const Entity e = load_robot(VERP_SOURCE_DIR "/tests/host/model/odd_robot/robot.sdf");
   EXPECT_EQ(e.joints.size(), 15u) << "with the right hip's yaw, which has no servo";
@@ -374,7 +372,7 @@ TEST(OthersFiles, NamesThatNothingHasRoomForAreRefused) {
   }
 }
 
-// The libraries expect a handful of links; this took minutes.
+// The libraries expect a handful of links; 20,000 took minutes.
 TEST(OthersFiles, TwentyThousandLinksAreRefusedAtOnce) {
   std::string links;
   for (int i = 0; i < 20000; ++i) links += sdf_link("a" + std::to_string(i));

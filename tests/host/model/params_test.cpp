@@ -62,7 +62,7 @@ TEST(Params, LegSolverReachesWhatTheLegReached) {
     const verp::Pose sole =
         kinematics::sole_pose(leg, kinematics::leg_chain(params, leg, verp::Pose{}, angle_rad));
     const kinematics::LegAngles solved = kinematics::solve_leg(params, leg, sole, angle_rad);
-    if (solved.flags != 0) continue;  // the same sole pose by another posture, beyond a limit
+    if (solved.flags != 0) continue;  // another posture, beyond a limit
     const verp::Pose again = kinematics::sole_pose(
         leg, kinematics::leg_chain(params, leg, verp::Pose{}, solved.angle_rad));
     EXPECT_LT((again.position_m - sole.position_m).norm(), 1e-5F);
@@ -110,7 +110,7 @@ TEST(Image, IsReadBackAsWritten) {
   EXPECT_EQ(check_image(&image, sizeof image), ImageFault::kNone);
 }
 
-// `verp flash --params FILE` shows this error.
+// As in `verp flash --params FILE`.
 TEST(Image, NumberThatIsNoneIsToldByItsName) {
   ParamsImage image = make_image(generic21());
   image.params.joint[3].upper_rad = std::numeric_limits<float>::quiet_NaN();
@@ -202,7 +202,7 @@ std::string servo_line(const std::string& text, const std::string& type) {
   return at == std::string::npos ? "" : text.substr(at, text.find('\n', at) - at);
 }
 
-// An unmeasured motor's numbers are scaled from others, within a band.
+// Scaled from other motors, within a band.
 TEST(Check, SaysWhichServosAreIdentifiedAndWhichAreScaledWithinABand) {
   std::string text = read_text(robot_file("generic21"));
   const std::string was = "type=\"xm430_w210\"";

@@ -8,7 +8,6 @@
 namespace verp::model {
 namespace {
 
-// Each robot has its own soles and gait.
 TEST(SolesOfShippedRobots, PassBesideEachOtherHoweverOrdersJump) {
   for (const char* name : {"generic21", "op3", "darwin_op"}) {
     const Params params = make_params(load_robot(robot_file(name)));

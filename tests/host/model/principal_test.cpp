@@ -8,7 +8,7 @@
 namespace verp::model {
 namespace {
 
-// Our function equals Eigen's bit for bit. Eigen's adds seconds of compile time to each unit.
+// Equals Eigen's bit for bit without its seconds of compile time.
 TEST(Principal, TheShortestTurnOfZIsEigens) {
   std::mt19937 random(1);
   std::normal_distribution<double> number;

@@ -33,7 +33,7 @@ std::string with(const std::string& addition) {
   return text;
 }
 
-// Boxes around three axes that meet must overlap.
+// Boxes around three meeting axes overlap.
 TEST(SelfCollision, OfGeneric21OnlyTheLinksAroundAHipPassThroughEachOther) {
   const Entity e = load_robot(robot_file("generic21"));
   for (const NoCollide& pair : e.no_collide) {
@@ -58,7 +58,7 @@ TEST(SelfCollision, JointsAreCountedAlongOneChainOnly) {
   EXPECT_EQ(joints_between(e, node(e, "l_foot"), node(e, "l_foot")), 0);
 }
 
-// Overlapping feet would push the robot apart.
+// Overlapping feet push the robot apart.
 TEST(SelfCollision, StandingInOneselfIsRefusedUnlessItIsDeclared) {
   const std::string box =
       "<verp:box frame=\"l_sole\" centre=\"0 -0.02 0.005\" size=\"0.1 0.08 0.01\"/>\n";

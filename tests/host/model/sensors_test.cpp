@@ -10,7 +10,7 @@
 namespace verp::model {
 namespace {
 
-/// Sensors for generic21: in the ankle's joint, on the foot, among the verp: elements.
+/// In the ankle's joint, on the foot, among the verp: elements.
 struct Additions {
   std::string joint, foot, elements;
 };

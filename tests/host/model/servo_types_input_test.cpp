@@ -4,7 +4,6 @@
 
 #include "tests/host/model/bad_input.hpp"
 
-/// Servo types described in the robot's file.
 namespace verp::model {
 namespace {
 
@@ -77,7 +76,7 @@ TEST(BadInput, ServoTypesOfTheFileAreReadAndTheirSlipsNamed) {
                  "<gear/>", "unknown element <gear>");
 }
 
-// Random robots vary what nobody has measured.
+// Random robots vary unmeasured numbers.
 TEST(BadInput, AServoTypeThatIsLikeAnotherIsAsSureAsItsNumbers) {
   const std::string old_type = "type=\"xm430_w210\"";
   const auto mine = [&](const std::string& attributes) {

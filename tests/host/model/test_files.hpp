@@ -17,7 +17,7 @@ inline std::string read_text(const std::string& path) {
   return text.str();
 }
 
-/// A file that the destructor removes.
+/// Removed by the destructor.
 class TemporaryFile {
  public:
   TemporaryFile(const std::string& name, const std::string& text)
@@ -39,7 +39,7 @@ inline std::string robot_file(const std::string& name) {
   return std::string(VERP_SOURCE_DIR) + "/common/robots/" + name + "/robot.sdf";
 }
 
-/// The error of loading `path`. ctest ends a load that never ends.
+/// ctest ends an endless load.
 inline LoadError refusal_of(const std::string& path) {
   try {
     load_robot(path);
@@ -51,14 +51,14 @@ inline LoadError refusal_of(const std::string& path) {
   return {path, 0, "", ""};
 }
 
-/// The text without its first element that begins with `start`.
+/// Without the first element that begins with `start`.
 inline std::string without_element(std::string text, const std::string& start) {
   const auto at = text.find(start);
   EXPECT_NE(at, std::string::npos) << start;
   return at == std::string::npos ? text : text.erase(at, text.find("/>", at) + 2 - at);
 }
 
-/// Expects both to have the same links, joints and servos.
+/// Same links, joints and servos.
 inline void expect_same_robot(const Entity& one, const Entity& other) {
   ASSERT_EQ(one.nodes.size(), other.nodes.size());
   for (std::size_t n = 0; n < other.nodes.size(); ++n) {

@@ -20,7 +20,7 @@ double mass_of(const Entity& entity) {
   return sum;
 }
 
-/// Both legs reach a level sole at walking height without flags.
+/// A level sole at walking height is reached without flags.
 void expect_walkable(const Entity& entity) {
   const Params params = make_params(entity);
   for (int foot = 0; foot < kFeet; ++foot) {
@@ -37,7 +37,7 @@ void expect_walkable(const Entity& entity) {
         leg, kinematics::leg_chain(params, leg, verp::Pose{}, solved.angle_rad));
     EXPECT_LT((found.position_m - sole.position_m).norm(), 2e-4F);
     EXPECT_LT((found.rotation - sole.rotation).norm(), 1e-3F);
-    // The declared stand pose is that posture, but for the stance width.
+    // The stand pose is that posture, but for the stance width.
     for (int k = 0; k < kLegJoints; ++k) EXPECT_NEAR(solved.angle_rad[k], stand_rad[k], 0.02F) << k;
   }
 }
@@ -73,7 +73,7 @@ TEST(ThirdParty, ImagesAreSound) {
   }
 }
 
-/// A wrapper around a URDF of two links; `extra` is in the joint, `more` beside it.
+/// Around a URDF of two links; `extra` is in the joint, `more` beside it.
 class SmallUrdf {
  public:
   SmallUrdf(const std::string& extra, const std::string& more)
@@ -131,7 +131,7 @@ TEST(Urdf, ShapeWithoutMassIsRefusedUnlessDeclared) {
   EXPECT_EQ(load_part_of_robot(file.path()).joints.size(), 1u);
 }
 
-// Other programs need such chains of frames; all keep their names.
+// Other programs need such chains; all keep their names.
 TEST(Urdf, ChainOfMasslessLinksCarriesWhatHangsOnIt) {
   const auto fixed = [](const std::string& name, const std::string& parent,
                         const std::string& child) {
@@ -166,7 +166,7 @@ TEST(Urdf, LinkAndJointMayHaveOneName) {
   EXPECT_EQ(e.nodes[2].name, "k");
 }
 
-// The fixed joints are fingers: one slides, one bends, one mimics.
+// Fingers: one slides, one bends, one mimics.
 TEST(Urdf, FixedJointsAreNoJointsAndStandWhereTheyWereFixed) {
   const auto joint = [](const std::string& name, const std::string& type, const std::string& more) {
     return SmallUrdf::link(name + "_tip") + "<joint name=\"" + name + "\" type=\"" + type +
@@ -189,7 +189,7 @@ TEST(Urdf, FixedJointsAreNoJointsAndStandWhereTheyWereFixed) {
   const Entity e = load_part_of_robot(file.path());
   ASSERT_EQ(e.joints.size(), 1u);
   EXPECT_NEAR(mass_of(e), 6, 1e-12);
-  // A right angle about x: the mass above the joint is now on its right.
+  // A right angle about x: the mass is now on the right.
   EXPECT_NEAR(e.nodes[1].com_m.y(), -1.0 / 5, 1e-6);
   const TemporaryFile wrong("wrong.sdf",
                             urdf.wrapper(fixes + "<verp:fix joint=\"thumb\" reason=\"?\"/>"));
@@ -202,7 +202,7 @@ TEST(Urdf, DecimalCommaIsRefused) {
   EXPECT_THROW(load_robot(file.path()), LoadError);
 }
 
-/// The test moves joints as other file conventions would place them.
+/// As other file conventions place the joints.
 TEST(LegSolver, AxesApartBeyondHalfAMillimetreTakeNewton) {
   Entity e = load_robot(robot_file("generic21"));
   const Limb leg = *find_limb(e, "left_leg");
@@ -226,7 +226,7 @@ TEST(LegSolver, SkewedHipAxisTakesNewton) {
 TEST(LegSolver, BentZeroPoseBecomesOffsets) {
   Entity e = load_robot(robot_file("generic21"));
   const Limb leg = *find_limb(e, "left_leg");
-  // In the zero pose the knee is 40 mm ahead of hip and ankle.
+  // In the zero pose the knee is 40 mm ahead.
   e.joints[static_cast<std::size_t>(leg.joints[3])].origin_m.x() += 0.04;
   e.joints[static_cast<std::size_t>(leg.joints[4])].origin_m.x() -= 0.04;
   const LegGeometry g = classify_leg(e, leg);

@@ -7,7 +7,7 @@
 #include "host/robot/model/load_world.hpp"
 #include "tests/host/model/test_files.hpp"
 
-/// Shipped worlds load; mistakes are refused with file, line and remedy.
+/// Mistakes are refused with file, line and remedy.
 namespace verp::model {
 namespace {
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # own_controller.sh VERP [BOARD]: a new controller's project builds, walks, records and replays here, and its mistakes
-# are reported. With a board, it walks there in QEMU with the same digest, and flash would take its image.
+# are reported. With a board, it walks there in QEMU with the same digest, and flash takes its image.
 set -euo pipefail
 verp=$1 board=${2:-}
 scratch=$(mktemp -d)
@@ -31,7 +31,7 @@ awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "rad.r_shoulder_pitch") c
 grep -q -- "--controller $scratch/a place/my_controller" said || say "replay does not say whose it is: $(cat said)"
 ctest --test-dir "$own/build/pc" >said || say "its test fails: $(cat said)"
 
-# One mistake at a time: exit status 1, one line, with the file or the joint.
+# Exit status 1 and one line with the file or the joint.
 wrong() { # arguments: the line that replaces the wave's, and the expected message
   local status=0
   cp "$own/controller.cpp" good.cpp

@@ -14,14 +14,14 @@
 #include "host/show/scene/build.hpp"
 #include "tests/host/tool/program.hpp"
 
-// Each effect changes its part of the picture, and bad input gives one line.
+// Each effect changes its part of the picture.
 
 namespace verp::render {
 namespace {
 
 using scene::Vec3;
 
-/// A ball of 0.1 m before a wall, seen along x from the origin.
+/// A ball of 0.1 m before a wall.
 struct Bench {
   OffscreenContext context;
   Renderer renderer;
@@ -55,7 +55,7 @@ struct Bench {
   }
 };
 
-/// Mean difference, in steps of 255.
+/// In steps of 255.
 double apart(const Image& a, const Image& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.rgb.size(); ++i) sum += std::abs(a.rgb[i] - b.rgb[i]);
@@ -106,7 +106,7 @@ TEST(Renderer, EachEffectChangesThePictureAsMeant) {
     bench.renderer.set_looks(bench.scene);
     return bench.image().rgb[3 * (10 * std::size_t(bench.size.width) + 20)];
   };
-  // The wall's corner is 3.4 m away: density 0.2 leaves e^-0.68 there, and squared e^-0.46.
+  // 3.4 m to the corner: density 0.2 leaves e^-0.68, squared e^-0.46.
   const int thin = at_wall(0, 1e6, 0, false), thick = at_wall(0, 0.01, 0, false);
   EXPECT_EQ(thick, 255);
   EXPECT_GT(at_wall(4, 30, 0.2, false), thin + 20);
@@ -120,10 +120,10 @@ TEST(Renderer, EachEffectChangesThePictureAsMeant) {
   bench.scene.items[0].material.colour.a = 0.4F;
   bench.renderer.set_looks(bench.scene);
   const std::size_t green = 3 * bench.middle() + 1;
-  EXPECT_GT(bench.image().rgb[green], opaque.rgb[green] + 20);  // from the wall behind it
+  EXPECT_GT(bench.image().rgb[green], opaque.rgb[green] + 20);  // the wall behind it
   Effects solid;
   solid.transparency = false;
-  EXPECT_LT(apart(opaque, bench.image(solid)), 0.5);  // but the ball casts no shadow
+  EXPECT_LT(apart(opaque, bench.image(solid)), 0.5);  // the ball casts no shadow
 }
 
 TEST(Renderer, NumbersThatAreNotFiniteAndFilesThatAreNoMeshesAreLeftOut) {
@@ -181,7 +181,7 @@ namespace {
 
 class Pictures : public Program {
  protected:
-  /// Mean difference from a picture that a person has seen.
+  /// Mean difference from a picture seen by a person.
   double from_golden(const std::string& name) const {
     const render::Image now = render::read_png((folder_ / name).string());
     const render::Image then = render::read_png(std::string(VERP_GOLDEN) + "/" + name);
@@ -190,7 +190,7 @@ class Pictures : public Program {
   }
 };
 
-// Drivers differ at edges of shapes and shadows; a missing leg is 3 and more.
+// Drivers differ at edges; a missing leg is 3 and more.
 constexpr double kDriver = 1.5;
 
 TEST_F(Pictures, AStandingRobotAndItsEyeAreAsSomebodyLookedAtThem) {
@@ -254,7 +254,7 @@ TEST_F(Pictures, WrongWordsAndMissingThingsCostOneLineEach) {
   EXPECT_EQ(std::count(no_driver.err.begin(), no_driver.err.end(), '\n'), 1) << no_driver.err;
   EXPECT_NE(no_driver.err.find("GL driver"), std::string::npos) << no_driver.err;
   const Outcome no_swrast = shell("LIBGL_DRIVERS_PATH=/nowhere " + std::string(VERP_PROGRAM) +
-                                  " shot generic21 -o a.png");  // Mesa prints more lines
+                                  " shot generic21 -o a.png");  // Mesa prints more
   EXPECT_EQ(no_swrast.status, 3) << no_swrast.err;
   EXPECT_EQ(std::count(no_swrast.err.begin(), no_swrast.err.end(), '\n'), 1) << no_swrast.err;
   const Outcome no_ffmpeg =

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPatience_ms = 20'000;  // for short operations on a loaded machine
+constexpr int kPatience_ms = 20'000;  // short operations on a loaded machine
 
 std::string slurp(const fs::path& file) {
   std::ifstream in(file);
@@ -43,7 +43,7 @@ class LifeLine {
     if (ends_[1] >= 0) ::close(ends_[1]);
     ends_[1] = -1;
   }
-  /// All output until then; "still there" if a holder remains.
+  /// "still there" if a holder remains.
   std::string last_words() {
     let_go();
     std::string words;
@@ -132,7 +132,7 @@ TEST(Child, ACtrlCOfOursDoesNotReachIt) {
   EXPECT_NE(::getpgid(child.id()), ::getpgrp());
 }
 
-// SIGKILL runs neither destructors nor handlers.
+// SIGKILL runs no destructor or handler.
 TEST(Child, DoesNotOutliveAParentThatIsKilled) {
   LifeLine line;
   const pid_t parent = ::fork();
@@ -146,7 +146,7 @@ TEST(Child, DoesNotOutliveAParentThatIsKilled) {
   EXPECT_EQ(line.last_words(), "up\n");
 }
 
-// Then the pipe for start errors may get a standard stream's number.
+// The error pipe may get a standard stream's number.
 TEST(Child, WhatCannotStartSaysWhyWhereOurStreamsAreClosed) {
   const pid_t parent = ::fork();
   if (parent == 0) {
@@ -163,7 +163,7 @@ TEST(Child, WhatCannotStartSaysWhyWhereOurStreamsAreClosed) {
   EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, ENOENT);
 }
 
-// The program gets descriptors 0 to 2 for its own files.
+// The program gets descriptors 0 to 2 for its files.
 TEST(Child, ClosedStreamsOfOursAreNotMixedUpWithItsOwn) {
   const files::TemporaryDirectory folder;
   const fs::path out = folder.path() / "out", err = folder.path() / "err";

@@ -8,7 +8,7 @@
 namespace verp::radio {
 namespace {
 
-/// Removes chance: range, time and bytes remain.
+/// Without chance: range, time and bytes remain.
 Conditions sure() {
   Conditions c;
   c.loss = c.fade = c.jitter_s = 0;
@@ -81,7 +81,7 @@ TEST(Radio, AMessageTakesItsDelayAndItsBytesTime) {
   c.bytes_s = 1000;
   c.overhead = 10;
   Row row(c, 2, 1);
-  row.radio.send(0, kEverybody, std::string(30, 'x'), 1'000);  // 20 ms, its wait, 40 bytes: 40 ms
+  row.radio.send(0, kEverybody, std::string(30, 'x'), 1'000);  // 20 ms, its wait, 40 bytes
   row.radio.advance(60'999, row.places);
   EXPECT_EQ(row.heard(1), 0u);
   row.radio.advance(61'000 + Radio::kLongestWait_us, row.places);
@@ -109,11 +109,10 @@ TEST(Radio, JitterSpreadsDelaysOverAllOfIt) {
     sum_s += took_s;
   }
   EXPECT_NEAR(least_s, 0.010, 0.001);
-  EXPECT_NEAR(most_s, 0.042, 0.001);  // includes the wait before sending
+  EXPECT_NEAR(most_s, 0.042, 0.001);  // with the wait before sending
   EXPECT_NEAR(sum_s / kMessages, 0.026, 0.002);
 }
 
-// All send as much as they may.
 TEST(Radio, StationsShareTheAir) {
   Conditions c = sure();
   c.bytes_s = 10'000;
@@ -135,7 +134,7 @@ TEST(Radio, StationsShareTheAir) {
   }
   EXPECT_LT(bytes / kLong_s, 10'000);
   EXPECT_GT(bytes / kLong_s, 4'000);  // waiting and collisions take the rest
-  EXPECT_GT(collided, 0u);            // two may start within kBlind_us
+  EXPECT_GT(collided, 0u);            // within kBlind_us
   EXPECT_GT(row.radio.refused(), 0u);
 }
 
@@ -162,7 +161,7 @@ TEST(Radio, OneListensBeforeItTalks) {
   EXPECT_EQ(row.heard(2), 2u);
 }
 
-/// The share of broadcasts, each alone on the air, that the other station misses.
+/// Of broadcasts alone on the air.
 double lost_share(const Conditions& c, double apart_m, int messages, std::uint64_t seed = 1) {
   Row row(c, 2, apart_m, seed);
   for (int i = 0; i < messages; ++i) {
@@ -193,7 +192,7 @@ TEST(Radio, FadesForAStretchAndThatShareOfTheTime) {
   c.fade = 0.1;
   c.fade_s = 0.4;
   EXPECT_NEAR(lost_share(c, 1, kMany), 0.1, 4 * std::sqrt(0.1 * 0.9 / 5000));
-  // A message after a lost one is usually lost too.
+  // A message after a lost one is usually lost.
   Row row(c, 2, 1);
   int pairs = 0, lost = 0;
   bool before = false;

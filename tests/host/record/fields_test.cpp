@@ -43,7 +43,6 @@ TEST(Fields, DifferenceNamesPathDecimalAndBits) {
   EXPECT_EQ(differences[1].right, "-12 (0xfff4)");
 }
 
-// The digest covers bits too.
 TEST(Fields, ComparesBitsNotValues) {
   Foot plus, minus;
   minus.x_m = -0.0f;
@@ -58,7 +57,7 @@ TEST(Fields, OneUlpIsVisible) {
   EXPECT_NE(scalar_plain(0.1f), scalar_plain(std::nextafter(0.1f, 1.0f)));
 }
 
-// Flipping any byte names exactly one field.
+// Any flipped byte names one field.
 TEST(Fields, EveryByteOfStateIsNamed) {
   const State state;
   for (std::size_t i = 0; i < sizeof(State); ++i) {

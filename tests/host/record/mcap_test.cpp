@@ -55,7 +55,7 @@ TEST_F(Mcap, CompressedHoldsTheSameInLess) {
     EXPECT_EQ(file.messages[i].data, same.messages[i].data);
     EXPECT_EQ(file.messages[i].time_ns, same.messages[i].time_ns);
   }
-  // Data that would not shrink stays uncompressed.
+  // It would not shrink.
   std::string noise(4000, '\0');
   std::uint32_t drawn = 1;
   for (char& c : noise) c = static_cast<char>((drawn = 1664525 * drawn + 1013904223) >> 24);

@@ -7,7 +7,7 @@
 namespace verp::record::test {
 namespace {
 
-/// step(), but from tick `from` on one bit of State flips after each tick.
+/// From tick `from` on one bit of State flips per tick.
 StepFunction planted(std::uint32_t from, std::size_t offset) {
   return [=](const Params& params, State& state, const Inputs& inputs, Outputs& outputs) {
     step(params, state, inputs, outputs);
@@ -56,7 +56,6 @@ TEST(Replay, ChangedCoreIsNamedByTickStageAndField) {
   EXPECT_EQ(line.find('\n'), std::string::npos);
 }
 
-// Replay cannot reproduce another build's trace.
 TEST(Replay, ForeignTraceIsNamedFromTheNextKeptState) {
   Trace trace = sample_run(400);
   for (std::size_t i = 130; i < 400; ++i) trace.ticks[i].digest.stage[2] ^= 1;

@@ -1,4 +1,4 @@
-# cmake -DSCRIPT=revision.cmake -DFOLDER=SCRATCH -P revision_test.cmake: the source revision that a trace records.
+# cmake -DSCRIPT=revision.cmake -DFOLDER=SCRATCH -P revision_test.cmake: the source revision of traces.
 file(REMOVE_RECURSE ${FOLDER})
 file(MAKE_DIRECTORY ${FOLDER})
 
@@ -28,7 +28,7 @@ expect(${hash} "as tagged")
 file(WRITE ${FOLDER}/source.cpp "int b;\n")
 expect(${hash}-dirty "edited")
 
-# Written only on a change; otherwise every build would compile.
+# Written only on a change; else every build would compile.
 execute_process(COMMAND ${CMAKE_COMMAND} -DSOURCE=${FOLDER} -DOUTPUT=${FOLDER}/out.cpp -P ${SCRIPT})
 file(TIMESTAMP ${FOLDER}/out.cpp before "%s%f")
 execute_process(COMMAND ${CMAKE_COMMAND} -E sleep 0.1)

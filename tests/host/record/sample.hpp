@@ -15,7 +15,7 @@ namespace verp::record::test {
 
 namespace fs = std::filesystem;
 
-/// The destructor removes the test's folder.
+/// Removed by the destructor.
 class TraceFolder : public ::testing::Test {
  protected:
   TraceFolder() {
@@ -63,7 +63,7 @@ inline TickRecord record_of(const Inputs& inputs, const TickDigest& digest = {})
   return record;
 }
 
-/// The run without a file.
+/// Without a file.
 inline Trace sample_run(std::uint32_t ticks, const Params& params = sample_params()) {
   Trace trace;
   trace.params = params;

@@ -5,7 +5,7 @@
 namespace verp::record::test {
 namespace {
 
-// The range includes both ends, although 0.07 s has no exact binary form.
+// 0.07 s has no exact binary form.
 TEST(TickRange, TakesBothEndsAndRefusesWhatIsNotThere) {
   const Trace trace = sample_run(20);
   const auto range = [&](std::optional<double> from_s, std::optional<double> to_s) {

@@ -16,7 +16,7 @@ class TraceCut : public TraceFolder {
   const fs::path whole_ = folder_ / "whole.mcap", part_ = folder_ / "part.mcap";
 };
 
-// The original's ticks and digests, from the last State before the cut; also in a cut of a cut.
+// From the last State before the cut; also a cut of a cut.
 TEST_F(TraceCut, IsATraceThatReplaysToTheSameBits) {
   const Trace whole = read_trace(whole_);
   struct Row {
@@ -54,7 +54,7 @@ TEST_F(TraceCut, KeepsEveryMessageOfItsTime) {
       if (tick % 10 == 0) writer.append("laser", tick, ros::LaserScan{});
       if (tick == 130) writer.note(tick, "pushed");
     }
-    writer.append("laser", 150, ros::LaserScan{});  // late, like a camera's picture
+    writer.append("laser", 150, ros::LaserScan{});  // late, like a picture
     writer.close({{"failure", "fell"}});
   }
   cut(1.3, 2.0);
@@ -82,7 +82,7 @@ TEST_F(TraceCut, RefusesWhatItCannotReplayAndLeavesNothing) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
 }
 
-// This program does not understand the other revision's State.
+// The other revision's State is unknown here.
 TEST_F(TraceCut, OfAnotherRevisionIsRefusedByName) {
   const Params params = sample_params();
   {

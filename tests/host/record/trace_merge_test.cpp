@@ -9,7 +9,6 @@ namespace {
 
 class TraceMerge : public TraceFolder {
  protected:
-  /// Writes every kind of message.
   void write(const char* name, std::uint32_t ticks) const {
     TraceWriter writer(folder_ / name, sample_params(), {{"seed", name}});
     const ros::BodyPose body{{1, 2, 3}, {0, 0, 0, 1}};
@@ -31,7 +30,7 @@ class TraceMerge : public TraceFolder {
   }
 };
 
-// Read by its definition and written again, it is the same bytes.
+// Written again, it is the same bytes.
 TEST_F(TraceMerge, KnowsEveryTypeOfMessageByItsDefinition) {
   write("a.mcap", 40);
   const std::string bytes = slurp(folder_ / "a.mcap");

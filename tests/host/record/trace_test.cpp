@@ -79,7 +79,7 @@ TEST_F(TraceFile, CrashLosesAtMostTheOpenChunk) {
     for (std::uint32_t tick = 0; tick < 25; ++tick) {
       writer.append(record_of(sample_inputs(tick)), State{}, Outputs{});
     }
-    fs::copy_file(part, folder_ / "crashed.mcap");  // the disk if the process dies here
+    fs::copy_file(part, folder_ / "crashed.mcap");  // as if the process died here
   }
   EXPECT_NE(error_of(folder_ / "crashed.mcap").find("20 ticks before it are whole"),
             std::string::npos);
@@ -88,7 +88,7 @@ TEST_F(TraceFile, CrashLosesAtMostTheOpenChunk) {
   EXPECT_NE(trace.warning, "");
 }
 
-// In real time a chunk's end is part of a tick; a second of pictures would be too much.
+// A second of pictures would be too much for the end of a tick.
 TEST_F(TraceFile, ChunksEndWhenTheyAreFull) {
   fs::path part;
   TraceWriter writer(folder_ / "run.mcap", sample_params(), {}, {.ros = true});
@@ -111,7 +111,7 @@ TEST_F(TraceFile, TruncationAnywhereIsAnErrorAndRecoversWholeTicks) {
   const std::string bytes = slurp(file);
   const Trace whole = read_trace(file);
   const fs::path cut = folder_ / "cut.mcap";
-  const std::size_t stride = 397;  // mcap_test tries every offset on its small file
+  const std::size_t stride = 397;  // mcap_test tries every offset
   for (std::size_t size = 0; size < bytes.size(); size += stride) {
     spit(cut, std::string_view(bytes).substr(0, size));
     EXPECT_NE(error_of(cut), "") << "cut to " << size;
@@ -119,7 +119,7 @@ TEST_F(TraceFile, TruncationAnywhereIsAnErrorAndRecoversWholeTicks) {
       const Trace trace = read_trace(cut, Read::kRecover);
       EXPECT_EQ(trace.ticks.size() % 4, 0u);
       EXPECT_FALSE(replay(trace).divergence) << "cut to " << size;
-    } catch (const TraceError&) {  // cut before the robot: no tick to recover
+    } catch (const TraceError&) {  // cut before the robot
     }
   }
   spit(cut, std::string_view(bytes).substr(0, bytes.size() - 1));
@@ -142,7 +142,7 @@ TEST_F(TraceFile, MessageSaysHowMuchIsLost) {
   EXPECT_NE(error.find("lost"), std::string::npos) << error;
 }
 
-// A compressed trace cannot say how many ticks were lost.
+// It cannot say how many ticks were lost.
 TEST_F(TraceFile, CompressedRecoversWholeChunksToo) {
   const fs::path file = folder_ / "run.mcap";
   write_run(file, 12, {.chunk_ticks = 4});
@@ -177,7 +177,7 @@ TEST_F(TraceFile, EditIsAnError) {
   }
 }
 
-// Its indices are out of range, or its values are no numbers.
+// Bad indices, or values that are no numbers.
 TEST_F(TraceFile, ParamsThatAreNoRobotAreRefused) {
   const auto refused = [&](auto spoil) {
     Params params = sample_params();

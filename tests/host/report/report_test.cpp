@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Ten seconds at 0.2 m/s along x, 16 states a cycle.
+/// 0.2 m/s along x, 16 states a cycle.
 Run sample_run() {
   Run run;
   run.title = "robot <one> & \"two\"";
@@ -81,7 +81,7 @@ TEST(ReportNumbers, PlannedZmpStandsBesideTheMeasuredOneAndIsEmptyWhereThereIsNo
   EXPECT_NE(csv.find(",0.04,0.03,0.04,0.04,3,"), std::string::npos) << "at 0.2 s";
 }
 
-/// The first line's fields, by RFC 4180.
+/// By RFC 4180.
 std::vector<std::string> header_of(const std::string& csv) {
   std::vector<std::string> fields(1);
   bool quoted = false;
@@ -187,7 +187,7 @@ TEST_F(ReportFolder, LeavesOutWhatARunHasNoDataFor) {
   EXPECT_FALSE(fs::exists(folder_ / "walk.png"));
 }
 
-// That had a picture and a sweep; this has neither.
+// That one had a picture and a sweep.
 TEST_F(ReportFolder, HoldsNothingOfTheRunBefore) {
   report::Run run = sample_run();
   run.sweep.push_back({});
@@ -212,7 +212,6 @@ TEST_F(ReportFolder, CallsNoCycleSteadyWhereNoneWas) {
   EXPECT_NE(page.find("too short to become steady"), std::string::npos);
 }
 
-/// First in PATH.
 class BrokenGnuplot : public ReportFolder {
  protected:
   BrokenGnuplot() : path_(std::getenv("PATH")) {

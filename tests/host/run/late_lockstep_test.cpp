@@ -6,7 +6,7 @@
 #include "tests/host/run/run_bench.hpp"
 #include "tests/host/tool/link_controller.hpp"
 
-// Must show 8, in lockstep: delayed bytes and a PC that stops cost time but no bit.
+// Delayed bytes and a PC that stops cost time but no bit.
 namespace verp::tool::test {
 namespace {
 
@@ -15,7 +15,7 @@ using verp::test::LinkController;
 
 class LateLockstep : public Program {
  protected:
-  /// Walks with this latency each way; PC and cable stop `stalls` times.
+  /// PC and cable stop `stalls` times.
   void walk(std::uint64_t latency_us, int stalls) {
     const Outcome here = verp("walk --json --for 3", "walk");
     const std::string bus = (folder_ / "bus").string(), orders = (folder_ / "orders").string();
@@ -38,7 +38,7 @@ class LateLockstep : public Program {
     EXPECT_EQ(result.at("digest"), expected.at("digest"));
     EXPECT_EQ(result.at("compared_ticks"), expected.at("ticks"));
     EXPECT_EQ(result.at("fallen"), false);
-    // One more read gets the end.
+    // The last read gets the end.
     EXPECT_GE(cable.ticks(), expected.at("ticks")) << "every tick came over the slow cable";
   }
 };

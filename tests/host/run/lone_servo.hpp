@@ -15,7 +15,7 @@
 
 namespace verp::test {
 
-/// Factory-new servos on a serial port, each at its own baud rate only. The test turns their horns.
+/// Factory-new servos, each at its own baud rate. The test turns their horns.
 class LoneServo {
  public:
   explicit LoneServo(const std::string& path)
@@ -30,7 +30,7 @@ class LoneServo {
   LoneServo(const LoneServo&) = delete;
   LoneServo& operator=(const LoneServo&) = delete;
 
-  /// Connects a servo; before the first call none answers.
+  /// Before the first call no servo answers.
   void connect(const bus::ServoIdentity& identity) {
     const std::scoped_lock lock(mutex_);
     const int joint = static_cast<int>(servos_.size());
@@ -40,12 +40,12 @@ class LoneServo {
     const std::scoped_lock lock(mutex_);
     servos_.clear();
   }
-  /// Turns the first servo to where its encoder reads `count`.
+  /// The first servo, in counts.
   void turn_to(std::int32_t count) {
     const std::scoped_lock lock(mutex_);
     plant_.measured[0].position_count = count;
   }
-  /// A register of the first servo.
+  /// Of the first servo.
   std::int64_t value(std::uint16_t address, std::uint16_t size) {
     const std::scoped_lock lock(mutex_);
     const auto bytes = servos_[0]->read(address, size);
@@ -55,7 +55,7 @@ class LoneServo {
     }
     return size == 4 ? static_cast<std::int32_t>(value) : static_cast<std::int64_t>(value);
   }
-  /// The number of writes that reached any servo.
+  /// To any servo.
   int writes() const { return writes_; }
 
  private:
@@ -103,7 +103,7 @@ class LoneServo {
   }
 
   link::Link link_;
-  link::Descriptor line_;  ///< keeps the port open and shows its rate
+  link::Descriptor line_;  ///< keeps the port open
   FakePlant plant_;
   dxl::Parser parser_;
   std::mutex mutex_;

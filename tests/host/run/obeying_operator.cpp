@@ -3,7 +3,7 @@
 #include "common/safety/machine.hpp"
 #include "host/apps/tool/run_operator.hpp"
 
-// `verp run --take-orders`: the client decides, for the run's time.
+// `verp run --take-orders`: the client decides.
 namespace verp::tool {
 namespace {
 
@@ -24,7 +24,7 @@ class Obeying : public ::testing::Test {
       return order;
     });
   }
-  /// One tick in this mode; returns its order.
+  /// Returns its order.
   Request tick(Mode mode, std::uint32_t faults = 0) {
     const app::OperatorOrder order = who.order(ticks++);
     Outputs outputs;

@@ -18,14 +18,14 @@
 
 namespace verp::tool::test {
 
-/// Runs beside the test; ends with this object at the latest.
+/// Ends with this object at the latest.
 class Process {
  public:
-  /// Output goes to `name`.out and .err; input comes from type().
+  /// Output goes to `name`.out and .err.
   Process(const fs::path& folder, const std::string& name, std::vector<std::string> arguments)
       : out_(folder / (name + ".out")), err_(folder / (name + ".err")) {
     ::signal(SIGPIPE, SIG_IGN);  // the program may stop reading
-    fs::remove(out_);            // from an earlier run
+    fs::remove(out_);
     fs::remove(err_);
     int keyboard[2] = {-1, -1};
     if (::pipe2(keyboard, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
@@ -50,7 +50,7 @@ class Process {
     keyboard_ = -1;
   }
   void signal(int number) const { child_->tell(number); }
-  /// Returns how long it certainly stood still.
+  /// Returns a lower bound of the real standstill.
   std::uint64_t stand_still_us(std::uint64_t time_us) {
     child_->tell(SIGSTOP);
     siginfo_t stopped{};
@@ -65,8 +65,7 @@ class Process {
     return static_cast<std::uint64_t>(
         std::chrono::duration_cast<std::chrono::microseconds>(stood).count());
   }
-  /// Waits for `needle` after the last match; false if the program ended. Only ctest's timeout
-  /// applies, because this PC may be slow.
+  /// Waits for `needle` after the last match; false if the program ended. ctest's timeout applies.
   bool says(const std::string& needle) {
     for (;;) {
       const bool last = over();
@@ -79,9 +78,9 @@ class Process {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
   }
-  /// All standard error so far.
+  /// Standard error so far.
   std::string said() const { return slurp(err_); }
-  /// Simulates a full disk: no file grows beyond this.
+  /// Simulates a full disk: no file grows further.
   void fill_disk(rlim_t most_bytes) const {
     const rlimit limit{most_bytes, most_bytes};
     ASSERT_EQ(::prlimit(child_->id(), RLIMIT_FSIZE, &limit, nullptr), 0);
@@ -89,7 +88,7 @@ class Process {
   bool over() { return child_->status().has_value(); }
   Outcome wait() {
     const int status = child_->wait();
-    return {status, slurp(out_), slurp(err_)};  // 128 and more: ended by a signal
+    return {status, slurp(out_), slurp(err_)};  // 128 and more: a signal
   }
 
  private:

@@ -14,8 +14,7 @@ namespace verp::tool::test {
 
 using Json = nlohmann::json;
 
-/// `verp run` on a serial port, with a cable that a test can disturb. `verp hil` serves the twin at
-/// its other end in real time.
+/// `verp run` on a serial port, with a cable to disturb. `verp hil` serves the twin in real time.
 class RunBench : public Program {
  protected:
   void serve(const std::string& model = "generic21") {
@@ -59,9 +58,9 @@ inline void expect_same_account(const Json& result, const record::Trace& trace) 
   EXPECT_EQ(result.at("deadlines").at("skipped_periods"), skipped);
 }
 
-/// Steps the core with the recorded inputs; equal digests prove equal outputs. A referee compares
-/// them with the written table, in time rather than ticks: modes, causes, torque and goals. Torque
-/// is off at the end. `seen` gets bit m for each mode m.
+/// Equal digests prove equal outputs. A referee compares modes, causes, torque and goals with the
+/// written table, in time rather than ticks. Torque is off at the end. `seen` gets bit m for mode
+/// m.
 inline void expect_table(const record::Trace& trace, std::uint32_t* seen = nullptr) {
   auto state = std::make_unique<State>();
   Outputs outputs;

@@ -1,13 +1,13 @@
 #include "tests/host/run/run_bench.hpp"
 
-// Must show 8 of the links: adapters that delay bytes. Times are checked only against an injected
-// delay's minimum, or as an equality of two counts: a loaded machine may be late.
+// Times are checked only against an injected delay's minimum, or as an equality of two counts: a
+// loaded machine may be late.
 namespace verp::tool::test {
 namespace {
 
 using verp::test::Latency;
 
-/// -1 if `words` is missing.
+/// -1: no `words`.
 double number_after(const std::string& words, const std::string& said) {
   const std::size_t at = said.find(words);
   return at == std::string::npos ? -1 : std::stod(said.substr(at + words.size()));
@@ -15,8 +15,8 @@ double number_after(const std::string& words, const std::string& said) {
 
 class RunLatency : public RunBench {
  protected:
-  /// This latency fits a tick, but not always on a loaded machine. Then the test tries again, in
-  /// the end with the offered period.
+  /// The latency fits a tick, but not always on a loaded machine: then the test tries again, in the
+  /// end with the offered period.
   Outcome run_when_it_fits(std::vector<std::string> words, double least_us) {
     words.insert(words.end(), {"--yes", "--record", "run.mcap"});
     Outcome outcome;
@@ -40,8 +40,8 @@ class RunLatency : public RunBench {
     words.insert(words.end(), {"--period", std::to_string(period_ms)});
   }
 
-  /// Walked by the table and reported the truth. Only a skipped period excuses a missing walk: the
-  /// robot may have held too long or fallen, with status 1. A late tick changes nothing.
+  /// Only a skipped period excuses a missing walk: the robot may have held too long or fallen, with
+  /// status 1.
   void expect_ran(const Outcome& outcome) {
     const Json result = Json::parse(outcome.out);
     EXPECT_EQ(result.at("ticks"), cable_->ticks()) << "as they came over the cable";
@@ -65,15 +65,14 @@ class RunLatency : public RunBench {
   }
 };
 
-// If the machine needs more (a sanitizer, a busy core), the test takes the period that the refusal
-// offers. LinkFit proves that 1 ms fits into 10 ms.
+// A slower machine takes the period that the refusal offers. LinkFit proves that 1 ms fits into 10
+// ms.
 TEST_F(RunLatency, OneMillisecondFitsTheModelsPeriod) {
   serve();
   plug({1000, 1000});
   expect_ran(run_when_it_fits({}, 2000));
 }
 
-// The offered period works.
 TEST_F(RunLatency, FourMillisecondsNeedALongerPeriod) {
   serve();
   plug({1000, 4000});
@@ -103,8 +102,7 @@ TEST_F(RunLatency, SixteenMillisecondsFitNoPeriod) {
   EXPECT_EQ(cable_->ticks(), 0u);
 }
 
-// The PC stops five times. At least the periods that began meanwhile count, at most those without a
-// tick.
+// At least the periods that began meanwhile count, at most those without a tick.
 TEST_F(RunLatency, StallsOfThePcAreCountedAsTheyWere) {
   constexpr std::uint64_t kPeriod_us = 20'000;
   serve();

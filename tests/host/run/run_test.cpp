@@ -3,8 +3,7 @@
 
 #include "tests/host/run/run_bench.hpp"
 
-// `verp run`: what it refuses, how it ends, what it leaves. A TimelyRobot needs a period of 20 ms;
-// RealRobot's tests hold on a late machine.
+// A TimelyRobot needs a period of 20 ms; RealRobot's tests hold on a late machine.
 namespace verp::tool::test {
 namespace {
 
@@ -86,8 +85,7 @@ TEST_F(RealRobot, TheChecklistIsAskedOnEveryLink) {
   refuses("unix-listen:" + port(), "unix:" + port());
 }
 
-// The robot sits down and goes limp in the table's order. A closing terminal and a shutdown count
-// too.
+// In the table's order, also at a closing terminal or shutdown.
 TEST_F(TimelyRobot, AnInterruptSitsTheRobotDown) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     serve();  // the released robot lies on the floor
@@ -107,7 +105,7 @@ TEST_F(TimelyRobot, AnInterruptSitsTheRobotDown) {
   }
 }
 
-// The servos play it softly on request; the trace suffices for a replay.
+// Softly on request; the trace suffices for a replay.
 TEST_F(TimelyRobot, PlaysAnActionThenSitsDownAndLetsGo) {
   serve();
   plug({1000, 1000});
@@ -129,7 +127,6 @@ Json verdict_of(Process& twin, int status) {
   return result_of(outcome);
 }
 
-// The twin goes on serving.
 TEST_F(TimelyRobot, LyingDownLimpAfterAGoodWalkIsNoFall) {
   serve();
   plug({1000, 1000});
@@ -144,7 +141,7 @@ TEST_F(TimelyRobot, LyingDownLimpAfterAGoodWalkIsNoFall) {
   EXPECT_EQ(result.value("let_go_and_lies", false), true);
 }
 
-// The servos are too weak for the robot.
+// The servos are too weak.
 TEST_F(RealRobot, GoingDownUnderTorqueIsAFall) {
   serve();
   plug({1000, 1000});
@@ -155,7 +152,7 @@ TEST_F(RealRobot, GoingDownUnderTorqueIsAFall) {
   EXPECT_NE(program->wait().status, 0);
 }
 
-// The program asks every servo.
+// Every servo is asked.
 TEST_F(RealRobot, ASecondInterruptLetsGoAtOnce) {
   serve();
   plug({1000, 1000});
@@ -163,7 +160,7 @@ TEST_F(RealRobot, ASecondInterruptLetsGoAtOnce) {
   ASSERT_TRUE(program->says("relaxed to rising"));
   program->signal(SIGINT);
   ASSERT_TRUE(program->says("sits down"));
-  std::this_thread::sleep_for(std::chrono::milliseconds(400));  // otherwise it counts as one press
+  std::this_thread::sleep_for(std::chrono::milliseconds(400));  // else both count as one press
   program->signal(SIGINT);
   const Outcome outcome = program->wait();
   EXPECT_EQ(outcome.status, 128 + SIGINT);
@@ -172,7 +169,7 @@ TEST_F(RealRobot, ASecondInterruptLetsGoAtOnce) {
   expect_table(trace());
 }
 
-// The robot holds, sits and lets go by itself; the program says what it cannot know.
+// The robot holds, sits and lets go by itself.
 TEST_F(TimelyRobot, ALostCableIsNamedAndEndsByTheTable) {
   serve();
   plug({1000, 1000});
@@ -193,7 +190,7 @@ TEST_F(TimelyRobot, ALostCableIsNamedAndEndsByTheTable) {
   expect_table(trace());
 }
 
-// The cable is out for ten ticks: the robot holds, rises and goes on.
+// Ten ticks: the robot holds, rises and goes on.
 TEST_F(TimelyRobot, ACableThatComesBackGoesOn) {
   serve();
   plug({1000, 1000});
@@ -208,7 +205,7 @@ TEST_F(TimelyRobot, ACableThatComesBackGoesOn) {
   expect_table(trace());
 }
 
-// The trace is complete up to its last chunk.
+// Up to its last chunk.
 TEST_F(TimelyRobot, ACrashLeavesTheTrace) {
   serve();
   plug({1000, 1000});
@@ -230,7 +227,7 @@ TEST_F(TimelyRobot, ACrashLeavesTheTrace) {
   EXPECT_EQ(verp("replay whole.mcap").status, 0);
 }
 
-/// No IMU answers at generic21's id.
+/// No IMU answers.
 std::string with_its_imu_elsewhere(const fs::path& folder) {
   std::ifstream in(std::string(VERP_SOURCE_DIR) + "/common/robots/generic21/robot.sdf");
   std::stringstream text;
@@ -243,7 +240,7 @@ std::string with_its_imu_elsewhere(const fs::path& folder) {
   return file.string();
 }
 
-// Without the model's IMU there is no torque. With --imu none the robot runs without balance, and
+// There is no torque without the model's IMU. With --imu none the robot runs without balance, and
 // the trace records that.
 TEST_F(TimelyRobot, ASilentImuIsNeverPassedOver) {
   serve(with_its_imu_elsewhere(folder_));
@@ -269,7 +266,7 @@ TEST_F(TimelyRobot, ASilentImuIsNeverPassedOver) {
   expect_table(taken);
 }
 
-// Every servo has its limit before torque is on.
+// Before torque is on.
 TEST_F(TimelyRobot, TorqueIsLimitedInEveryServo) {
   serve();
   plug({1000, 1000});
@@ -278,7 +275,7 @@ TEST_F(TimelyRobot, TorqueIsLimitedInEveryServo) {
   program->signal(SIGINT);
   EXPECT_EQ(result_of(program->wait()).value("torque_percent", 0), 30);
   for (const char* id : {"1", "14", "21"}) {
-    Outcome read;  // retries if this PC was late
+    Outcome read;  // retries on a late PC
     for (int i = 0; i < 20 && read.out.find("registers") == std::string::npos; ++i) {
       read = verp("bus read --register goal_pwm --json --id " + std::string(id) +
                   " --link serial:" + port() + "@2000000");

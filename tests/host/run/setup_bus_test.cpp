@@ -2,8 +2,7 @@
 
 #include "tests/host/tool/program.hpp"
 
-// `verp bus setup` and `verp bus checklist` with several buses. CAN drives are commissioned with
-// their maker's tool.
+// With several buses. CAN drives need their maker's tool.
 namespace verp::tool::test {
 namespace {
 
@@ -15,7 +14,7 @@ TEST_F(SetupBus, DrivesOnCanAreLeftToTheirMakersTool) {
   expect_refused("bus setup --bus can --link can:vcan0", "verp bus checklist generic21 --bus can");
 }
 
-// The joints have other servos on the other bus.
+// The joints have other servos there.
 TEST_F(SetupBus, AnotherBusHasAReportOfItsOwn) {
   std::string robot = slurp(VERP_SOURCE_DIR "/common/robots/generic21/robot.sdf");
   const std::size_t begin = robot.find("<verp:bus name=\"dxl\""), end = robot.find("</verp:bus>");

@@ -4,7 +4,7 @@
 #include "tests/host/run/lone_servo.hpp"
 #include "tests/host/run/process.hpp"
 
-// `verp bus setup` with factory-new servos and a scripted user.
+// With factory-new servos and a scripted user.
 namespace verp::tool::test {
 namespace {
 
@@ -26,8 +26,8 @@ class Setup : public Program {
     return Json::parse(slurp(folder_ / "generic21-setup.json"), nullptr, false);
   }
 
-  /// The user connects a servo, holds it at zero where the encoder reads `zero`, and turns it by
-  /// `turn` counts.
+  /// The user holds the servo at zero, where the encoder reads `zero`, and turns it by `turn`
+  /// counts.
   void do_joint(Process& program, std::int32_t zero, std::int32_t turn) {
     ASSERT_TRUE(program.says("Connect its servo alone"));
     servos_.turn_to(zero);
@@ -43,7 +43,7 @@ class Setup : public Program {
   LoneServo servos_{port()};
 };
 
-// l_knee: id 14, direction +1, zero at count 2048.
+// Id 14, direction +1, zero at 2048.
 TEST_F(Setup, AServoOutOfItsBoxBecomesOneOfTheRobot) {
   servos_.connect(kFromTheBox);
   auto program = setup({"--joint", "l_knee", "--json"});
@@ -65,7 +65,7 @@ TEST_F(Setup, AServoOutOfItsBoxBecomesOneOfTheRobot) {
   EXPECT_EQ(Json::parse(outcome.out).at("joints").at("l_knee"), joint);
 }
 
-// This servo is set to answer neither writes nor reads.
+// It answers neither writes nor reads.
 TEST_F(Setup, AServoThatIsSetToSilenceIsHeard) {
   servos_.connect({.id = 77, .model = dxl::kModelXm430W210, .baud = 1'000'000});
   LoneServo& servos = servos_;
@@ -82,7 +82,7 @@ TEST_F(Setup, AServoThatIsSetToSilenceIsHeard) {
   EXPECT_EQ(servos.value(at::kHomingOffset, 4), 0);
 }
 
-// A servo that answers only pings has an unknown delay, not none.
+// An unknown delay is not zero.
 TEST_F(Setup, ARunIsRefusedWhereNoReadIsAnswered) {
   servos_.connect({.id = 14, .model = dxl::kModelXm430W210, .baud = 2'000'000});
   const std::string link = " --link serial:" + port() + "@2000000";
@@ -95,7 +95,7 @@ TEST_F(Setup, ARunIsRefusedWhereNoReadIsAnswered) {
   EXPECT_EQ(servos_.value(at::kTorqueEnable, 1), 0);
 }
 
-// The report says what to write into the model.
+// The report names the model's new values.
 TEST_F(Setup, AReversedJointAndAFarZeroAreLeftToThePerson) {
   servos_.connect(kFromTheBox);
   auto program = setup({"--joint", "l_knee"});
@@ -183,7 +183,7 @@ TEST_F(Setup, WhatWasWrittenIsKeptAtOnce) {
   EXPECT_EQ(report()["joints"]["l_knee"]["outcome"], "done");
 }
 
-// No result is lost for which the user held a joint.
+// The user held a joint for each result.
 TEST_F(Setup, WhatAFullDiskDoesNotTakeIsPrinted) {
   const Json before = {{"robot", "generic21"},
                        {"joints", {{"head_yaw", {{"note", std::string(20000, '.')}}}}}};
@@ -208,7 +208,7 @@ TEST_F(Setup, WhatAFullDiskDoesNotTakeIsPrinted) {
   EXPECT_FALSE(fs::exists(folder_ / "generic21-setup.json.part"));
 }
 
-// Setup refuses before it asks for a servo.
+// Before it asks for a servo.
 TEST_F(Setup, PlacesThatHoldNoReportAreRefusedFirst) {
   fs::create_directories(folder_ / "here.part");
   for (const char* place : {"/proc/x.json", "/tmp", "/proc/self/mem", "/dev/full", "here"}) {
@@ -284,7 +284,7 @@ TEST_F(Setup, WrongWordsAndReportsAreRefused) {
   expect_refused("bus setup generic21 --report other.json --link pty:", "is the report of");
   std::ofstream(folder_ / "none.json") << "none";
   expect_refused("bus setup generic21 --report none.json --link pty:", "is no report");
-  // Checked first: a servo that is written but not recorded would be set up twice.
+  // A servo written but not recorded would be set up twice.
   expect_refused("bus setup generic21 --report gone/r.json --link pty:", "cannot be written");
   expect_refused("bus setup generic21 --report . --link pty:", "is a folder");
   for (const char* entry :

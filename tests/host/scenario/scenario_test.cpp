@@ -13,7 +13,7 @@ namespace {
 
 using session::Intervention;
 
-/// Values that no default has, different for each draw.
+/// No defaults, different for each draw.
 class Draw {
  public:
   explicit Draw(unsigned seed) : random_(seed) {}
@@ -75,7 +75,7 @@ class Draw {
   std::mt19937 random_;
 };
 
-/// What parse() says of it; empty: it takes it.
+/// parse()'s error; empty: accepted.
 std::string refusal(const std::string& text) {
   try {
     parse(text, "run.json");

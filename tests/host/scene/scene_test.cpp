@@ -8,8 +8,6 @@
 #include "tests/host/scene/meshes.hpp"
 #include "tests/host/session/plans.hpp"
 
-// A scene shows the robot's file; cameras label it.
-
 namespace verp::scene {
 namespace {
 
@@ -34,7 +32,7 @@ TEST(Scene, EachLinkOfARobotIsDrawnAndHasALabelOfItsOwn) {
     EXPECT_GE(drawn_on(scene, static_cast<int>(n)), 2u) << entity.nodes[n].name;
   }
   for (const Item& item : scene.items) names.insert(label_name(scene, label_of(scene, item)));
-  EXPECT_EQ(names.size(), entity.nodes.size());  // two robots with one name share theirs
+  EXPECT_EQ(names.size(), entity.nodes.size());  // robots of one name share theirs
   EXPECT_EQ(label_of(scene, scene.items.back()), static_cast<int>(2 * entity.nodes.size()) -
                                                      static_cast<int>(entity.nodes.size()) + 1 +
                                                      scene.items.back().node);

@@ -9,7 +9,7 @@
 #include "host/trace/record/trace_writer.hpp"
 #include "tests/host/session/plans.hpp"
 
-// The truth of an instant, live or from a trace; taking it changes nothing.
+// Live or from a trace; taking it changes nothing.
 
 namespace verp::scene {
 namespace {
@@ -48,7 +48,7 @@ TEST(Snapshot, OfTheTwinIsTheTruthOfItsTickAndTheRunHasTheSameBitsUnwatched) {
     const sim::Truth& truth = seen.truths[i];
     EXPECT_EQ(view.joint_rad, truth.joint_rad);
     EXPECT_LT((view.link_world[0].matrix() - truth.body_world.matrix()).norm(), 1e-12);
-    // The chain of links agrees with the physics engine.
+    // The chain of links agrees with the physics.
     const model::Limb& leg = *sim::find_leg(plan.entity, 0);
     const Transform sole =
         view.link_world[static_cast<std::size_t>(leg.joints.back() + 1)] * leg.tip;
@@ -71,7 +71,7 @@ TEST(Snapshot, OfATraceIsWhereTheTwinWasAndPlansWhatItPlanned) {
   ASSERT_EQ(player.size(), seen.shots.size());
   for (std::size_t i = 0; i < seen.shots.size(); i += 37) {
     const RobotView &there = seen.shots[i].robots.front(), here = player.at(i).robots.front();
-    // The trace has poses 25 times a second, and angles in servo counts.
+    // The trace has 25 poses a second, angles in counts.
     EXPECT_LT((there.link_world[0].translation() - here.link_world[0].translation()).norm(), 2e-3)
         << i;
     EXPECT_EQ(there.phase, here.phase);

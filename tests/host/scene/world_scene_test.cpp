@@ -10,7 +10,7 @@
 #include "host/trace/record/trace_writer.hpp"
 #include "tests/host/session/plans.hpp"
 
-// A world looks like its file, live and in a trace.
+// Live and in a trace.
 
 namespace verp::scene {
 namespace {

@@ -15,7 +15,7 @@ Command velocity(double vx_m_s, double vy_m_s, double wz_rad_s) {
   return command;
 }
 
-/// A walk of twenty seconds with these results.
+/// Twenty seconds with these results.
 sim::WalkMetrics walked(double distance_m, double ahead_m, double left_m, double turned_deg) {
   sim::WalkMetrics metrics;
   metrics.walk_s = 20;
@@ -45,7 +45,7 @@ TEST(AskedWay, StraightIsALine) {
   EXPECT_EQ(way.turn_rad, 0);
 }
 
-// A robot that shuffled on the spot for 20 s once "walked without a fall".
+// A robot that shuffled on the spot once "walked without a fall".
 TEST(Shortfall, OneCentimetreIsNoWalk) {
   EXPECT_NE(shortfall(velocity(0.18, 0, 0), walked(0.01, 0.01, 0, 0)), "");
   EXPECT_NE(shortfall(velocity(0.18, 0, 0), walked(1.5, 1.5, 0, 0)), "");
@@ -75,8 +75,7 @@ TEST(Shortfall, SlowGaitsStartAndStopSlowly) {
   EXPECT_NE(shortfall(velocity(0.04, 0, 0), eight, slow), "");
 }
 
-// generic21's strides of 1, 2, 3, 4, 3, 2, 1 cm and one that closes the feet fill 2.58 s. A robot
-// that went 17 cm of 1.55 m once "walked", and no message said that more was impossible.
+// generic21's strides of 1, 2, 3, 4, 3, 2, 1 cm and one that closes the feet fill 2.58 s.
 TEST(Shortfall, AShortWalkIsHeldByWhatItsGaitGoesInThatTime) {
   const Command fast = velocity(0.6, 0, 0);
   EXPECT_NEAR(within_reach(fast, 2.58, {}).length_m, 0.16, 1e-6);

@@ -21,7 +21,7 @@ TEST(FallVerdict, AFallWithTorqueIsOneAndStaysOne) {
 
 TEST(FallVerdict, AControllerThatLetsGoOfATippingRobotDoesNotMakeItGood) {
   FallVerdict verdict;
-  verdict.see(true, 0.8, false);  // fall_tilt_rad: the controller goes limp
+  verdict.see(true, 0.8, false);  // fall_tilt_rad: goes limp
   for (int i = 0; i < 20; ++i) verdict.see(false, 0.8 + 0.01 * i, false);
   verdict.see(false, 1.01, true);
   EXPECT_TRUE(verdict.fell());
@@ -49,11 +49,11 @@ TEST(FallVerdict, ARobotThatIsLetGoUprightLiesDown) {
   verdict.see(false, kLying, true);
   EXPECT_TRUE(verdict.lay_down());
   EXPECT_FALSE(verdict.fell());
-  verdict.see(true, kLying, true);  // a new order while the robot still lies
+  verdict.see(true, kLying, true);  // ordered while it lies
   EXPECT_FALSE(verdict.fell());
 }
 
-// The verdict is never both, and without torque never a fall.
+// Without torque never a fall.
 TEST(FallVerdict, IsOneThingAndStaysThat) {
   std::minstd_rand random(3);
   std::uniform_real_distribution<double> tilt(0, 2);

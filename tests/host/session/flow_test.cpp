@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-// A Flow runs a loop in pieces, only inside resume().
+// The loop runs only inside resume().
 
 namespace verp::session {
 namespace {
@@ -44,7 +44,7 @@ TEST(Flow, ThrowsInResumeWhatItsBodyThrew) {
 TEST(Flow, UnwindsABodyThatNobodyRunsToItsEnd) {
   struct Leaves {
     ~Leaves() {
-      flow.pause();  // no effect: no caller resumes
+      flow.pause();  // no caller resumes
       left = true;
     }
     Flow& flow;

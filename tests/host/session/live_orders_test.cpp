@@ -74,7 +74,7 @@ TEST(LiveOrders, WhatAPersonDidIsInTheInputsAndReplays) {
 
 Request asked(LiveOrders& orders, std::uint32_t tick) {
   app::OperatorOrder order;
-  order.command.request = Request::kWalk;  // from the run's own operator
+  order.command.request = Request::kWalk;
   orders.amend(tick, order);
   return order.command.request;
 }

@@ -13,7 +13,7 @@ namespace verp::session::test {
 
 inline constexpr double kWalk_s = 2.0;
 
-/// generic21 on one of its buses, `left_m` left of the origin.
+/// `left_m` left of the origin.
 inline WalkPlan plan_of(const std::string& bus, double left_m = 0, std::uint64_t seed = 1) {
   WalkPlan plan;
   plan.entity = model::load_robot(model::find_model("generic21"), bus);

@@ -52,7 +52,7 @@ TEST(RemoteController, WalksBesideARobotOfThisProcessAndBothHaveTheBitsTheyHaveA
 // A board's operator does not see the plan's notes.
 TEST(RemoteController, SaysWhenTheLegsCannotDoWhatIsAsked) {
   WalkPlan plan = plan_of("dxl");
-  plan.velocity.vx_tenth_mm_s = 5000;  // steps of 11 cm in cycles of 450 ms; the legs allow 8
+  plan.velocity.vx_tenth_mm_s = 5000;  // steps of 11 cm in 450 ms; the legs allow 8
   const fs::path folder = fs::temp_directory_path() / ("notes" + std::to_string(::getpid()));
   fs::create_directory(folder);
   const std::string bus = (folder / "bus").string(), orders = (folder / "orders").string();
@@ -73,7 +73,7 @@ TEST(RemoteController, SaysWhenTheLegsCannotDoWhatIsAsked) {
   fs::remove_all(folder);
 }
 
-// Only requests to the clock count as a sign of life.
+// Only requests to the clock are a sign of life.
 TEST(RemoteController, WhoGreetsAndThenSendsRubbishLosesItsRobot) {
   const fs::path place = fs::temp_directory_path() / ("rubbish" + std::to_string(::getpid()));
   const WalkPlan plan = plan_of("dxl");

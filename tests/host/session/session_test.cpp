@@ -9,8 +9,8 @@
 #include "host/twin/bus/order_sink.hpp"
 #include "tests/host/session/plans.hpp"
 
-// A robot's run in a shared world depends only on the plans: not on how its ticks are called, nor
-// on robots that it does not touch.
+// A robot's run in a shared world depends only on the plans, not on how ticks are called or on
+// robots that it does not touch.
 
 namespace verp::session::test {
 namespace {
@@ -36,7 +36,7 @@ TEST(Session, RefusesARobotInsideAnother) {
   EXPECT_NO_THROW(session.add(plan_of("dxl", 1.2)));
 }
 
-// The session refuses what a board refuses.
+// It refuses what a board refuses.
 TEST(Session, OrdersGoThroughTheOperatorsRegisters) {
   WalkPlan plan = plan_of("dxl");
   Hooks hooks;
@@ -46,7 +46,7 @@ TEST(Session, OrdersGoThroughTheOperatorsRegisters) {
     order.command.request = Request::kStand;
     order.command.head_pan_mrad = 123;
     order.flags = kCommandFresh;
-    if (tick % 4 == 1) {  // not fresh: the last written values hold
+    if (tick % 4 == 1) {  // not fresh: the last values hold
       order.command.head_pan_mrad = 321;
       order.flags = 0;
     }

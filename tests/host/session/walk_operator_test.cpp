@@ -9,7 +9,7 @@ namespace {
 
 using safety::Mode;
 
-// An operator's view of a controller in a mode, stepping or not.
+// A controller in a mode, stepping or not.
 struct Watched {
   explicit Watched(bool stands) : watcher(params(), {.vx_tenth_mm_s = 1000}, 2, 0, stands) {
     state.attitude.still_s = balance::kBestKnown_s;
@@ -36,7 +36,7 @@ struct Watched {
   Outputs outputs;
 };
 
-// A pushed robot steps by itself; the ordered walk is still to come.
+// A pushed robot steps before the ordered walk.
 TEST(WalkOperator, StepsBeforeTheWalkAreNoGaitOfIt) {
   Watched robot(false);
   robot.is(Mode::kRising, 1);
@@ -63,7 +63,7 @@ TEST(WalkOperator, WhoStandsIsNeverAskedToWalkAndEndsInTheStand) {
   EXPECT_STREQ(robot.watcher.failed(), "");
 }
 
-// Before the gyro is calibrated a pushed robot does not step.
+// Until then a pushed robot does not step.
 TEST(WalkOperator, WhoStandsBeginsWhenTheGyroIsKnown) {
   Watched robot(true);
   robot.state.attitude.still_s = 0;
@@ -74,8 +74,8 @@ TEST(WalkOperator, WhoStandsBeginsWhenTheGyroIsKnown) {
   EXPECT_NEAR(robot.watcher.walked_s(), 0.5, 0.02);
 }
 
-// The core allows a walk sooner, with twice the heading error. A trembling robot does not wait
-// forever.
+// The core allows a walk sooner, with twice the heading error. A trembling robot does not wait for
+// ever.
 TEST(WalkOperator, WhoWalksWaitsForTheBestOfItsGyroButNotForEver) {
   for (const bool trembles : {false, true}) {
     Watched robot(false);
@@ -90,7 +90,7 @@ TEST(WalkOperator, WhoWalksWaitsForTheBestOfItsGyroButNotForEver) {
   }
 }
 
-// Without the core, State does not say how long to wait.
+// State does not say how long to wait.
 TEST(WalkOperator, WhoseControllerLearnsNoGyroIsNotWaitedFor) {
   Watched robot(false);
   robot.state = {};

@@ -7,7 +7,6 @@
 
 #include "tests/host/shadow/watched_robot.hpp"
 
-// A controller on CAN, and this PC's copy of its core.
 namespace verp::shadow::test {
 namespace {
 
@@ -18,7 +17,7 @@ TEST(LiveCheck, FollowsARunningControllerTickByTick) {
   WatchedRobot<> robot(can_robot());
   robot.run(999);
   const std::uint64_t digest = robot.controller->loop.state().digest.chain;
-  robot.run(1);  // a tick's report is on the wire by the next tick
+  robot.run(1);  // a report comes by the next tick
   EXPECT_EQ(robot.check().state(), Check::kFollowing) << robot.check().refusal();
   EXPECT_GT(robot.check().compared(), 900u);
   EXPECT_EQ(robot.check().gaps(), 0u) << robot.check().gap();
@@ -35,7 +34,7 @@ TEST(LiveCheck, SendsNothingWhileItFollows) {
   EXPECT_EQ(robot.ear->sent, sent);
 }
 
-// The controller and the PC lose frames; late frames carry other values.
+// Late frames carry other values.
 TEST(LiveCheck, RaisesNoFalseAlarmForLostAndLateFrames) {
   std::uint64_t compared = 0, gaps = 0;
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {
@@ -61,8 +60,7 @@ TEST(LiveCheck, RaisesNoFalseAlarmForLostAndLateFrames) {
   EXPECT_GT(gaps, kSeeds) << "this PC missed some, and says so";
 }
 
-// No tick after the first State is left out. That State has 2.5 KB; the check asks once more for
-// lost answers.
+// State has 2.5 KB; the check asks once more for lost answers.
 TEST(LiveCheck, LateAndLostAnswersAloneLeaveNoTickOut) {
   constexpr int kTicks = 1000;
   std::uint64_t compared = 0;
@@ -83,7 +81,7 @@ TEST(LiveCheck, LateAndLostAnswersAloneLeaveNoTickOut) {
   EXPECT_GT(compared, 600u * kSeeds);
 }
 
-/// Returns the first wrong tick.
+/// The first wrong tick.
 template <class Field>
 std::uint32_t flip(WatchedRobot<>& robot, Field& field) {
   robot.run(200);
@@ -175,7 +173,7 @@ struct CountingChip {
   int reads = 0;
 };
 
-// No node on the bus has them, so the controller publishes them.
+// The controller publishes them.
 TEST(LiveCheck, KnowsTheCountsOfTheControllersOwnImu) {
   Params params = can_robot();
   params.imu.device_id = 0;

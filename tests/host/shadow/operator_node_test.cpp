@@ -56,7 +56,7 @@ CanFrame question() {
   return frame;
 }
 
-// Bring-up takes seconds or fails; a client must not wait for a tick.
+// Bring-up takes seconds or fails.
 TEST(OperatorNode, AnswersAtOnceBeforeTheFirstTick) {
   auto& desk = renewed<Desk>();
   desk.bus.inject(question(), 10);
@@ -86,7 +86,7 @@ TEST(OperatorNode, TakesWhatIsItsOwnAndSendsBehindATickOnly) {
   EXPECT_TRUE(answered);
 }
 
-// `verp shadow`, `verp bus` and a third-party poller ask in one tick.
+// `verp shadow`, `verp bus` and a third-party poller.
 TEST(OperatorNode, AnswersThreeClientsAtOnceEachByItsOwnChannel) {
   namespace plan = canopen::plan;
   auto& desk = renewed<Desk>();
@@ -94,7 +94,7 @@ TEST(OperatorNode, AnswersThreeClientsAtOnceEachByItsOwnChannel) {
   canopen::SdoClient clients[] = {canopen::SdoClient(Node::kNode),
                                   canopen::SdoClient(canopen::further_sdo(plan::kWatcherSdo)),
                                   canopen::SdoClient(canopen::further_sdo(plan::kToolSdo))};
-  // Each client reads its own object in segments, again and again.
+  // In segments, again and again.
   constexpr canopen::Address kAsked[] = {{0x1008, 0}, {0x1201, 1}, {0x1202, 2}};
   const std::string expected[] = {"VERP controller", "\xD1\x06", "\xC2\x06"};
   std::uint8_t got[3][32];
@@ -145,7 +145,7 @@ TEST(OperatorNode, TellsOfEachTickInItsOrder) {
   EXPECT_FALSE(desk.bus.take_sent(frame));
 }
 
-// A tool that resets or stops all nodes must not silence it.
+// A tool that resets all nodes must not silence it.
 TEST(OperatorNode, ObeysNoOtherMaster) {
   using canopen::NmtCommand;
   auto& desk = renewed<Desk>();
@@ -164,7 +164,7 @@ TEST(OperatorNode, ObeysNoOtherMaster) {
   }
 }
 
-// Both share one set of registers and show the same orders and ticks.
+// Both share one set of registers.
 TEST(OperatorNode, StandsBesideAnOperatorsPort) {
   verp::test::OperatorDesk port;
   hal::ScriptedCan bus;

@@ -14,7 +14,6 @@
 #include "tests/host/bus/fake_plant.hpp"
 #include "tests/host/shadow/polled_controller.hpp"
 
-// A controller on a serial link, and this PC's copy of its core.
 namespace verp::shadow::test {
 namespace {
 
@@ -37,7 +36,7 @@ class Polled : public ::testing::Test {
     port = std::make_unique<TickPort>(link::parse_endpoint("unix:" + path_));
     check = std::make_unique<PolledCheck>(listens_for_, *port);
   }
-  /// Runs until `compared` ticks were compared, the check is over, or 20 s have passed.
+  /// Until `compared` ticks, the check's end, or 20 s.
   void run(std::uint64_t compared) {
     const std::uint64_t end_ns = link::monotonic_ns() + 20'000'000'000;
     while (check->compared() < compared && !check->over() && link::monotonic_ns() < end_ns) {
@@ -75,7 +74,7 @@ TEST_F(Polled, FindsABitThatFlipped) {
   EXPECT_EQ(check->divergence().fields[0].path, "zeros.leg[1].pitch_rad");
 }
 
-// The controller does not wait; ticks that it dropped are no difference.
+// Ticks that the controller dropped are no difference.
 TEST_F(Polled, SaysWhichTicksItLostAndGoesOn) {
   start(verp::test::bus_params(7), std::chrono::milliseconds(5));
   run(50);

@@ -17,7 +17,7 @@ namespace verp::shadow::test {
 using Log = app::TickLog<>;
 using Device = app::OperatorDevice<link::Link, Log>;
 
-/// A controller with plausible inputs and no servos; only its reports matter.
+/// Plausible inputs, no servos; only its reports matter.
 class Controller {
  public:
   Controller(const Params& params, const std::string& endpoint, std::chrono::microseconds period)
@@ -34,9 +34,9 @@ class Controller {
   std::atomic<bool> over = false;
   std::atomic<bool> restart = false;
   std::atomic<std::uint32_t> spoil_at = 0;
-  /// Some ticks after a client has read the State.
+  /// Some ticks after a client read the State.
   std::atomic<bool> spoil_when_read = false;
-  std::atomic<std::uint32_t> spoilt = 0;  ///< the first wrong tick
+  std::atomic<std::uint32_t> spoilt = 0;  ///< first wrong tick
   std::atomic<std::uint32_t> tick = 0;
 
  private:

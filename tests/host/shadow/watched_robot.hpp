@@ -13,10 +13,9 @@
 #include "host/twin/can/virtual_can.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
-/// A controller on a virtual CAN bus with a live check.
 namespace verp::shadow::test {
 
-/// A bus that loses some received frames.
+/// Loses some received frames.
 class DeafBus {
  public:
   explicit DeafBus(can::VirtualCan& bus) : bus_(bus) {}
@@ -40,7 +39,7 @@ class DeafBus {
   std::minstd_rand random_{11};
 };
 
-/// The live check as a node that may miss frames.
+/// May miss frames.
 class Ear : public can::Node {
  public:
   explicit Ear(const Params& params) : check(params) {}
@@ -68,8 +67,8 @@ class Ear : public can::Node {
   std::minstd_rand random_{5};
 };
 
-/// A drive that repeats some positions late and changed: in time, in the next window, after the
-/// tick or in the next one.
+/// Some positions come late and changed: in time, in the next window, after the tick or in the next
+/// one.
 class LateTwin : public can::Node {
  public:
   explicit LateTwin(std::uint8_t drive, unsigned seed = 3) : drive_(drive), random_(seed) {}
@@ -121,7 +120,7 @@ struct Orders {
   }
 };
 
-/// The whole setup. `Chip`: the controller's own IMU.
+/// `Chip`: the controller's own IMU.
 template <class Chip = app::NoImu>
 class WatchedRobot {
  public:
@@ -156,7 +155,7 @@ class WatchedRobot {
   explicit WatchedRobot(const Params& robot, Chip* chip = nullptr)
       : WatchedRobot(robot, robot, chip) {}
 
-  /// Starts or restarts the controller.
+  /// Also restarts.
   void power_on() {
     controller = std::make_unique<Controller>(params, bus, chip_);
     const app::BringUpReport report = controller->loop.bring_up();
@@ -172,12 +171,12 @@ class WatchedRobot {
     plant.motion.gyro_count[0] = static_cast<std::int16_t>(ticks_++ % 50);
     controller->loop.tick();
   }
-  /// The controller's own State, for the test to corrupt.
+  /// For the test to corrupt.
   State& state() { return const_cast<State&>(controller->loop.state()); }
   LiveCheck& check() { return ear->check; }
 
   const Params params;
-  const Params listened;  ///< the robot that the live check expects
+  const Params listened;  ///< expected by the live check
   verp::test::FakePlant plant;
   can::VirtualCan twin{params, plant};
   DeafBus bus{twin};

@@ -22,7 +22,7 @@ std::vector<std::string> names_of(const std::vector<Column>& columns,
 
 using Names = std::vector<std::string>;
 
-// Brackets are part of a name, not a pattern.
+// Brackets belong to a name.
 TEST(Columns, AreFoundByNameOrByPattern) {
   const std::vector<Column> all = columns_of(sample_params(), true);
   const auto found = [&](const char* pattern) { return names_of(all, matching(all, pattern)); };
@@ -106,7 +106,7 @@ TEST(Thinned, KeepsWhatStandsOut) {
   EXPECT_EQ(thinned(time_s, numbers, 400000).numbers.size(), 360000u);
 }
 
-// Joint names come from files, and gnuplot has commands.
+// Names come from files, and gnuplot has commands.
 TEST(Draw, TakesNoCommandFromAName) {
   Series series{{{"rad.x' ; system 'touch pwned", "rad", "x"}}, {0, 1}, {{0, 1}}};
   const std::string script = plot_of(series, "it's a\nrun").script;

@@ -1,4 +1,3 @@
-// Pictures in C# and the errors on misuse.
 using System;
 using Verp;
 

@@ -10,7 +10,6 @@
 
 namespace verp::abi::test {
 
-/// Robots with cameras in one world.
 struct Looking : Opened {
   explicit Looking(const char* world = "demo") : Opened(world) {}
 
@@ -23,7 +22,7 @@ struct Looking : Opened {
   void tick(std::uint32_t count) {
     ASSERT_EQ(verp_session_tick(session, count, nullptr, nullptr), VERP_OK) << verp_last_error();
   }
-  /// Returns an empty picture before the first one.
+  /// Empty before the first picture.
   template <class Pixel>
   std::vector<Pixel> picture(std::uint32_t what, std::uint32_t robot = 0,
                              double* time_s = nullptr) const {

@@ -27,7 +27,7 @@ class PicturesTest(unittest.TestCase):
             (camera,) = session.cameras()
             self.assertEqual((camera.name, camera.gives), ("camera", ("colour",)))
             self.assertEqual((camera.width, camera.height), (320, 240))
-            # Straight ahead: half a pixel from a pixel's centre.
+            # Half a pixel from a pixel's centre.
             np.testing.assert_allclose(camera.matrix[:2, 2], (159.5, 119.5))
             self.assertGreater(camera.matrix[0, 0], 100)
             np.testing.assert_allclose(camera.rotation @ camera.rotation.T, np.eye(3), atol=1e-12)

@@ -10,12 +10,12 @@
 #include "tests/host/camera/files.hpp"
 #include "tests/host/libverp/pictures/pictures.hpp"
 
-// A program sees what a trace would keep, and the run does not change.
+// A program sees what a trace keeps, and the run does not change.
 
 namespace verp::abi::test {
 namespace {
 
-/// The last exposure, drawn as by `verp walk --cameras`.
+/// As by `verp walk --cameras`.
 camera::Picture as_a_trace_keeps_it(const std::string& world_file) {
   session::WalkPlan plan = session::test::plan_of("");
   plan.twin.cameras = true;
@@ -101,7 +101,6 @@ TEST(LibverpSight, EqualSessionsGiveEqualPictures) {
   EXPECT_NE(first.first, first.second);
 }
 
-/// The ball has its distance, its colour and its own label.
 TEST(LibverpSight, ColourDepthAndLabelsAreOfTheThingThatIsThere) {
   const camera::test::Files files;
   const std::string world = files.world("0.8 0 0.4");
@@ -173,7 +172,7 @@ TEST(LibverpSight, IsSeenFromWhereOneSays) {
       EXPECT_TRUE(name == other || picture != that) << name << " is " << other;
     }
   }
-  // The ball is seen from above and from the side.
+  // From above and from the side.
   for (const double aside_m : {0.0, -1.0}) {
     verp_view view = Looking::view(nullptr);
     const double eye[] = {0.8, aside_m, aside_m == 0 ? 1.4 : 0.4}, ball[] = {0.8, 0, 0.4};
@@ -187,12 +186,12 @@ TEST(LibverpSight, IsSeenFromWhereOneSays) {
     };
     EXPECT_TRUE(red(160, 120)) << aside_m;
     EXPECT_FALSE(red(10, 10)) << aside_m;
-    // 0.05 m of 1 m, in a picture 2 tan(0.25) m high.
+    // 0.05 m of 1 m; the picture is 2 tan(0.25) m high.
     EXPECT_TRUE(red(160, 120 + 20) && !red(160, 120 + 27)) << aside_m;
   }
 }
 
-/// The test prints the costs without a check; host/apps/libverp/README.md has them.
+/// Prints the costs without a check (host/apps/libverp/README.md).
 TEST(LibverpSight, SaysWhatAPictureCosts) {
   using Clock = std::chrono::steady_clock;
   Looking looking;
@@ -202,7 +201,7 @@ TEST(LibverpSight, SaysWhatAPictureCosts) {
     double sum_ms = 0;
     constexpr int kTimes = 20;
     for (int i = -1; i < kTimes; ++i) {
-      looking.tick(5);  // longer than a camera period
+      looking.tick(5);  // over a camera period
       const auto start = Clock::now();
       draw();
       if (i >= 0) sum_ms += std::chrono::duration<double, std::milli>(Clock::now() - start).count();

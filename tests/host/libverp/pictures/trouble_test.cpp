@@ -14,7 +14,7 @@
 #include "tests/host/libverp/expect_error.hpp"
 #include "tests/host/libverp/pictures/pictures.hpp"
 
-// The drawing program ends, hangs or writes nonsense; threads come and go.
+// It ends, hangs or writes nonsense; threads come and go.
 
 namespace verp::abi::test {
 namespace {
@@ -121,7 +121,7 @@ TEST(LibverpSightTrouble, ControllerAndSecondThreadAreTold) {
   EXPECT_EQ(seen.why.rfind("verp_session_picture: another thread", 0), 0U) << seen.why;
 }
 
-/// The program is silent from the start, or later.
+/// Silent from the start, or later.
 TEST(Painter, WaitsForNobodyForEver) {
   using camera::Painter;
   const camera::Stage stage{.robots = {{model::find_model("generic21"), 1}}, .world_file = ""};
@@ -140,7 +140,7 @@ TEST(Painter, WaitsForNobodyForEver) {
   EXPECT_NE(why([&] { Painter(silent, stage, Painter::Seconds(1)); }).find("not answered for 1 s"),
             std::string::npos);
   std::filesystem::remove(silent);
-  // The same timeout covers the start, for which a busy PC needs more than two seconds.
+  // A busy PC needs over two seconds to start it.
   std::optional<Painter> painter;
   int patience_s = 1;
   std::string late;
