@@ -8,7 +8,7 @@
 namespace verp::sim {
 namespace {
 
-/// Two arms on one base; the second follows the first one's motor.
+/// The second arm follows the first one's motor.
 constexpr double kRotor_kg_m2 = 0.02;  ///< more than the coupling's share
 
 model::Entity two_arms(double ratio, double offset_rad) {
@@ -44,7 +44,7 @@ TEST(Coupling, MotorBearsBothWeights) {
                              std::lround(count_of(entity.joints[0].servo, goal_rad))),
                          .p_gain = 3500};
     robot.advance_to(2'000'000);
-    double motor_n_m = 0;  // mean: the servo hums by one encoder count
+    double motor_n_m = 0;  // mean: the servo hums by a count
     for (int ms = 1; ms <= 500; ++ms) {
       robot.advance_to(2'000'000 + 1000 * static_cast<std::uint64_t>(ms));
       motor_n_m += robot.truth().torque_n_m[0] / 500;
@@ -55,14 +55,14 @@ TEST(Coupling, MotorBearsBothWeights) {
     const double follower_n_m = weight_n_m * std::sin(follower_rad);
     EXPECT_NEAR(follower_rad, ratio * driver_rad + 0.1 - follower_n_m / 500, 1e-4) << ratio;
     EXPECT_NEAR(motor_n_m, weight_n_m * std::sin(driver_rad) + ratio * follower_n_m, 5e-3) << ratio;
-    // The follower has no servo of its own.
+    // The follower has no servo.
     EXPECT_EQ(robot.measure(1).position_count, robot.measure(0).position_count);
     EXPECT_NEAR(truth.torque_n_m[1], 0, 1e-9);
   }
 }
 
-// The arms swing like one pendulum with both inertias and the rotor's: T = 2 pi sqrt(I / (m g l))
-// for small angles. Lost or added energy would change period and height.
+// One pendulum with both inertias and the rotor's: T = 2 pi sqrt(I / (m g l)) for small angles.
+// Lost or added energy would change period and height.
 TEST(Coupling, BothSwingAsOnePendulum) {
   for (const double ratio : {-1.0, 2.0}) {
     World world;
@@ -96,7 +96,7 @@ TEST(Coupling, BothSwingAsOnePendulum) {
   }
 }
 
-// It lags only by the gears' twist under the torque.
+// Only the gears' twist remains.
 TEST(Coupling, FollowerStaysWithAMovingMotor) {
   World world;
   const model::Entity entity = two_arms(-1, 0);

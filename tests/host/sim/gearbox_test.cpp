@@ -8,8 +8,8 @@
 #include "host/twin/sim/robot.hpp"
 #include "tests/host/sim/test_robots.hpp"
 
-/// Rotor and gearbox friction against closed forms, and against a separate integration of Duclusaud
-/// and Passault, arXiv 2410.08650, with their identified numbers.
+/// Against closed forms, and a separate integration of Duclusaud and Passault, arXiv 2410.08650,
+/// with their numbers.
 namespace verp::sim {
 namespace {
 
@@ -31,7 +31,7 @@ model::Joint joint_with(const model::Gearbox& gearbox) {
   return joint;
 }
 
-/// A servo, an inertia and a torque without an engine, by the same implicit step.
+/// Without an engine, by the same implicit step.
 struct Bench {
   explicit Bench(const model::Joint& joint, double inertia = 0.0, double step = 0.001)
       : inertia_kg_m2(inertia),
@@ -47,7 +47,7 @@ struct Bench {
     angle_rad += rate_rad_s * step_s;
     servo.finish(rate_rad_s, step_s);
   }
-  /// A far goal saturates the drive; the PWM limit then sets the duty.
+  /// A far goal saturates the drive; the PWM limit sets the duty.
   void drive_by(double duty) {
     setpoint.torque_on = duty != 0;
     setpoint.p_gain = 16000;
@@ -80,7 +80,7 @@ TEST(Gearbox, AStuckJointHoldsBelowItsBudgetForAMinuteAndBeyondItSlidesByTheRest
   EXPECT_LT(std::abs(stuck.angle_rad), 1e-5);
   Bench pushed(joint_with(gearbox));
   for (int step = 0; step < 200; ++step) pushed.step(0.2);
-  // Far above the Stribeck speed only f_base remains: 0.14 N m on 0.01 kg m2.
+  // Far above the Stribeck speed f_base remains: 0.14 N m on 0.01 kg m2.
   const double before = pushed.rate_rad_s;
   for (int step = 0; step < 100; ++step) pushed.step(0.2);
   EXPECT_NEAR(pushed.rate_rad_s - before, 0.14 / 0.01 * 0.1, 0.01);
@@ -99,9 +99,8 @@ TEST(Gearbox, FrictionStopsAJointAndLeavesItThere) {
   }
 }
 
-// Friction once stopped a thrown leg at once and took 9 N m from its neighbours, which threw it
-// again. Hip and knee stuck for 60 ms at nine tenths of their torque, a foot did not lift, and a
-// robot fell.
+// More friction stopped a thrown leg at once and took 9 N m from its neighbours: hip and knee stuck
+// for 60 ms, and a robot fell.
 TEST(Gearbox, OfAJointThatIsThrownBackFrictionTakesNoMoreThanItsBudget) {
   constexpr double kFriction_n_m = 0.1, kArmature = 0.01, kLinks = 0.02;
   for (const double step_s : {0.001, 0.002}) {
@@ -118,7 +117,7 @@ TEST(Gearbox, OfAJointThatIsThrownBackFrictionTakesNoMoreThanItsBudget) {
   }
 }
 
-// load = |external - motor|. The joint holds up to (1 - l) m = (1 + l) e, and down to the reverse.
+// load = |external - motor|. The joint holds from (1 - l) m = (1 + l) e to the reverse.
 TEST(Gearbox, LoadMakesFrictionThatHelpsToHold) {
   const double l = 0.2;
   const auto moved = [&](double motor_n_m) {
@@ -139,14 +138,14 @@ TEST(Gearbox, InsideThePlayTheRotorHasOnlyItselfToTurn) {
   joint.servo.backlash_rad = 0.02;
   Bench bench(joint, 0.01);
   bench.drive_by(1.0 / 3);
-  // 10 mrad to the flank at 100 rad/s2: 14 ms; then both halves share the speed.
+  // 10 mrad to the flank at 100 rad/s2 take 14 ms; then both halves share the speed.
   for (int step = 0; step < 13; ++step) bench.step(0);
   EXPECT_EQ(bench.rate_rad_s, 0);
   for (int step = 0; step < 3; ++step) bench.step(0);
   EXPECT_NEAR(bench.rate_rad_s, 0.7, 0.1);
 }
 
-/// Rotor with friction and link as two bodies, in steps of 10 us.
+/// Two bodies, in steps of 10 us.
 struct RotorAndLink {
   const model::Servo& servo;
   double link_kg_m2;
@@ -182,8 +181,8 @@ struct RotorAndLink {
   }
 };
 
-// Goal to goal with overshoot, with gravity for and against. If friction stops the rotor briefly at
-// a flank, the motor moves it on.
+// Goal to goal with overshoot and gravity. If friction stops the rotor at a flank, the motor moves
+// it on.
 TEST(Gearbox, WithPlayAJointGoesAsItsRotorAndItsLinkWouldAsTwoBodies) {
   for (const double armature : {0.002, 0.012, 0.045}) {
     for (const double link : {0.005, 0.03}) {
@@ -210,7 +209,7 @@ TEST(Gearbox, WithPlayAJointGoesAsItsRotorAndItsLinkWouldAsTwoBodies) {
   }
 }
 
-// The published equations in steps of 10 us: the pendulum is driven up, driven back, and released.
+// The published equations in steps of 10 us: driven up, driven back, released.
 struct PaperPendulum {
   model::Gearbox gears;
   double stall_n_m, slope_n_m_s;
@@ -273,7 +272,7 @@ TEST_P(IdentifiedMotor, SwingsAPendulumAsThePaperSays) {
   }
 }
 
-// In ODE, gravity comes from the engine's motion.
+// Gravity comes from the engine's motion.
 TEST_P(IdentifiedMotor, SwingsAPendulumAsThePaperSaysInOde) {
   const model::ServoType* type = model::find_servo_type(model::servo_types(), GetParam());
   ASSERT_NE(type, nullptr);
@@ -308,8 +307,7 @@ TEST_P(IdentifiedMotor, SwingsAPendulumAsThePaperSaysInOde) {
 
 INSTANTIATE_TEST_SUITE_P(Paper, IdentifiedMotor, testing::Values("mx64", "mx106", "xl330"));
 
-// The loop runs at 1 kHz. Finer physics sees a duty for four steps, coarser physics runs two loops
-// a step.
+// At 1 kHz. Finer physics sees a duty for four steps, coarser physics runs two loops a step.
 TEST(Gearbox, TheLoopRunsAtItsOwnRateWhateverThePhysicsStep) {
   Bench fine(joint_with({}), 0.01, 0.00025);
   fine.setpoint.torque_on = true;
@@ -344,8 +342,8 @@ TEST(Gearbox, GoesTheSameWayAtEveryPhysicsStep) {
   }
 }
 
-// Gains go to the registers' limits, rotors from a quarter of the lightest to ten times the
-// heaviest known. The joint may tremble.
+// Gains to the registers' limits, rotors from a quarter of the lightest to ten times the heaviest
+// known. The joint may tremble.
 TEST(Gearbox, StaysWithinTheMotorsLineAtAnyGainInertiaAndStep) {
   for (const double armature : {0.0005, 0.01, 0.25}) {
     for (const double step_s : {0.00025, 0.001, 0.002}) {
@@ -356,7 +354,7 @@ TEST(Gearbox, StaysWithinTheMotorsLineAtAnyGainInertiaAndStep) {
             .torque_on = true, .goal_count = 2048 + 500, .p_gain = 16383, .d_gain = d_gain};
         for (int step = 0; step < 2000; ++step) {
           bench.step(step % 100 < 50 ? 0.5 : -0.5);
-          // The current limit acts between steps: 1.4 stall torques may act one step too long.
+          // The current limit acts between steps: 1.4 stall torques may last a step too long.
           const double late = step_s * (1.4 * 3.0 + 0.5) / (armature + 1e-5);
           ASSERT_LT(std::abs(bench.rate_rad_s), 8.0 * (1 + 0.5 / 3) + late)
               << armature << " " << step_s << " " << d_gain << " " << step;

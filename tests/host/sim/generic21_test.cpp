@@ -10,7 +10,7 @@
 namespace verp::sim {
 namespace {
 
-/// Arms like the firmware: the entity's gains, torque on, the stand pose in nominal counts.
+/// Like the firmware: the entity's gains, torque on, the stand pose.
 void arm(Plant& plant, const TwinRobot& robot) {
   for (std::size_t j = 0; j < robot.entity().joints.size(); ++j) {
     const model::Joint& joint = robot.entity().joints[j];
@@ -24,8 +24,8 @@ void arm(Plant& plant, const TwinRobot& robot) {
   }
 }
 
-// Position loops alone hold this crouch, hips 150 mm over the ankles. There is no balance feedback,
-// but zero errors of half a degree, play, noise and a lean.
+// A crouch, hips 150 mm over the ankles, without balance feedback, with zero errors of half a
+// degree, play, noise and a lean.
 TEST(Generic21, StandsThreeSecondsOnItsServos) {
   const model::Entity entity =
       model::load_robot(VERP_SOURCE_DIR "/common/robots/generic21/robot.sdf");

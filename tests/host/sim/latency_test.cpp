@@ -8,14 +8,14 @@
 #include "host/twin/sim/scenery.hpp"
 #include "tests/host/sim/test_robots.hpp"
 
-// A reading at t shows the world at t - latency.
+// A reading at t shows t - latency.
 namespace verp::sim::test {
 namespace {
 
 constexpr double kLate_s = 0.03;
 constexpr std::uint64_t kLate_us = 30'000;
 
-/// A biped in free fall: no cradle, no ground.
+/// In free fall.
 model::Entity falling_biped(double latency_s) {
   model::Entity entity = biped();
   for (model::Node& node : entity.nodes) node.collisions.clear();
@@ -39,7 +39,7 @@ TEST(Latency, TheImuTellsWhatOneWithoutItToldSoManyStepsAgo) {
   Fall prompt(falling_biped(0)), late(falling_biped(kLate_s));
   std::vector<ImuMeasurement> told;
   for (std::size_t i = 0; i < 200; ++i) {
-    // Spin the robot, so that the readings change.
+    // So that readings change.
     for (Fall* each : {&prompt, &late}) {
       each->robot.body().add_velocity(Vec3::Zero(), Vec3(0.02, -0.01, 0.005));
       each->step();
@@ -64,7 +64,7 @@ TEST(Latency, OfARateThatRisesEvenlyTheGyroLagsByItsSlopeTimesTheLatency) {
     for (ImuModel* each : {&late, &prompt})
       each->sample(Mat3::Identity(), rate, Vec3::Zero(), Vec3::Zero(), kStep_s);
   }
-  // The filter's own lag is in both.
+  // Both have the filter's lag.
   const int gap = prompt.measurement().gyro_count[0] - late.measurement().gyro_count[0];
   EXPECT_NEAR(gap * sensor.gyro_rad_s_per_count, kSlope_rad_s2 * kLate_s,
               sensor.gyro_rad_s_per_count);
@@ -104,7 +104,7 @@ TEST(Latency, ALaserSeesAWallThatComesWhereItWas) {
       EXPECT_EQ(scan.time_us, t_us - kLate_us);
       EXPECT_EQ(scan.time_us, 50'000u * static_cast<std::uint64_t>(scans));
       const double then_m = kFrom_m - kSpeed_m_s * 1e-6 * static_cast<double>(scan.time_us) - at_m;
-      // One step moves the wall by 0.5 mm.
+      // A step moves the wall by 0.5 mm.
       EXPECT_NEAR(static_cast<double>(scan.range_m.at(0)), then_m, 0.6e-3) << t_us;
     }
   }
@@ -131,7 +131,7 @@ TEST(Latency, ACameraShowsARobotThatFallsWhereItWas) {
       EXPECT_EQ(fall.world.now_us() - each.time_us, is_late ? kLate_us : 0);
       EXPECT_EQ(each.time_us % 20'000, 0u);
       const double t_s = 1e-6 * static_cast<double>(each.time_us);
-      // The engine's steps give z = -g t (t + h) / 2.
+      // By the engine's steps, z = -g t (t + h) / 2.
       EXPECT_NEAR(each.link_world.at(0).at(0).translation().z(),
                   from_m - kGravity_m_s2 * t_s * (t_s + 0.001) / 2, 1e-6);
     }

@@ -11,9 +11,9 @@ namespace verp::sim {
 namespace {
 
 constexpr double kTickS = 0.01;
-constexpr int kTicksPerStep = 20;  // 5 in double support, then 15 in single support
+constexpr int kTicksPerStep = 20;  // 5 in double support, then 15 in single
 
-/// An artificial walk along `heading`, with the ZMP at a given distance from the carrying foot.
+/// Along `heading`, with the ZMP at a given distance from the carrying foot.
 struct ScriptedWalk {
   double heading_rad = 0;
   double step_m = 0.04;
@@ -22,7 +22,7 @@ struct ScriptedWalk {
   int start_steps = 2, transition_steps = 40, final_steps = 2;
   double fall_at_s = 1e9;
   int touch_every = 0;  ///< ticks
-  double sole_n = 0;    ///< load on either sole; both always move
+  double sole_n = 0;    ///< load on either sole
   WalkMeter meter{test::biped()};
   Observation now{};
   int ticks = 0;
@@ -78,7 +78,7 @@ struct ScriptedWalk {
         const double done = step + static_cast<double>(i) / kTicksPerStep;
         place(done * step_m, heading_rad + done * turn_rad_per_step);
         const bool both = i < 5;
-        // Loads are of the tick before, so they belong to the previous foot.
+        // Loads are of the tick before.
         const int loaded = i == 0 ? 1 - carrying : carrying;
         tick(phase, both ? gait::kBoth : carrying, both ? 3 : 7, loaded);
       }
@@ -130,7 +130,7 @@ TEST(Metrics, YawIsCountedBeyondHalfATurn) {
   EXPECT_NEAR(walk.run().yaw_drift_deg, 44 * 0.1 * 180 / 3.141592653589793, 1e-6);
 }
 
-// The walk has 880 ticks; standing does not count.
+// 880 ticks; standing does not count.
 TEST(Metrics, TransportAndTorqueAreThoseOfTheWalkAlone) {
   ScriptedWalk walk;
   const WalkMetrics m = walk.run();

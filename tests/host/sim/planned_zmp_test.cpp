@@ -66,7 +66,7 @@ bool inside(const std::vector<Vec2>& hull, const Vec2& point) {
   return true;
 }
 
-// Wherever the carrying foot really stands, the planned ZMP is at zmp_under().
+// Wherever it stands, the planned ZMP is at zmp_under().
 TEST(PlannedZmp, LiesUnderTheFootThatCarriesAlone) {
   Walker walker(verp::test::kRobot);
   walker.set_off({});
@@ -98,7 +98,7 @@ TEST(PlannedZmp, LiesUnderTheFootThatCarriesAlone) {
   EXPECT_GT(seen[1], 300);
 }
 
-// This holds in double support too.
+// Also in double support.
 TEST(PlannedZmp, StaysInTheSupportPolygonOfARobotThatStandsAsPlanned) {
   Walker walker(verp::test::kRobot);
   walker.set_off({});

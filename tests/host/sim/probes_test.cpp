@@ -8,7 +8,7 @@
 #include "host/twin/sim/robot.hpp"
 #include "tests/host/sim/test_robots.hpp"
 
-// Force-torque, contact and truth sensors against known weights and poses.
+// Against known weights and poses.
 namespace verp::sim::test {
 namespace {
 
@@ -55,7 +55,7 @@ struct Standing {
 };
 
 TEST(Probes, OnAStandingRobotsFeetTheForcesSumToItsWeight) {
-  // Contacts chatter, so the test takes the mean of all steps.
+  // Contacts chatter: the mean of all steps.
   model::Entity entity = metered();
   for (model::ForceTorqueSensor& each : entity.force_torques) each.rate_hz = 1000;
   for (model::ContactSensor& each : entity.contacts) each.rate_hz = 1000;
@@ -83,13 +83,13 @@ TEST(Probes, OnAStandingRobotsFeetTheForcesSumToItsWeight) {
   double feet_n = 0;
   for (std::size_t foot = 0; foot < 2; ++foot)
     feet_n += kGravity_m_s2 * standing.robot.body().mass_kg(foot_node_of(entity, foot));
-  // Half a percent: the robot sways this much on its servos.
+  // The robot sways by half a percent.
   EXPECT_NEAR(soles_n.z(), weight_n, 0.005 * weight_n);
   EXPECT_NEAR(ankles_n.z() + feet_n, weight_n, 0.005 * weight_n) << "feet are beyond the ankles";
   EXPECT_NEAR(ankles_n.head<2>().norm(), 0, 0.005 * weight_n);
 }
 
-/// The body is held, so all forces are known.
+/// The body is held: all forces are known.
 TEST(Probes, AJointThatHoldsAnArmOutBearsItsWeightAndItsLever) {
   model::Entity entity = arm();
   model::ForceTorqueSensor wrench;
@@ -98,7 +98,7 @@ TEST(Probes, AJointThatHoldsAnArmOutBearsItsWeightAndItsLever) {
   wrench.rate_hz = 1000;
   entity.force_torques = {wrench, wrench, wrench};
   entity.force_torques[1].on_child = true;
-  // Halfway down the arm, axes turned about z.
+  // Halfway down the arm, turned about z.
   entity.force_torques[2].pose.translation() = Vec3(0, 0, -kArmLength / 2);
   entity.force_torques[2].pose.linear() =
       Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitZ()).toRotationMatrix();
@@ -118,7 +118,7 @@ TEST(Probes, AJointThatHoldsAnArmOutBearsItsWeightAndItsLever) {
   };
   const Vec3 lever_m(0, 0, -kArmLength);
   ASSERT_GT(std::abs(pose.linear()(2, 0)), 0.9) << "it is held out";
-  // Mean: the servo swings by one encoder count.
+  // Mean: the servo swings by a count.
   const auto of = [&](std::size_t sensor) {
     WrenchReading mean;
     for (const WrenchReading& each : readings.wrenches) {
@@ -128,7 +128,7 @@ TEST(Probes, AJointThatHoldsAnArmOutBearsItsWeightAndItsLever) {
     }
     return mean;
   };
-  constexpr double kTolerance = 0.002;  // N, N m; 4.9 N at rest
+  constexpr double kTolerance = 0.002;  // 4.9 N at rest
   EXPECT_LT((of(0).force_n - in_arm(down_n)).norm(), kTolerance);
   EXPECT_LT((of(0).torque_n_m - lever_m.cross(in_arm(down_n))).norm(), kTolerance);
   EXPECT_LT((of(1).force_n + of(0).force_n).norm(), 1e-12) << "what it is given";

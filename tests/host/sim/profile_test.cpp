@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kLoopS = 0.001;
 
-/// Time to the goal, within this speed and acceleration.
+/// Within this speed and acceleration.
 double way_s(Profile& profile, const ServoSetpoint& setpoint, double most_count_s,
              double most_count_s2) {
   profile.begin(setpoint, kLoopS);
@@ -33,7 +33,7 @@ TEST(Profile, TakesTheTimesThatTheVendorGives) {
   setpoint.accelerate_count_s2 = 1000;
   EXPECT_NEAR(way_s(profile, setpoint, 500, 1000), 2.5, 0.02);
   EXPECT_EQ(profile.kind(), ProfileKind::kTrapezoidal);
-  setpoint.goal_count = 900;  // never reaches the speed: 2 sqrt(way / acceleration)
+  setpoint.goal_count = 900;  // below the speed: 2 sqrt(way / acceleration)
   EXPECT_NEAR(way_s(profile, setpoint, 500, 1000), 2 * std::sqrt(0.1), 0.02);
   EXPECT_EQ(profile.kind(), ProfileKind::kTriangular);
 }
@@ -47,7 +47,7 @@ TEST(Profile, OfATimeTakesThatTime) {
   }
 }
 
-// The profile starts from the present speed and goes back if it must.
+// The profile starts from the present speed.
 TEST(Profile, TurnsRoundWithoutAJump) {
   Profile profile(0);
   ServoSetpoint setpoint{.goal_count = 1000};

@@ -8,15 +8,14 @@
 
 #include "tests/host/sim/test_robots.hpp"
 
-// Hand-calculated cases; settable quantities are set while the world runs. g, h: gravity and the
-// physics step.
+// Hand-calculated. g, h: gravity and the physics step.
 
 namespace verp::sim::test {
 namespace {
 
 constexpr double g = 9.80665, h = 0.001;
 
-/// A cube of 2 kg and 0.2 m, or a ball of that width.
+/// 2 kg, 0.2 m.
 model::Entity lone(bool ball) {
   model::Entity entity;
   entity.nodes.push_back(box("it", 2, {0.2, 0.2, 0.2}, {0, 0, 0}));
@@ -147,7 +146,7 @@ TEST(Quantities, OfABallThatBouncesAndSinksIn) {
   s.run(2);
   EXPECT_NEAR(s.read("it.position_m.z"), 0.1 - 2 * g / 1e4, 2e-5);
 
-  // Implicit Euler of spring and damper: v' = v / (1 + h (h k + d) / m).
+  // Implicit Euler: v' = v / (1 + h (h k + d) / m).
   s.set("world.gravity_m_s2", 0);
   s.set("it.position_m.z", 0.1 - 1e-9);
   s.set("it.velocity_m_s.z", -0.1);
@@ -176,7 +175,7 @@ TEST(Quantities, OfAPendulum) {
   Scene s(arm(), Cradle::kAlways);
   s.set("base.position_m.z", 1);
   const double turned = kArmInertia + kArmMass * kArmLength * kArmLength;
-  // An impulse at the arm's centre of mass, without gravity.
+  // An impulse at the centre of mass, without gravity.
   s.set("world.gravity_m_s2", 0);
   s.set("arm.impulse_n_s.x", 0.05);
   s.run(h);

@@ -20,7 +20,7 @@ TwinOptions crouched(const model::Entity& entity, std::uint64_t seed = 1) {
   return options;
 }
 
-/// Arms like the bus, by Plant alone: torque on, hold the present goal.
+/// By Plant alone: torque on, hold the present goal.
 void arm_all(Plant& plant, int joints) {
   for (int j = 0; j < joints; ++j) {
     plant.setpoint(j).torque_on = true;
@@ -39,7 +39,7 @@ TEST(Robot, StartsWithLevelSolesJustAboveTheGroundUnderItsStart) {
   options.imperfections = Imperfections::none();
   options.start_m = Vec3(1, 2, 0);
   options.start_yaw_rad = 0.5;
-  // Bent hips: the body must lean to keep the soles level.
+  // With bent hips, the body leans to keep the soles level.
   for (const model::Limb& limb : entity.limbs)
     options.initial_rad[static_cast<std::size_t>(limb.joints[2])] -= 0.2;
   TwinRobot robot(world, entity, options);
@@ -86,7 +86,7 @@ TEST(Robot, AtRestZmpIsTheProjectionOfTheCentreOfMassAndFeetCarryTheWeight) {
     for (const std::uint16_t count : robot.foot_counts(foot)) sensed += count * 0.01;
   }
   EXPECT_NEAR(sensed, weight, 0.02 * weight);
-  EXPECT_GE(truth.support_world_m.size(), 4U);  // 4 to 8 corners: the soles are not quite parallel
+  EXPECT_GE(truth.support_world_m.size(), 4U);  // 4 to 8: the soles are not quite parallel
 }
 
 TEST(Robot, FootSensorsKeepTheCentreOfPressure) {
@@ -102,7 +102,7 @@ TEST(Robot, FootSensorsKeepTheCentreOfPressure) {
   EXPECT_NEAR(0.033 * (n[0] + n[2] - n[1] - n[3]) / sum, -0.011, 1e-4);
 }
 
-// Mean of a second: the servos hum by one encoder count, like real ones.
+// Mean of a second: servos hum by a count.
 TEST(Robot, ImuReadsOneGUpwardAtRest) {
   World world;
   const model::Entity entity = test::biped();
@@ -126,7 +126,7 @@ TEST(Robot, ImuReadsOneGUpwardAtRest) {
   EXPECT_LT(gyro.norm(), 0.002);
 }
 
-// Turned by 90 degrees about z, it sees body x as its -y.
+// It sees body x as its -y.
 TEST(Robot, ImuMeasuresInItsOwnAxes) {
   model::ImuSensor sensor = *test::biped().imu;
   ImuModel imu(sensor, 0, false, 1);
@@ -138,7 +138,7 @@ TEST(Robot, ImuMeasuresInItsOwnAxes) {
   EXPECT_EQ(imu.measurement().accel_count[2], 9807);
 }
 
-// A landing's jolt, shorter than a control period, at any moment of it.
+// A landing's jolt, shorter than a period, at any moment.
 TEST(Robot, WhatTheGyroTellsOncePerPeriodAddsUpToTheTurn) {
   constexpr double kStep_s = 0.001, kMean_s = 0.01, kJolt_rad_s = 1;
   model::ImuSensor sensor;
@@ -180,7 +180,7 @@ TEST(Robot, TheImuOfARobotIsMeantOverItsControlPeriod) {
   EXPECT_GT(std::abs(counts.back() - counts[counts.size() - 10]), 5) << "so that a mean is another";
 }
 
-// Density over the root of twice the time: the datasheets' definition, whatever the physics step.
+// Density over the root of twice the time, whatever the physics step.
 TEST(Robot, GyroNoiseOfAMeanIsThatOfItsDensity) {
   constexpr double kDensity = 3e-4, kMean_s = 0.01;
   model::ImuSensor sensor;
@@ -200,7 +200,7 @@ TEST(Robot, GyroNoiseOfAMeanIsThatOfItsDensity) {
       squares += std::pow(sum_rad_s / kOfTicks, 2);
     }
     const double expected = kDensity / std::sqrt(2 * kMean_s * kOfTicks);
-    // 200 means: one sigma is 5 %.
+    // One sigma of 200 means is 5 %.
     EXPECT_NEAR(std::sqrt(squares / kMeans), expected, 0.2 * expected) << step_ms << " ms";
   }
 }
@@ -233,7 +233,7 @@ TEST(Robot, FallsWhenNobodyHoldsItAndTorqueIsOff) {
   EXPECT_TRUE(robot.fallen());
 }
 
-// The robot's height counts from its feet.
+// The height counts from its feet.
 TEST(Robot, DownFromWhatItStoodOnIsNoFallUntilItLies) {
   World world;
   const model::Entity entity = test::biped();
@@ -255,7 +255,7 @@ TEST(Robot, CradleHoldsUntilTheLegsAreArmed) {
   robot.advance_to(1'000'000);
   EXPECT_TRUE(robot.truth().held);
   EXPECT_FALSE(robot.fallen());
-  for (int j = 0; j < joints_of(entity); ++j) {  // hold the dangling legs where they are
+  for (int j = 0; j < joints_of(entity); ++j) {  // hold the dangling legs
     robot.setpoint(j).goal_count = robot.servo(j).measurement().position_count;
   }
   arm_all(robot, joints_of(entity));
@@ -265,7 +265,7 @@ TEST(Robot, CradleHoldsUntilTheLegsAreArmed) {
   EXPECT_FALSE(robot.truth().held);
 }
 
-// This works after every fall, with the same twin.
+// This works after every fall.
 TEST(Robot, IsSetOnItsFeetWhenItIsLimpAndHeldUntilItIsArmed) {
   World world;
   const model::Entity entity = test::biped();
@@ -304,7 +304,6 @@ Sample run(std::uint64_t seed, bool read_often) {
   arm_all(robot, joints_of(entity));
   Sample sample;
   for (std::uint64_t t = 10'000; t <= 1'000'000; t += 10'000) {
-    // Move everything slowly.
     for (const model::Limb& limb : entity.limbs) {
       const double knee = count_of(entity.joints[static_cast<std::size_t>(limb.joints[3])].servo,
                                    1.2 + 0.2 * std::sin(static_cast<double>(t) * 1e-5));
@@ -362,7 +361,7 @@ TEST(Determinism, HowTimeIsCutIntoCallsDoesNotMatter) {
     for (std::uint64_t t = cut_us; t < 500'000; t += cut_us) robot.advance_to(t);
     robot.advance_to(500'000);
     EXPECT_EQ(robot.now_us(), 500'000U);
-    robot.advance_to(400'000);  // time never goes back
+    robot.advance_to(400'000);  // never back
     EXPECT_EQ(robot.now_us(), 500'000U);
     end.push_back(robot.truth());
   }
@@ -384,7 +383,7 @@ TEST(Random, NormalHasMeanZeroAndDeviationOne) {
   EXPECT_NEAR(squares / kDraws, 1, 0.01);
 }
 
-// They share neither random numbers nor state.
+// They share no random numbers or state.
 TEST(World, TwoRobotsStandSideBySide) {
   World world;
   const model::Entity entity = test::biped();

@@ -11,7 +11,7 @@
 #include "tests/host/sim/test_robots.hpp"
 #include "tests/support/leak.hpp"
 
-// Lasers in worlds made in code measure hand-calculated distances.
+// Hand-calculated distances.
 
 namespace verp::sim::test {
 namespace {
@@ -48,7 +48,7 @@ struct Place {
   std::unique_ptr<World> world;
 };
 
-// ODE aborts on a NaN; one user's robot must not end a campaign.
+// ODE aborts on a NaN; one robot must not end a campaign.
 TEST(World, PhysicsThatDivergesIsAnErrorOfItsRun) {
   Place place({floor_at(0),
                object("box", ShapeKind::kBox, {0.1, 0.1, 0.1}, {0, 0.01, 0.04}, Kind::kDynamic)});
@@ -141,7 +141,7 @@ TEST(Scenery, ItsQuantitiesCanBeSetByName) {
   EXPECT_NEAR(q.read("ball.position_m.z"), 1 - 9.80665 * 0.2 * 0.201 / 2, 1e-6);
 }
 
-/// A laser on the arm robot's base, 0.2 m above the floor, walls at x = 1 and y = -0.8.
+/// A laser 0.2 m above the floor, walls at x = 1 and y = -0.8.
 Place room() {
   return Place({floor_at(0), object("front", ShapeKind::kBox, {0.2, 9, 2}, {1.1, 0, 1}),
                 object("right", ShapeKind::kBox, {9, 0.2, 2}, {0, -0.9, 1})});

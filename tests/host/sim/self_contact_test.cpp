@@ -12,13 +12,13 @@ namespace {
 constexpr double kSoleWidth = 0.066;
 
 struct Outcome {
-  double soles_between_m;  ///< least lateral distance of the soles' middles
+  double soles_between_m;  ///< least, of the soles' middles
   std::uint64_t contact_steps;
   std::array<int, 2> nodes;
   bool foot_force_valid;
 };
 
-/// The robot hangs in the air, and both hips press its feet together.
+/// In the air, both hips press.
 Outcome press_feet_together(const model::Entity& entity) {
   World world({.ground = false});
   TwinOptions options;

@@ -26,7 +26,7 @@ TwinOptions bench() {
   return options;
 }
 
-/// A servo without an engine; the test integrates its load.
+/// The test integrates its load.
 struct BareServo {
   model::Joint joint = test::joint("j", 0, Vec3::Zero(), Vec3::UnitZ());
   ServoSetpoint setpoint{.torque_on = true, .goal_count = 2048, .p_gain = 3500};
@@ -101,7 +101,7 @@ TEST(Servo, ProfileIsAStraightLineOverItsTime) {
     servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS);
     EXPECT_NEAR(count_of(bare.joint.servo, servo.profile_rad()), 2048 + 10.0 * ms, 1e-6) << ms;
   }
-  // A new goal in mid-move starts from the profile's position.
+  // It starts from the profile's position.
   bare.setpoint.goal_count = 2048;
   for (int ms = 1; ms <= 5; ++ms) servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS);
   EXPECT_NEAR(count_of(bare.joint.servo, servo.profile_rad()), 2048 + 50, 1e-6);
@@ -116,14 +116,14 @@ TEST(Servo, HoldsTheAngleThatItsZeroErrorMakesOfTheGoal) {
                    Random(1, Draw::kEncoder), 0.0);
   servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS);
   EXPECT_NEAR(servo.profile_rad(), -0.01, 1e-12);
-  EXPECT_EQ(servo.measurement().position_count, 2048 + 7);  // 0.01 rad = 6.5 counts
+  EXPECT_EQ(servo.measurement().position_count, 2048 + 7);  // 0.01 rad is 6.5 counts
 }
 
 TEST(Servo, PushesNothingInsideItsPlay) {
   BareServo bare;
   bare.joint.servo.backlash_rad = 0.02;
   ServoModel servo = bare.model();
-  bare.setpoint.goal_count = 4000;  // the rotor runs at 8 rad/s: 8 mrad a step
+  bare.setpoint.goal_count = 4000;  // at 8 rad/s, 8 mrad a step
   EXPECT_EQ(servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS).torque_n_m(0), 0);
   EXPECT_NEAR(servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS).torque_n_m(0), 3.0, 1e-9);
   bare.setpoint.goal_count = 0;  // the other flank is 20 mrad away
@@ -138,11 +138,11 @@ TEST(Servo, WarmsByItsCurrentAndThenGivesLess) {
   ServoModel servo = bare.model();
   bare.setpoint.goal_count = 4000;
   double torque = 0;
-  for (int s = 0; s < 100; ++s) {  // one-second steps: only heat matters here
+  for (int s = 0; s < 100; ++s) {  // only heat matters here
     torque = servo.drive(bare.setpoint, 0, 0, 0, 12.0, 1.0).torque_n_m(0);
     servo.finish(0, 1.0);
   }
-  // 27.6 W at first, into 74 J/K.
+  // 27.6 W into 74 J/K.
   EXPECT_GT(servo.measurement().temperature_c, 45);
   EXPECT_LT(servo.measurement().temperature_c, 25 + 27.6 * 100 / 74);
   EXPECT_LT(torque, 2.9);
@@ -160,7 +160,7 @@ TEST(Servo, NamesTheJointWhoseFactsAreImpossible) {
   }
 }
 
-// duty * stall torque balances gravity: K = P/128 * counts/rad / 885 * stall.
+// K = P/128 * counts/rad / 885 * stall.
 TEST(ServoInOde, SagsByTorqueOverStiffness) {
   World world;
   TwinOptions options = bench();
@@ -175,11 +175,11 @@ TEST(ServoInOde, SagsByTorqueOverStiffness) {
   const double load = kArmMass * 9.80665 * kArmLength;
   const double goal = -1024.0 * 6.283185307179586 / 4096;
   const double sag = std::abs(robot.truth().joint_rad[0] - goal);
-  EXPECT_NEAR(sag, load / stiffness, 0.6 * 6.283185307179586 / 4096);  // one count of the encoder
+  EXPECT_NEAR(sag, load / stiffness, 0.6 * 6.283185307179586 / 4096);  // one encoder count
   EXPECT_GT(robot.truth().torque_use[0], 0.9 * load / 3.0);
 }
 
-// J dw/dt = stall * (1 - w / w0): an exponential with time constant J w0 / stall.
+// J dw/dt = stall * (1 - w / w0): a time constant of J w0 / stall.
 TEST(ServoInOde, SpeedsUpAsTheTorqueSpeedLineSays) {
   WorldOptions weightless;
   weightless.gravity_m_s2 = 0;
@@ -205,7 +205,7 @@ TEST(ServoInOde, SpeedsUpAsTheTorqueSpeedLineSays) {
   }
 }
 
-// A small step keeps duty proportional to the error: J x'' = K (goal - x) - D x'.
+// J x'' = K (goal - x) - D x' for a small step.
 TEST(ServoInOde, StepResponseIsThatOfASecondOrderSystem) {
   WorldOptions weightless;
   weightless.gravity_m_s2 = 0;
@@ -214,8 +214,8 @@ TEST(ServoInOde, StepResponseIsThatOfASecondOrderSystem) {
   TwinOptions options = bench();
   options.supply_ohm = 0;
   model::Entity entity = test::arm();
-  entity.joints[0].servo.counts_per_rev = 4096 * 64;  // so fine that quantisation does not show
-  entity.joints[0].servo.loop_s = 0.0001;             // so fast that sampling does not show
+  entity.joints[0].servo.counts_per_rev = 4096 * 64;  // quantisation does not show
+  entity.joints[0].servo.loop_s = 0.0001;             // sampling does not show
   entity.joints[0].servo.offset_count = 0;
   TwinRobot robot(world, entity, options);
   const double goal = 0.02;
@@ -278,11 +278,10 @@ TEST(ServoInOde, SupplySagsUnderLoad) {
   robot.setpoint(0).torque_on = true;
   robot.setpoint(0).goal_count = 4000;
   robot.setpoint(0).p_gain = 3500;
-  robot.advance_to(500'000);  // stalled at the stop: 2.3 A through 0.1 ohm
+  robot.advance_to(500'000);  // 2.3 A through 0.1 ohm
   EXPECT_NEAR(robot.measure(0).voltage_v, 12 - 0.23, 0.01);
 }
 
-// It draws the same power and loses the same share.
 TEST(ServoInOde, SupplySagsByTheSamePartAtAnyVoltage) {
   for (const double nominal_v : {5.0, 24.0}) {
     World world;

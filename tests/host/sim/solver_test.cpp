@@ -14,7 +14,7 @@
 
 #include "host/twin/sim/solver_lanes.hpp"
 
-/// The loops that ODE calls are ours; they equal its own bit for bit.
+/// ODE calls our loops; they equal its own bit for bit.
 namespace verp::sim {
 namespace {
 
@@ -24,7 +24,7 @@ constexpr const char* kSolveLower = "_Z15solveL1StraightILj1EEvPKdPdjj";
 constexpr const char* kSolveUpper = "_Z17solveL1TransposedILj1EEvPKdPdjj";
 constexpr const char* kFactor = "_Z18factorMatrixAsLDLTILj1EEvPdS0_jj";
 
-/// The library's own symbol, even if overridden.
+/// The library's own, even if overridden.
 void* own_of_ode(const char* name) {
   void* ode = dlopen("libode.so.8", RTLD_NOW | RTLD_NOLOAD);
   return ode == nullptr ? nullptr : dlsym(ode, name);
@@ -35,7 +35,7 @@ struct Equations {
   std::vector<double> a, b;
 };
 
-/// Symmetric, diagonally dominant, ODE's row padding; garbage in the upper half.
+/// Symmetric, diagonally dominant, with ODE's padding; garbage in the upper half.
 Equations draw(unsigned n, std::mt19937& random) {
   std::normal_distribution<double> number;
   Equations drawn{n, n > 1 ? (n + 3) / 4 * 4 : 1, {}, {}};
@@ -61,7 +61,7 @@ class Solver : public ::testing::Test {
   }
 };
 
-/// Makes the matrix like a robot's: rows and b begin with zeros of both signs.
+/// Like a robot's: rows and b begin with zeros of both signs.
 void thin_out(Equations& of, std::mt19937& random) {
   const auto zeros = [&](unsigned count) {
     return std::uniform_int_distribution<unsigned>(0, count)(random);
@@ -75,7 +75,7 @@ void thin_out(Equations& of, std::mt19937& random) {
   if (of.n > 5) of.b[zeros(5)] = -0.0;
 }
 
-/// This program's loops, and the tests' own build of them: a sanitizer watches only those.
+/// The program's, and the tests' own build, which sanitizers watch.
 std::vector<SolverLoops> all_loops() {
   std::vector<SolverLoops> all(solver_loops().begin(), solver_loops().end());
   all.push_back({"in the test", lanes::solve_lower, lanes::solve_upper, lanes::factor});

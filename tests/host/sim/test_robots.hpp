@@ -4,12 +4,12 @@
 
 #include "host/robot/model/entity.hpp"
 
-/// Robots made in code, so that every number is visible.
+/// Made in code: every number is visible.
 namespace verp::sim::test {
 
-inline constexpr double kGravity_m_s2 = 9.80665;  // standard gravity, as in the twin
+inline constexpr double kGravity_m_s2 = 9.80665;  // as in the twin
 
-/// An XM430-W210 at 12 V, without play and friction.
+/// An XM430-W210 at 12 V without play and friction.
 inline model::Servo plain_servo() {
   model::Servo servo;
   servo.type = "test";
@@ -52,10 +52,10 @@ inline model::Joint joint(const char* name, int parent, const model::Vec3& origi
 }
 
 inline constexpr double kArmMass = 0.5;
-inline constexpr double kArmLength = 0.1;  ///< joint to centre of mass
+inline constexpr double kArmLength = 0.1;  ///< to the centre of mass
 inline constexpr double kArmInertia = 1e-4;
 
-/// A heavy body; its arm hangs along -z at zero and turns about y.
+/// Hangs along -z at zero and turns about y.
 inline model::Entity arm() {
   model::Entity entity;
   entity.nodes.push_back(box("base", 10, {0.2, 0.2, 0.2}, {0, 0, 0}));
@@ -65,8 +65,7 @@ inline model::Entity arm() {
   return entity;
 }
 
-/// Two six-joint legs under a box: yaw, roll, pitch, knee, ankle pitch, ankle roll. IMU in the
-/// body, force sensors under the feet.
+/// Yaw, roll, pitch, knee, ankle pitch, ankle roll. IMU in the body, force sensors under the feet.
 inline model::Entity biped() {
   model::Entity entity;
   entity.nodes.push_back(box("body", 1.6, {0.08, 0.12, 0.15}, {0.005, 0, 0.02}));
@@ -111,7 +110,7 @@ inline model::Entity biped() {
   return entity;
 }
 
-/// Puts the hips hip_height_m over the ankles, soles level.
+/// Hips hip_height_m over the ankles, soles level.
 inline std::vector<double> crouch(const model::Entity& entity, double hip_height_m,
                                   double thigh_m = 0.093) {
   std::vector<double> angle(entity.joints.size(), 0.0);

@@ -9,7 +9,6 @@
 
 #include "tests/host/sim/test_robots.hpp"
 
-/// The random robots of --vary.
 namespace verp::sim {
 namespace {
 
@@ -29,7 +28,7 @@ Varied varied(std::uint64_t seed, const VaryBands& bands = {}) {
   return vary(robot(), {.seed = seed}, {}, bands);
 }
 
-/// A uniformly drawn number, with its range.
+/// With its range.
 struct Drawn {
   const char* name;
   double low, high;
@@ -70,7 +69,7 @@ TEST(Vary, NumbersFillTheirRangesEvenly) {
       ASSERT_LE(value, number.high + 1e-6) << number.name;
       parts.push_back((value - number.low) / (number.high - number.low));
     }
-    // Kolmogorov-Smirnov: of sets of 1000 uniform numbers, one in 10,000 strays by more than 0.07.
+    // Kolmogorov-Smirnov: one in 10,000 sets of 1000 strays by more than 0.07.
     std::sort(parts.begin(), parts.end());
     for (int i = 0; i < kRobots; ++i)
       ASSERT_NEAR(parts[static_cast<std::size_t>(i)], (i + 0.5) / kRobots, 0.07) << number.name;
@@ -86,7 +85,7 @@ TEST(Vary, EqualSeedsGiveEqualRobotsAndOthersDiffer) {
   }
 }
 
-// The number of joints does not change a draw either.
+// Nor does the number of joints change a draw.
 TEST(Vary, DrawsAreIndependent) {
   std::map<std::string, std::vector<double>> drawn;
   for (std::uint64_t seed = 1; seed <= kRobots; ++seed) {
@@ -132,7 +131,7 @@ TEST(Vary, WhatWasDrawnIsSaid) {
   EXPECT_LT(said.at("mass_factor_least"), said.at("mass_factor_most"));
 }
 
-// The delay is a time, whatever the step.
+// Whatever the step.
 TEST(GoalDelay, AServoActsWhenItsGoalArrives) {
   for (const std::uint32_t step_us : {1000U, 2000U}) {
     World world({.step_us = step_us, .gravity_m_s2 = 0, .ground = false});
@@ -148,7 +147,7 @@ TEST(GoalDelay, AServoActsWhenItsGoalArrives) {
   }
 }
 
-// A robot held level with a sloping floor feels gravity at that angle.
+// A level robot on a sloping floor feels gravity at that angle.
 TEST(FloorTilt, TheAccelerometerFeelsTheSlope) {
   WorldOptions options;
   options.up = Vec3(std::sin(0.1), 0, std::cos(0.1));

@@ -11,8 +11,7 @@
 #include "tests/support/stm32/machine.hpp"
 #include "tests/support/stm32/rcc_model.hpp"
 
-// How a board's loop_can image opens its CAN bus, on a model of its chip. Built for each board with
-// a kCanPort.
+// How loop_can images open their CAN bus, for each board with a kCanPort.
 namespace verp::board {
 namespace {
 
@@ -83,7 +82,7 @@ TEST(CanPort, BothEndsHearEachOtherAtTheRobotsRate) {
   EXPECT_TRUE(heard == answer);
 }
 
-// The internal oscillator is too inaccurate for a bit of 1 us.
+// The internal oscillator is too inaccurate.
 TEST(CanPort, DoesNotOpenWithoutTheCrystal) {
   Chip chip(model::kNever);
   EXPECT_NE(chip.clocks.source, stm32::ClockSource::kCrystal);
@@ -96,7 +95,7 @@ TEST(CanPort, DoesNotOpenAtARateThatTheClockDoesNotMake) {
   EXPECT_FALSE(Wiring::open(chip.port, chip.clocks, 2'000'000));
 }
 
-// Takes torque from drives that an earlier run left stiff.
+// Drives that an earlier run left stiff lose their torque.
 TEST(CanPort, TellsAllNodesToBeginAnew) {
   Chip chip;
   ASSERT_TRUE(Wiring::open(chip.port, chip.clocks, kBaud));
@@ -162,7 +161,7 @@ TEST(CanPort, TellsOfEachTickAndAnswersWhoAsksThere) {
   EXPECT_EQ(canopen::get_le(crc, 4), params_crc(params));
 }
 
-// During bring-up only this serves the board's watchdog and operator.
+// During bring-up only this serves watchdog and operator.
 TEST(CanPort, LooksAfterTheBoardDuringALongWaitAndStillWaitsItsTime) {
   Chip chip;
   ASSERT_TRUE(Wiring::open(chip.port, chip.clocks, kBaud));

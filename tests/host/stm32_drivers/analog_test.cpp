@@ -4,8 +4,7 @@
 #include "tests/support/stm32/adc_model.hpp"
 #include "tests/support/stm32/gpio_model.hpp"
 
-// A battery's voltage: right within a count, smooth, never waited for, and missing if the converter
-// stops.
+// Right within a count, smooth, never waited for, missing if the converter stops.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -19,7 +18,7 @@ constexpr AnalogWiring kWiring = {.base = base::kAdc3,
 class AnalogDriver : public EachFamily {
  protected:
   AnalogDriver() { input.open(rig.clocks.apb2_hz); }
-  /// Polls once in 8 ms, like a loop.
+  /// Every 8 ms.
   std::uint32_t after(int polls) {
     std::uint32_t mv = 0;
     for (int i = 0; i < polls; ++i) {
@@ -40,7 +39,7 @@ TEST_P(AnalogDriver, TellsTheVoltageAtTheWire) {
   for (const std::uint32_t mv : {18'800u, 12'600u, 11'100u, 9'000u, 5u}) {
     const auto count = static_cast<std::uint16_t>(mv * 4096 / kWiring.full_scale_mv);
     adc_.input[10] = count;
-    adc_.input[0] = 4095;  // a reading of another channel
+    adc_.input[0] = 4095;  // another channel's
     EXPECT_NEAR(after(150), mv, 6.0) << mv;
   }
   EXPECT_EQ(rig.machine.gpio('C').mode(0), 3u) << "an analog pin is no digital input";

@@ -6,7 +6,7 @@
 #include "tests/host/stm32_drivers/rig.hpp"
 #include "tests/support/stm32/can_rig.hpp"
 
-// bxCAN beyond hal/contract/can_bus.hpp, and stuck hardware. The contract's suite runs too.
+// Beyond hal/contract/can_bus.hpp, whose suite runs too.
 
 namespace verp::hal::stm32::test {
 namespace {
@@ -19,9 +19,9 @@ CanFrame frame_of(std::uint32_t id, unsigned number = 0) {
   return frame;
 }
 
-/// The boards' APB1 clocks: 168, 180 and 216 MHz by four.
+/// Of 168, 180 and 216 MHz.
 constexpr std::uint32_t kApb1_hz[] = {42'000'000, 45'000'000, 54'000'000};
-/// CiA 301's rates used here.
+/// CiA 301.
 constexpr std::uint32_t kRates[] = {1'000'000, 500'000, 250'000, 125'000};
 
 TEST(BxCanTiming, IsExactAndSamplesWhereCanopenWantsItOnEverySupportedClock) {
@@ -78,9 +78,9 @@ TEST_P(BxCanDriver, MakesTheRateAndSamplePointThatItWasAskedFor) {
   EXPECT_LE(can.sample_point(), 0.90);
 }
 
-// Identifiers decide the order even if lower priorities fill the mailboxes.
+// Even if lower priorities fill the mailboxes.
 TEST_P(BxCanDriver, SendsTheBestFirstWhateverWaits) {
-  can.send(frame_of(0x001));  // holds the bus meanwhile
+  can.send(frame_of(0x001));  // holds the bus
   advance(5);
   for (std::uint32_t i = 0; i < 10; ++i) ASSERT_TRUE(driver.send(frame_of(0x600 - i)));
   ASSERT_TRUE(driver.send(frame_of(0x080)));
@@ -125,7 +125,7 @@ TEST_P(BxCanDriver, UsesAllMailboxes) {
   EXPECT_EQ(used.size(), 3u);
 }
 
-// Interrupts are masked while frames arrive; the FIFO holds three.
+// Interrupts are masked; the FIFO holds three.
 TEST_P(BxCanDriver, CountsAFifoOverrunAndKeepsTheOldest) {
   {
     const Masked<Io> masked(board.rig.machine.io());
@@ -154,7 +154,7 @@ TEST_P(BxCanDriver, CountsWhatNobodyFetchedInTime) {
   EXPECT_FALSE(driver.poll(heard, 0));
 }
 
-// Bus-off takes 32 failures, then 128 times 11 bits of silence; then the driver returns by itself.
+// 32 failures, then 128 times 11 bits of silence.
 TEST_P(BxCanDriver, ComesBackFromBusOffAfterTheTimeOfTheStandard) {
   can.break_next = 32;
   ASSERT_TRUE(driver.send(frame_of(0x123)));
@@ -226,7 +226,7 @@ TEST_P(BxCanDriver, LetsInWhatItsRulesSayAndNothingElse) {
   }
   advance(2000);
   CanFrame heard;
-  // All frames were ready at once, so they arrive in the order of priority.
+  // All were ready at once.
   for (const CanFrame& each : {extended, frame_of(0x180), frame_of(0x1FF)}) {
     ASSERT_TRUE(filtered.poll(heard, 0));
     EXPECT_TRUE(heard == each) << each.id;

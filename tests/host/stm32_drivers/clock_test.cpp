@@ -3,7 +3,7 @@
 #include "tests/host/stm32_drivers/rig.hpp"
 #include "tests/support/stm32/core_model.hpp"
 
-// Full speed with a crystal, the next best without, and always an end.
+// Full speed with a crystal, the next best without.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -60,7 +60,7 @@ TEST_P(Clock, SwitchThatSticksLeavesSixteenMegahertz) {
   expect_real(clocks);
 }
 
-// Reading clears the flags, so the cause is this start's.
+// Reading clears the flags.
 TEST_P(Clock, TellsWhyTheChipStarted) {
   machine.reset(model::ResetCause::kIwdg);
   EXPECT_EQ(take_reset_cause(machine.io()), ResetCause::kWatchdog);
@@ -71,7 +71,7 @@ TEST_P(Clock, TellsWhyTheChipStarted) {
   EXPECT_EQ(machine.violations_text(), "");
 }
 
-// A chip with overdrive at its fastest, on OpenCR's crystal.
+// With overdrive, on OpenCR's crystal.
 struct Fast {
   Family family;
   ClockPlan plan;
@@ -118,7 +118,7 @@ TEST_P(Overdrive, ThatNeverComesLeavesSixteenMegahertzInTime) {
   EXPECT_LT(machine.now(), ms(500));
 }
 
-// Otherwise stale instructions would run.
+// Stale instructions would run.
 TEST(InstructionCache, IsEmptiedBeforeItIsSwitchedOn) {
   Machine machine(Family::kF746);
   machine.io().write32(cortex_m::kIciallu, 1);

@@ -10,7 +10,7 @@
 #include "tests/support/stm32/flash_model.hpp"
 #include "tests/support/stm32/iwdg_model.hpp"
 
-// hal/contract/flash_pages.hpp on the chip's own flash.
+// hal/contract/flash_pages.hpp.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -72,7 +72,7 @@ TEST_P(FlashDriver, ABusyFlagThatSticksIsAnErrorAndNotAWait) {
   EXPECT_FALSE(pages.erase(0));
 }
 
-/// The flash as the processor sees it; the model's memory has other addresses.
+/// At the processor's addresses, not the model's.
 struct Mapped : Pages {
   using Pages::Pages;
   const std::uint8_t* memory(std::size_t page) const {
@@ -92,8 +92,7 @@ std::vector<std::uint8_t> bytes_from(int first, std::size_t size) {
   return bytes;
 }
 
-// Actions from the operator: thousands of units at the manual's slowest speed. The watchdog would
-// not wait for all.
+// Thousands of units at the slowest speed; the watchdog would not wait for all.
 TEST_P(FlashDriver, ReplacesHalfAPageUnderAWatchdogAndKeepsTheOther) {
   constexpr std::size_t kSecond = 8192;
   const auto robot = bytes_from(1, 6000), old = bytes_from(2, 500), fresh = bytes_from(3, 3001);
@@ -110,7 +109,7 @@ TEST_P(FlashDriver, ReplacesHalfAPageUnderAWatchdogAndKeepsTheOther) {
   store::WaitingRoom room(home, kSecond, 4096, other, log);
   room.begin();
   room.work(true);
-  for (std::size_t at = 0; at < fresh.size(); at += 7) {  // in CAN's pieces
+  for (std::size_t at = 0; at < fresh.size(); at += 7) {  // CAN's pieces
     ASSERT_TRUE(room.write(at, fresh.data() + at, std::min<std::size_t>(7, fresh.size() - at)));
     dog.feed();
   }

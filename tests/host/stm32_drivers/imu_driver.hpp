@@ -3,7 +3,7 @@
 #include "tests/support/stm32/imu_rig.hpp"
 #include "tests/support/stm32/spi_model.hpp"
 
-/// The IMU driver with a model of either chip, on either family's SPI.
+/// With either chip on either family's SPI.
 namespace verp::hal::stm32::test {
 
 using model::ImuKind;
@@ -16,8 +16,7 @@ struct Which {
 class MotionSensorDriver : public ::testing::TestWithParam<Which> {
  protected:
   MotionSensorDriver() { board.device.motion({1, -2, 32767}, {-32768, 5, 6}); }
-  /// From now on each sample is twice its number, so a mean is the sum of the first and last
-  /// numbers.
+  /// Each sample is twice its number, so a mean is the sum of the first and last numbers.
   void number_samples() {
     board.device.before_sample = [this] {
       const auto number = static_cast<std::int16_t>(2 * ++newest);
@@ -34,7 +33,7 @@ class MotionSensorDriver : public ::testing::TestWithParam<Which> {
     board.rig.machine.advance(us(time_us));
     board.device.update(board.rig.machine.now());
   }
-  /// Exactly the numbers after the last reported one, up to `last`.
+  /// The numbers after the last reported one, up to `last`.
   void expect_up_to(int last, const ImuSample& sample) {
     EXPECT_EQ(sample.gyro_count[0], told + 1 + last);
     EXPECT_EQ(sample.accel_count[2], told + 1 + last);

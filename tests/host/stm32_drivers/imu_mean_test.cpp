@@ -2,7 +2,7 @@
 
 #include "tests/host/stm32_drivers/imu_driver.hpp"
 
-// The mean of all samples in the FIFO.
+// Of all samples in the FIFO.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -31,7 +31,7 @@ TEST_P(MotionSensorDriver, TellsEverySampleOnce) {
   EXPECT_EQ(board.imu.faults(), 0u);
 }
 
-// Each jolt starts right after a read and ends before the next.
+// Each jolt lies between two reads.
 TEST_P(MotionSensorDriver, JoltsBetweenReadsAddUpToTheTurn) {
   ASSERT_TRUE(board.starts());
   const double period_us = GetParam().kind == ImuKind::kMpu9250 ? 2000 : 2e6 / 1125;
@@ -96,7 +96,7 @@ TEST_P(MotionSensorDriver, MissesNothingWithinTheLongestPeriod) {
   }
 }
 
-// The FIFO's data is old and perhaps out of step, but the chip works: no fault.
+// The FIFO's data is old, but the chip works: no fault.
 TEST_P(MotionSensorDriver, WhatCameInALongPauseIsDropped) {
   ASSERT_TRUE(board.starts());
   read_alone();
@@ -115,7 +115,7 @@ TEST_P(MotionSensorDriver, WhatCameInALongPauseIsDropped) {
   EXPECT_EQ(board.imu.faults(), 0u);
 }
 
-// The driver reads the FIFO's size during a write and reports the whole sample.
+// The driver reads the size during a write and reports the whole sample.
 TEST_P(MotionSensorDriver, SampleThatIsBeingWrittenIsAwaited) {
   ASSERT_TRUE(board.starts());
   read_alone();
@@ -124,7 +124,7 @@ TEST_P(MotionSensorDriver, SampleThatIsBeingWrittenIsAwaited) {
     pause(8'000);
     for (const int before = newest; newest == before;) pause(10);
     board.device.torn = torn;
-    board.rig.machine.advance(us(2'000));  // one is due; the next transfer brings it
+    board.rig.machine.advance(us(2'000));  // the next transfer brings the due one
     const int last = newest + 1;
     ASSERT_EQ(board.read(), ImuStatus::kFresh) << torn;
     expect_up_to(last, board.sample);
@@ -133,7 +133,7 @@ TEST_P(MotionSensorDriver, SampleThatIsBeingWrittenIsAwaited) {
   EXPECT_EQ(board.imu.faults(), 0u);
 }
 
-// Bytes of an out-of-step FIFO belong to another axis.
+// Its bytes belong to another axis.
 TEST_P(MotionSensorDriver, FifoOutOfStepIsNotBelieved) {
   ASSERT_TRUE(board.starts());
   read_alone();

@@ -3,7 +3,7 @@
 #include "hal/chip/invensense/ranges.hpp"
 #include "tests/host/stm32_drivers/imu_driver.hpp"
 
-// The IMU at the robot's scales. The driver recovers from every failure by itself.
+// The driver recovers from every failure by itself.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -29,7 +29,7 @@ TEST_P(MotionSensorDriver, FindsTheChipByItselfAndGivesItsCounts) {
   EXPECT_EQ(board.sample.accel_count[2], 6);
 }
 
-// Every 8 ms a new sample; a frozen chip gives no more.
+// A new sample every 8 ms; a frozen chip gives no more.
 TEST_P(MotionSensorDriver, GivesEachSampleOnceAndNewOnesInTime) {
   ASSERT_TRUE(board.starts());
   for (std::int16_t i = 0; i < 200; ++i) {
@@ -41,7 +41,7 @@ TEST_P(MotionSensorDriver, GivesEachSampleOnceAndNewOnesInTime) {
     EXPECT_EQ(board.sample.accel_count[1], i);
     EXPECT_GT(board.sample.time_us, last_us);
     board.device.frozen = true;
-    board.read();  // may include one more sample
+    board.read();  // perhaps one more sample
     EXPECT_EQ(board.read(), ImuStatus::kStale);
     board.device.frozen = false;
   }
@@ -88,7 +88,7 @@ TEST_P(MotionSensorDriver, ChipThatStopsSamplingIsAFaultAndIsStartedAnew) {
   EXPECT_TRUE(board.starts());
 }
 
-// After a supply dip its scales are wrong, which is worse than no data.
+// Wrong scales are worse than no data.
 TEST_P(MotionSensorDriver, ChipThatLostItsSettingsIsNotBelieved) {
   ASSERT_TRUE(board.starts());
   board.device.forget();
@@ -97,7 +97,7 @@ TEST_P(MotionSensorDriver, ChipThatLostItsSettingsIsNotBelieved) {
   EXPECT_TRUE(board.starts());
 }
 
-/// A bus between driver and SPI that acts after the nth exchange or drops a write.
+/// Acts after the nth exchange or drops a write.
 struct Meddler {
   bool exchange(const std::uint8_t* out, std::uint8_t* in, std::size_t size, std::uint32_t max_hz) {
     if (out[0] == lost_write) return true;
@@ -111,7 +111,7 @@ struct Meddler {
   int lost_write = -1;
 };
 
-// The sample counts in this read or the next.
+// In this read or the next.
 TEST_P(MotionSensorDriver, SampleThatComesMeanwhileIsToldOnce) {
   Meddler bus{board.spi};
   invensense::MotionSensor<Meddler, Timer> imu(bus, board.rig.timer);
@@ -135,7 +135,7 @@ TEST_P(MotionSensorDriver, SampleThatComesMeanwhileIsToldOnce) {
   }
 }
 
-// The chip does not empty its FIFO; a restart cures it.
+// A restart cures it.
 TEST_P(MotionSensorDriver, FifoThatStaysFullIsAFault) {
   Meddler bus{board.spi};
   invensense::MotionSensor<Meddler, Timer> imu(bus, board.rig.timer);
@@ -164,7 +164,7 @@ TEST_P(MotionSensorDriver, SettingThatDoesNotTakeIsAFault) {
   EXPECT_GT(imu.faults(), 0u);
 }
 
-// The filter is below half the rate of reads, so nothing aliases.
+// Below half the rate of reads, so nothing aliases.
 TEST(MotionSensorLowPass, IsThatOfTheTwin) {
   ImuRig mpu(Family::kF405, ImuKind::kMpu9250);
   ASSERT_TRUE(mpu.starts());

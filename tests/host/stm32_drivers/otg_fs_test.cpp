@@ -8,8 +8,8 @@
 #include "tests/host/stm32_drivers/rig.hpp"
 #include "tests/support/stm32/usb_rig.hpp"
 
-// USB as a serial port on the older and newer core, with a PC: what the suite of tests/contract for
-// hal/contract/byte_link.hpp cannot test. Requests, hosts that change their mind, stuck hardware.
+// On both cores, beyond the suite of hal/contract/byte_link.hpp: requests, hosts that change their
+// mind, stuck hardware.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -77,7 +77,7 @@ TEST_P(UsbPort, IsFoundAndOpenedByAHost) {
   EXPECT_EQ(rig.port.stuck(), 0u);
 }
 
-// The host asks for any length, also longer than a packet or a whole number of packets.
+// Any length, also whole packets.
 TEST_P(UsbPort, TellsTheHostAllOfItsDescriptors) {
   ASSERT_TRUE(rig.open());
   ASSERT_TRUE(rig.host.plug());
@@ -117,7 +117,7 @@ TEST_P(UsbPort, RefusesWhatItDoesNotKnowAndGoesOn) {
   expect_alive();
 }
 
-// The host aborts between any two stages, or repeats.
+// Between any two stages.
 TEST_P(UsbPort, OutlivesRequestsThatAreGivenUp) {
   meet();
   auto& wire = rig.machine.otg_fs();
@@ -140,7 +140,7 @@ TEST_P(UsbPort, OutlivesRequestsThatAreGivenUp) {
   expect_alive();
 }
 
-// Packets of any size go both ways at once, with lost ACKs and slow programs at both ends.
+// Both ways at once, with lost ACKs and slow programs.
 TEST_P(UsbPort, CarriesAnyBytesInOrderBothWays) {
   meet();
   rig.host.deaf_every = 5;
@@ -243,8 +243,7 @@ const Ending kEndings[] = {
      }},
 };
 
-// Packets are under way both ways. The reader gets earlier bytes and sees the loss once; queued
-// bytes are dropped.
+// The reader gets earlier bytes and sees the loss once; queued bytes are dropped.
 TEST_P(UsbPort, OutlivesTheEndOfAConnectionAtAnyMoment) {
   meet();
   std::uint32_t losses = 0;
@@ -312,7 +311,6 @@ TEST_P(UsbPort, WithVbusSensedAPulledCableIsSeenAtOnce) {
   EXPECT_FALSE(rig.port.connected());
 }
 
-// No byte is lost.
 TEST_P(UsbPort, HaltsAndReleasesEndpoints) {
   meet();
   const Bytes bytes = noise(200, 12);
@@ -349,8 +347,8 @@ TEST_P(UsbPort, TooSlowAClockIsRefused) {
   EXPECT_FALSE(rig.port.open(14'000'000, false));
 }
 
-// It blocks the way to the host, which no bus reset restores, but costs only a few polls. The
-// host's bytes still arrive.
+// It blocks the way to the host, also after a bus reset, but costs only a few polls. The host's
+// bytes still arrive.
 TEST_P(UsbPort, OutlivesAPacketThatIsStuck) {
   meet();
   rig.host.reading = false;
@@ -378,7 +376,7 @@ TEST_P(UsbPort, OutlivesAPacketThatIsStuck) {
   }
 }
 
-// The driver counts the flush and uses the FIFO anyway.
+// The driver counts it and uses the FIFO anyway.
 TEST_P(UsbPort, OutlivesAFlushThatDoesNotEnd) {
   meet();
   rig.machine.otg_fs().flush_stuck = true;

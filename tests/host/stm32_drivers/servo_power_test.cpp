@@ -10,7 +10,7 @@
 #include "tests/host/stm32_drivers/rig.hpp"
 #include "tests/support/stm32/gpio_model.hpp"
 
-// OpenCR's emergency stop and servo power switch, as boards/stm32/loop_main.cpp uses them.
+// OpenCR's, as boards/stm32/loop_main.cpp uses them.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -36,7 +36,7 @@ class ServoPowerSwitch : public ::testing::Test {
         .drive(kEmergencyStop.number, closed ? Outside::kLow : Outside::kOpen);
   }
   bool powered() { return rig.machine.gpio(kServoPower.port).level(kServoPower.number); }
-  /// Runs one tick with the orders in desk.next.
+  /// With the orders in desk.next.
   app::DrivePower::Step tick() {
     const app::OperatorOrder order = panel.order(0);
     const bool emergency = (order.flags & kEmergencyStopFlag) != 0;
@@ -49,7 +49,7 @@ class ServoPowerSwitch : public ::testing::Test {
     return step;
   }
   void idle() { supply.permit(std::exchange(relax_asked, false)); }
-  /// The board's loop retries bring-up, without ticks.
+  /// Bring-up again, without ticks.
   void try_in_vain() {
     for (int i = 0; i < 10; ++i) {
       supply.set(true);
@@ -79,7 +79,7 @@ class ServoPowerSwitch : public ::testing::Test {
   app::DrivePower drive;
   safety::Mode mode = safety::Mode::kRelaxed;
   int torque_off_ticks = 0;
-  bool relax_asked = false;  ///< not yet passed to the switch
+  bool relax_asked = false;  ///< not yet passed on
 };
 
 TEST_F(ServoPowerSwitch, IsOffUntilTheLoopSwitchesItOn) {
@@ -129,7 +129,7 @@ TEST_F(ServoPowerSwitch, ComesBackAfterAStopDuringBringUpByReleaseAndRequestInTh
   EXPECT_EQ(supply.state(), State::kOn);
 }
 
-// Bring-up had just finished: the loop ticks without power, but not forever.
+// Bring-up had finished: the loop ticks without power for a while.
 TEST_F(ServoPowerSwitch, IsGivenBackByALoopThatBeganWithoutIt) {
   supply.set(true);
   circuit(false);
@@ -142,7 +142,7 @@ TEST_F(ServoPowerSwitch, IsGivenBackByALoopThatBeganWithoutIt) {
   EXPECT_EQ(tick(), app::DrivePower::Step::kAnew);
 }
 
-// An old request to relax still stands.
+// An old request stands.
 TEST_F(ServoPowerSwitch, WantsARequestThatIsWrittenAfterTheRelease) {
   supply.set(true);
   for (int i = 0; i < 50; ++i) tick();
@@ -165,7 +165,7 @@ TEST_F(ServoPowerSwitch, GoesAtOnceIfTheCircuitOpensWhileNothingTicks) {
   EXPECT_FALSE(powered());
 }
 
-// 40 ms in a loop of 8 ms are two readings, then three ticks without torque.
+// 40 ms: two readings, then three ticks without torque.
 TEST_F(ServoPowerSwitch, GoesWithinFiveTicksOfAnOpenCircuitAfterTorqueOffWasSaid) {
   stand_up();
   circuit(false);
@@ -199,7 +199,7 @@ TEST_F(ServoPowerSwitch, GoesByTheOperatorsStopToo) {
   EXPECT_FALSE(powered());
 }
 
-// The stop briefly counts as pressed, but cuts no power.
+// The stop briefly counts as pressed.
 TEST_F(ServoPowerSwitch, StaysOnThroughAStart) {
   supply.set(true);
   for (int i = 0; i < 200; ++i) {

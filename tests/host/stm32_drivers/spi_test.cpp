@@ -6,12 +6,11 @@
 #include "tests/support/stm32/imu_rig.hpp"
 #include "tests/support/stm32/spi_model.hpp"
 
-// Bytes in order, at a clock that the device bears; it is selected only meanwhile, and no wait is
-// endless.
+// In order, at a clock that the device bears, selected only meanwhile; no wait is endless.
 namespace verp::hal::stm32::test {
 namespace {
 
-/// Answers each byte's complement, one later.
+/// Each byte's complement, one later.
 class Echo : public model::SpiDevice {
  public:
   std::uint32_t most_hz = 10'000'000;
@@ -68,7 +67,7 @@ TEST_P(SpiDriver, CarriesBytesBothWaysInOrder) {
   EXPECT_TRUE(rig.machine.gpio('A').level(4)) << "the device is let go";
 }
 
-// The model knows the device's highest clock; Rig reports violations.
+// Rig reports violations of the device's highest clock.
 TEST_P(SpiDriver, IsAsFastAsTheDeviceBearsAndTheDividersAllow) {
   for (const std::uint32_t most_hz : {330'000u, 1'000'000u, 7'000'000u, 20'000'000u, 60'000'000u}) {
     echo.most_hz = most_hz;
@@ -109,7 +108,7 @@ TEST_P(SpiDriver, OverrunWithinAnExchangeFailsIt) {
   expect_works();
 }
 
-// The hardware reports another master and stops being one.
+// The hardware reports another master.
 TEST_P(SpiDriver, ModeFaultFailsTheExchangeAndIsUndone) {
   const auto fault = [this] {
     const std::uint32_t cr1 = rig.machine.io().read32(base::kSpi1 + spi::kCr1);
@@ -121,7 +120,7 @@ TEST_P(SpiDriver, ModeFaultFailsTheExchangeAndIsUndone) {
   EXPECT_EQ(spi.errors().mode_faults, 1u);
   rig.machine.at(rig.machine.now() + us(30), fault);
   EXPECT_FALSE(exchange(16));
-  rig.machine.forget_violations();  // the test itself stopped the busy peripheral
+  rig.machine.forget_violations();  // the test stopped the busy peripheral
   EXPECT_EQ(spi.errors().mode_faults, 2u);
   expect_works();
 }

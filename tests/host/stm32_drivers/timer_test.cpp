@@ -2,7 +2,7 @@
 #include "tests/host/stm32_drivers/rig.hpp"
 #include "tests/support/stm32/iwdg_model.hpp"
 
-// hal/contract/tick_source.hpp and watchdog.hpp on the chip's own hardware.
+// hal/contract/tick_source.hpp and watchdog.hpp.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -52,7 +52,7 @@ class WatchdogDriver : public EachFamily {
 };
 INSTANTIATE_TEST_SUITE_P(, WatchdogDriver, kFamilies, name_of);
 
-// Over the oscillator's whole range it is late by at most the contract's slack.
+// Late by at most the contract's slack, over the oscillator's range.
 TEST_P(WatchdogDriver, BitesNeitherEarlyNorTooLateOnAnyChip) {
   for (const std::uint32_t lsi_hz : {17'000u, 32'000u, 47'000u}) {
     for (const std::uint32_t timeout_us : {2'000u, 20'000u, 100'000u, 700'000u, 10'000'000u}) {

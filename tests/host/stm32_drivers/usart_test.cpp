@@ -8,8 +8,7 @@
 #include "tests/support/stm32/gpio_model.hpp"
 #include "tests/support/stm32/usart_model.hpp"
 
-// Both kinds of USART, by DMA and interrupts: hal/contract/byte_link.hpp, line errors, stuck
-// hardware.
+// Both kinds, by DMA and interrupts: hal/contract/byte_link.hpp, line errors, stuck hardware.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -24,7 +23,7 @@ Bytes counting(std::size_t size) {
   return bytes;
 }
 
-/// USART1 with DMA2 stream 2, or without DMA.
+/// With DMA2 stream 2, or without DMA.
 template <class Kind_, Family kFamily_, bool kDma_>
 struct Setup {
   using Kind = Kind_;
@@ -96,7 +95,7 @@ TYPED_TEST(UsartDriver, ReceivesWhatTheLineBrings) {
   EXPECT_EQ(this->port.stuck(), 0u);
 }
 
-// An idle line ends the wait, not a full ring or a timeout.
+// An idle line ends the wait.
 TYPED_TEST(UsartDriver, WaitEndsSoonAfterTheMessage) {
   this->open();
   const Bytes message = counting(20);
@@ -116,7 +115,7 @@ TYPED_TEST(UsartDriver, SilenceCostsItsTimeoutAndNoMore) {
   EXPECT_LE(waited_us, 1520u);
 }
 
-// The message is longer than the ring and comes in many pieces.
+// Longer than the ring, in many pieces.
 TYPED_TEST(UsartDriver, KeepsOrderAcrossManyTurnsOfTheRing) {
   this->open();
   Bytes all;
@@ -135,8 +134,7 @@ TYPED_TEST(UsartDriver, KeepsOrderAcrossManyTurnsOfTheRing) {
   EXPECT_EQ(got, all);
 }
 
-// QEMU keeps an unwanted interrupt until a byte is read. With a full ring it would recur forever
-// and block everything.
+// QEMU keeps an interrupt until a byte is read: with a full ring it would recur for ever.
 TYPED_TEST(UsartDriver, AFullRingAsksForNoMore) {
   if (TypeParam::kDma) return;
   this->open();
@@ -196,7 +194,7 @@ TYPED_TEST(UsartDriver, SendsAWholeFrameWithTheDirectionPinAroundIt) {
   EXPECT_FALSE(this->rig.machine.gpio('B').level(5)) << "a servo may answer now";
 }
 
-// A servo without return delay answers at once.
+// A servo without return delay.
 TYPED_TEST(UsartDriver, HearsAReplyThatComesAtOnce) {
   this->open();
   const Bytes request = counting(14);
@@ -227,7 +225,7 @@ TYPED_TEST(UsartDriver, WriteWaitsForRoomNoLongerThanItsTimeout) {
   EXPECT_EQ(this->sent(), much);
 }
 
-// The shift register never finishes: the bytes are lost and counted.
+// Its bytes are lost and counted.
 TYPED_TEST(UsartDriver, StuckSenderFreesTheBus) {
   this->open();
   this->line.tx_stuck = true;

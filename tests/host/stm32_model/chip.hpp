@@ -10,13 +10,13 @@ namespace verp::hal::stm32::model {
 
 inline constexpr Family kFamilies[] = {Family::kF405, Family::kF446, Family::kF746};
 
-/// Enables a clock as the manual asks: set the bit, read it back.
+/// As the manual asks: set the bit, read it back.
 inline void enable(ModelIo& io, std::uint32_t offset, std::uint32_t mask) {
   modify32(io, base::kRcc + offset, 0, mask);
   io.read32(base::kRcc + offset);
 }
 
-/// Polls for at most `limit`.
+/// For at most `limit`.
 inline bool wait_set(Machine& machine, std::uint32_t address, std::uint32_t mask, Time limit) {
   ModelIo io = machine.io();
   const Time end = machine.now() + limit;
@@ -34,7 +34,7 @@ inline bool wait_clear(Machine& machine, std::uint32_t address, std::uint32_t ma
   return false;
 }
 
-/// True if exactly one violation of the manual, with this text, was new.
+/// Exactly one new violation, with this text.
 inline bool one_violation(Machine& machine, const std::string& part) {
   const bool one =
       machine.violations().size() == 1 && machine.violations()[0].find(part) != std::string::npos;

@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint32_t kRccCr = base::kRcc + rcc::kCr;
 constexpr std::uint32_t kRccCfgr = base::kRcc + rcc::kCfgr;
 
-/// PLL at 168 MHz from an 8 MHz crystal: 8 / 8 * 336 / 2.
+/// 168 MHz from 8 MHz: 8 / 8 * 336 / 2.
 constexpr std::uint32_t kPll168 = 8u | 336u << rcc::kPllcfgrNShift | rcc::kPllcfgrSrcHse |
                                   7u << rcc::kPllcfgrQShift | 0x20000000u;
 
@@ -97,7 +97,7 @@ TEST(Clock, ThePllIsNotChangedWhileItRunsAndNotFedBeyondItsRange) {
   io.write32(base::kRcc + rcc::kPllcfgr, kPll168);
   EXPECT_TRUE(one_violation(machine, "PLL is on"));
   modify32(io, kRccCr, rcc::kCrPllon, 0);
-  io.write32(base::kRcc + rcc::kPllcfgr, 0x27003004u);  // HSI / 4: 4 MHz into the VCO
+  io.write32(base::kRcc + rcc::kPllcfgr, 0x27003004u);  // 4 MHz into the VCO
   modify32(io, kRccCr, 0, rcc::kCrPllon);
   EXPECT_FALSE(machine.violations().empty());
   EXPECT_NE(machine.violations_text().find("PLL input of 4000000"), std::string::npos);

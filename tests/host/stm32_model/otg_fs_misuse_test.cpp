@@ -3,7 +3,7 @@
 #include "tests/host/stm32_model/usb_device.hpp"
 #include "tests/support/stm32/registers/otg_fs_table.hpp"
 
-// The OTG_FS model reports what the manual forbids, and broken hardware stays broken.
+// Broken hardware stays broken.
 namespace verp::hal::stm32::model {
 namespace {
 

@@ -4,7 +4,7 @@
 #include "tests/host/stm32_model/usb_device.hpp"
 #include "tests/support/stm32/registers/otg_fs_table.hpp"
 
-// OTG_FS: status words, interrupts, and the states of the bus.
+// Status words, interrupts, states of the bus.
 namespace verp::hal::stm32::model {
 namespace {
 
@@ -24,7 +24,7 @@ TEST(OtgFs, StatusWordsTellSetupDataAndEndsInOrder) {
   EXPECT_EQ((setup & kGrxstsPktsts) >> kGrxstsPktstsShift, kPacketSetup);
   EXPECT_EQ((setup & kGrxstsBcnt) >> kGrxstsBcntShift, 8u);
   EXPECT_EQ(device.get(fifo(0)), 0x22110680u);
-  EXPECT_EQ(device.get(fifo(3) + 0xFFC), 0x00040000u);  // any window reads the one receive FIFO
+  EXPECT_EQ(device.get(fifo(3) + 0xFFC), 0x00040000u);  // any window reads the one FIFO
   EXPECT_EQ(device.get(doepint(0)) & kDoepStup, 0u);
   const std::uint32_t done = device.get(kGrxstsp);
   EXPECT_EQ((done & kGrxstsPktsts) >> kGrxstsPktstsShift, kPacketSetupDone);
@@ -50,7 +50,7 @@ TEST(OtgFs, TheInterruptNeedsItsMasksAndGint) {
   device.change(kGahbcfg, 0, kGahbcfgGint);
   calls = 0;
   device.host.pass(ms(5));
-  EXPECT_EQ(calls, 5u);  // a frame is a millisecond
+  EXPECT_EQ(calls, 5u);  // one a millisecond
 }
 
 TEST(OtgFs, EndpointInterruptsPassDaintAndItsMasks) {
@@ -66,7 +66,7 @@ TEST(OtgFs, EndpointInterruptsPassDaintAndItsMasks) {
   EXPECT_NE(device.get(kGintsts) & kGintIep, 0u);
   device.put(diepint(1), kDiepXfrc);
   EXPECT_EQ(device.get(kGintsts) & kGintIep, 0u);
-  device.put(kDiepempmsk, bit(1));  // the FIFO is empty, which has its own mask
+  device.put(kDiepempmsk, bit(1));  // empty has its own mask
   EXPECT_NE(device.get(kGintsts) & kGintIep, 0u);
 }
 

@@ -3,7 +3,7 @@
 #include "tests/host/stm32_model/usb_device.hpp"
 #include "tests/support/stm32/registers/otg_fs_table.hpp"
 
-// OTG_FS: transfers between a host and a device, and what stops them.
+// Transfers, and what stops them.
 namespace verp::hal::stm32::model {
 namespace {
 
@@ -75,8 +75,8 @@ TEST(OtgFs, NothingToSendAndNoRoomAreNaks) {
   ASSERT_TRUE(device.ready());
   EXPECT_EQ(device.host.in(1, 64).result, UsbResult::kNaked);
   EXPECT_NE(device.get(diepint(1)) & kDiepIttxfe, 0u);
-  EXPECT_NE(device.get(diepint(1)) & kDiepNak, 0u);  // set by the newer core only
-  device.polling = false;  // unread: the FIFO takes one packet, not the next
+  EXPECT_NE(device.get(diepint(1)) & kDiepNak, 0u);  // newer core only
+  device.polling = false;                            // the FIFO takes one packet, not the next
   EXPECT_EQ(device.host.out(1, ramp(64)), UsbResult::kDone);
   EXPECT_EQ(device.host.out(1, ramp(64)), UsbResult::kNaked);
   device.polling = true;
@@ -89,7 +89,7 @@ TEST(OtgFs, TheReceiveFifoTakesWhatItsWordsHold) {
   device.window = 640;
   ASSERT_TRUE(device.ready());
   device.polling = false;
-  // 128 words: 16 a packet and a status word; one stays free for the end.
+  // 128 words: 16 a packet and a status word; one stays free.
   for (int packet = 0; packet < 7; ++packet) {
     EXPECT_EQ(device.host.out(1, ramp(64)), UsbResult::kDone);
   }
@@ -98,7 +98,7 @@ TEST(OtgFs, TheReceiveFifoTakesWhatItsWordsHold) {
   device.polling = true;
   EXPECT_EQ(device.host.out(1, ramp(64)), UsbResult::kDone);
   device.polling = false;
-  EXPECT_EQ(device.host.out(1, ramp(3)), UsbResult::kDone);  // short: the transfer ends early
+  EXPECT_EQ(device.host.out(1, ramp(3)), UsbResult::kDone);  // short: an early end
   EXPECT_NE(device.get(doepctl(1)) & kEpctlNaksts, 0u);
   EXPECT_EQ(device.host.out(1, ramp(3)), UsbResult::kNaked);
   device.polling = true;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t kS = base::kSpi1;
 
-/// An MPU-9250 on SPI1 at 1 MHz, chip select at PA4.
+/// At 1 MHz, chip select PA4.
 struct SpiLine {
   explicit SpiLine(Family family, ImuKind kind = ImuKind::kMpu9250, std::uint32_t cr1_mode = 3)
       : machine(family), io(machine.io()), spi(machine.spi(1)), imu(kind) {
@@ -114,7 +114,7 @@ TEST(Imu, SleepsWakesSamplesAtItsRateAndGivesEachSampleWhole) {
   SpiLine line(Family::kF405);
   line.imu.motion({100, -200, 300}, {-1, 2, 16384});
   line.write(0x6B, 0x40);
-  line.read(0x3A);  // it was awake before
+  line.read(0x3A);  // awake before
   line.machine.advance(ms(10));
   EXPECT_EQ(line.read(0x3A) & 1, 0);
   line.write(0x19, 4);  // 200 Hz
@@ -123,7 +123,7 @@ TEST(Imu, SleepsWakesSamplesAtItsRateAndGivesEachSampleWhole) {
   EXPECT_EQ(line.read(0x3A) & 1, 0);
   line.machine.advance(ms(2));
   EXPECT_EQ(line.read(0x3A) & 1, 1);
-  EXPECT_EQ(line.read(0x3A) & 1, 0);  // reading it clears it
+  EXPECT_EQ(line.read(0x3A) & 1, 0);  // cleared by reading
   line.select(true);
   line.exchange(0x3B | 0x80);
   std::uint8_t data[14];
@@ -137,7 +137,7 @@ TEST(Imu, SleepsWakesSamplesAtItsRateAndGivesEachSampleWhole) {
   EXPECT_EQ(line.machine.violations_text(), "");
 }
 
-/// The FIFO registers of either chip.
+/// Of either chip.
 struct Fifo {
   std::size_t size() { return std::size_t{line.read(size_at)} << 8 | line.read(size_at + 1); }
   std::vector<std::uint8_t> take(std::size_t count) {
@@ -156,7 +156,7 @@ TEST(Imu, FifoTakesWhatIsSelectedStreamsItAndIsEmptiedOnlyWhileOff) {
   SpiLine line(Family::kF405);
   Fifo fifo{line, 0x72};
   line.imu.motion({0x102, 0x304, 0x506}, {0x708, 0x90A, 0xB0C});
-  line.write(0x23, 0x48);  // acceleration, and the rate about x
+  line.write(0x23, 0x48);  // acceleration, rate about x
   line.machine.advance(ms(3));
   EXPECT_EQ(fifo.size(), 0u);
   line.write(0x6A, 0x40);

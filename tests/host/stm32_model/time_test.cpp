@@ -31,7 +31,7 @@ TEST(Timer, OverflowsWithoutDriftAndFlagsEachTime) {
   Machine machine(Family::kF405);
   ModelIo io = machine.io();
   enable(io, rcc::kApb1enr, rcc::kApb1Tim5);
-  io.write32(base::kTim5 + timer::kArr, 127999);  // 8 ms at 16 MHz
+  io.write32(base::kTim5 + timer::kArr, 127999);  // 8 ms
   io.write32(base::kTim5 + timer::kCr1, timer::kCr1Cen);
   machine.advance(ms(8 * 125) + us(1));
   EXPECT_EQ(machine.tim(5).updates(), 125u);
@@ -69,7 +69,7 @@ TEST(Timer, AStoppedCounterKeepsItsCountAndAReloadWithPreloadWaits) {
   EXPECT_EQ(io.read32(base::kTim2 + timer::kCnt), held);
 }
 
-/// The time to a reset at PR and RLR, never fed again.
+/// From PR and RLR, never fed.
 Time bite_time(Machine& machine, std::uint32_t pr, std::uint32_t rlr) {
   ModelIo io = machine.io();
   Time bitten = 0;
@@ -104,7 +104,7 @@ TEST(Iwdg, BitesAfterItsTimeByItsOwnClock) {
 TEST(Iwdg, FedInTimeItNeverBites) {
   Machine machine(Family::kF405);
   ModelIo io = machine.io();
-  io.write32(base::kIwdg + iwdg::kKr, iwdg::kKeyStart);  // 512 ms by default at 32 kHz
+  io.write32(base::kIwdg + iwdg::kKr, iwdg::kKeyStart);  // 512 ms at 32 kHz
   for (int i = 0; i < 100; ++i) {
     machine.advance(ms(500));
     io.write32(base::kIwdg + iwdg::kKr, iwdg::kKeyReload);

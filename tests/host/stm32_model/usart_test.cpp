@@ -16,7 +16,7 @@ using namespace usart_v1;
 constexpr std::uint32_t kU = base::kUsart2;
 constexpr Time kByteTime = us(10);  // 10 bits at 1 Mbaud
 
-/// USART2 at 1 Mbaud from 16 MHz, sending and receiving.
+/// At 1 Mbaud from 16 MHz.
 struct Line {
   explicit Line(Family family = Family::kF405, std::uint32_t cr3 = 0)
       : machine(family), io(machine.io()), usart(machine.usart(2)), v2(family == Family::kF746) {
@@ -123,7 +123,7 @@ TEST(Usart, OldKindClearsErrorsOnlyByReadingSrAndThenDr) {
   Line line;
   line.usart.receive(0x33, 1000000, UsartModel::Flaw::kNoise);
   line.machine.advance(2 * kByteTime);
-  line.data();  // without a read of SR before
+  line.data();  // no read of SR
   EXPECT_NE(line.status() & kSrNf, 0u);
   line.data();
   EXPECT_EQ(line.status() & kSrNf, 0u);
@@ -259,7 +259,7 @@ TEST(Dma, SendsABlockOnceAndSwitchesItselfOff) {
   EXPECT_EQ(line.usart.sent()[2].data, 7);
   EXPECT_EQ(line.io.read32(stream + dma::kCr) & dma::kCrEn, 0u);
   line.io.write32(stream + dma::kNdtr, 3);
-  modify32(line.io, stream + dma::kCr, 0, dma::kCrEn);  // TCIF and HTIF are still set
+  modify32(line.io, stream + dma::kCr, 0, dma::kCrEn);  // TCIF and HTIF are set
   EXPECT_TRUE(one_violation(line.machine, "flags were cleared")) << line.machine.violations_text();
 }
 

@@ -10,12 +10,12 @@
 #include "tests/support/stm32/otg_fs_model.hpp"
 #include "tests/support/stm32/usb_host.hpp"
 
-/// The least USB device firmware by the manual's model, polled. Any IN request on endpoint 0 gets
-/// `answer`; SET_ADDRESS and SET_CONFIGURATION work. It keeps control writes' data, and endpoint
-/// 1's until the test sends something.
+/// The least firmware by the manual's model, polled. Any IN request on endpoint 0 gets `answer`;
+/// SET_ADDRESS and SET_CONFIGURATION work. It keeps data of control writes, and endpoint 1's until
+/// the test sends.
 namespace verp::hal::stm32::model {
 
-/// `count` bytes that differ from their neighbours.
+/// Neighbours differ.
 inline std::vector<std::uint8_t> ramp(std::size_t count) {
   std::vector<std::uint8_t> bytes(count);
   for (std::size_t i = 0; i < count; ++i) bytes[i] = static_cast<std::uint8_t>(3 * i + 1);
@@ -46,7 +46,7 @@ struct UsbDevice {
     modify32(io, base::kOtgFs + offset, off, on);
   }
 
-  /// From reset to the pull-up. The newer core stays disconnected until SDIS is cleared.
+  /// The newer core stays disconnected until SDIS is cleared.
   void start(bool sense_vbus = true) {
     using namespace otg_fs;
     change(kGusbcfg, kGusbcfgTrdt, kGusbcfgFdmod | 6u << kGusbcfgTrdtShift);
@@ -84,7 +84,7 @@ struct UsbDevice {
     }
   }
 
-  /// Bit 7 is reserved, and set after reset.
+  /// Bit 7 is reserved and set.
   void acknowledge(unsigned endpoint, std::uint32_t flag) {
     put(otg_fs::doepint(endpoint), flag | (get(otg_fs::doepint(endpoint)) & bit(7)));
   }
@@ -128,7 +128,7 @@ struct UsbDevice {
     if (setup[1] == 9) open_bulk();
     if ((setup[0] & 0x80) != 0) {
       send(0, answer);
-      listen(0, 64);  // the status stage
+      listen(0, 64);
     } else if (length != 0) {
       receives = true;
       listen(0, 64);
@@ -180,7 +180,7 @@ struct UsbDevice {
   OtgFsModel& core;
   UsbHost host;
   bool polling = true, refuse = false, receives = false;
-  std::uint32_t window = 64;  ///< bytes that endpoint 1 takes at a time
+  std::uint32_t window = 64;  ///< bytes that endpoint 1 takes
   std::vector<std::uint8_t> answer = {18, 1, 0, 2}, setup, written, received;
 };
 

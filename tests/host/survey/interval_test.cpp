@@ -5,8 +5,7 @@
 namespace verp::survey {
 namespace {
 
-// Newcombe, "Two-sided confidence intervals for the single proportion", Statistics in Medicine 17
-// (1998), table I, method 3; z^2 / (n + z^2) at the ends.
+// Newcombe, Statistics in Medicine 17 (1998), table I, method 3; z^2 / (n + z^2) at the ends.
 TEST(Interval, IsWilsonsOfPublishedShares) {
   const struct {
     std::uint64_t good, of;

@@ -19,7 +19,7 @@ session::WalkPlan plan_of(double walk_s) {
   return plan;
 }
 
-/// Pushes as a user would by hand: verp walk --push.
+/// As by hand: verp walk --push.
 bool survives(session::WalkPlan plan, const PushOptions& options, const PushCell& cell,
               double impulse_n_s) {
   const double force_n = impulse_n_s / options.push_s;
@@ -87,7 +87,7 @@ TEST(PushMap, InterruptedKeepsWhatIsDoneAndSaysSo) {
   EXPECT_TRUE(sides_of(map).empty());
 }
 
-// A turn still lags over so few cycles.
+// Over so few cycles a turn lags.
 TEST(StabilityMap, SaysWhatWasAskedAndWhatWasWalkedAndKeepsItWhenInterrupted) {
   const StabilityOptions options{.on_axis = 3, .most = {0.12, 0.04, 0.5}, .begin_s = 1.5};
   double share = 0;

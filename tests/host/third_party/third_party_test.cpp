@@ -2,15 +2,15 @@
 #include "tests/host/model/test_files.hpp"
 #include "tests/host/scene/meshes.hpp"
 
-/// The files of other makers, untouched, through our wrappers. Robots of our own with the same
-/// habits are tested in host/model, host/edit and host/scene.
+/// Other makers' untouched files, through our wrappers. Our own robots have the same habits in
+/// host/model, host/edit and host/scene.
 namespace verp {
 namespace {
 
 constexpr const char* kOp3 = "model://op3/op3.urdf";
 constexpr const char* kDarwin = "model://darwin_op/darwin_op_robot.urdf";
 
-/// The file behind a model:// address, or a failure that says where to put it.
+/// A failure says where to put the file.
 std::string file_of(const char* uri) {
   const std::string file = model::resolve_model_uri(uri, ".");
   EXPECT_FALSE(file.empty()) << uri << " is not in " << model::model_path_text()
@@ -22,7 +22,7 @@ std::string wrapper(const std::string& name) {
   return VERP_SOURCE_DIR "/common/robots/" + name + "/robot.sdf";
 }
 
-/// The refusal of a wrapper without one of its corrections.
+/// Without one correction.
 model::LoadError refusal_without(const std::string& name, const std::string& correction) {
   const model::TemporaryFile file(
       "robot.sdf", model::without_element(model::read_text(wrapper(name)), correction));

@@ -1,6 +1,6 @@
 #include "tests/host/tool/program.hpp"
 
-// `verp action` with files and folders that are not beside a robot.
+// Files and folders that are not beside a robot.
 
 namespace verp::tool::test {
 namespace {

@@ -11,7 +11,7 @@
 #include "tests/support/delaying_link.hpp"
 #include "tests/unit/support/test_robot.hpp"
 
-// `verp bus` against a controller on a socket.
+// With a controller on a socket.
 namespace verp::tool::test {
 namespace {
 
@@ -127,7 +127,7 @@ TEST_F(BusCommand, AnInterruptedBenchStillReports) {
   EXPECT_LT(result["duration_s"], 30);
 }
 
-/// Behind a cable that delays or loses replies.
+/// Delays or loses replies.
 class BusCable : public BusCommand {
  protected:
   using Cable = verp::test::DelayingLink;
@@ -140,7 +140,7 @@ class BusCable : public BusCommand {
   }
 };
 
-// The client asks up to three times, and the answer says how often.
+// Up to three times; the answer says how often.
 TEST_F(BusCable, LostRepliesAreAskedForAgain) {
   const auto line = cable({});
   for (const char* command : {"ping", "read --register robot_name", "write --register look_x 3"}) {
@@ -161,7 +161,7 @@ TEST_F(BusCable, LostRepliesAreAskedForAgain) {
 
 using BusLinks = Program;
 
-/// Answers each request after a delay. Every byte of a register holds its address.
+/// Answers late. Every byte of a register holds its address.
 class SlowController {
  public:
   SlowController(const std::string& place, std::uint64_t delay_us)
@@ -214,7 +214,7 @@ class SlowController {
   std::thread thread_;
 };
 
-// Each reply arrives during the next request, and all have one length.
+// Each comes during the next request; all have one length.
 TEST_F(BusLinks, LateRepliesAreNotTakenForOthers) {
   const SlowController controller("unix-listen:" + (folder_ / "port").string(), 300'000);
   const Outcome outcome = verp(
@@ -242,7 +242,7 @@ TEST_F(BusLinks, ThatCannotBeOpenedSayWhy) {
   EXPECT_NE(nobody.err.find("give serial:PATH"), std::string::npos);
 }
 
-// The error comes before the link is opened.
+// Before the link is opened.
 TEST_F(BusLinks, AnIdThatIsNoneIsRefusedWithTheRangeOfItsLink) {
   for (const std::string id : {"-1", "0", "128", "253"}) {
     expect_refused("bus ping --link can:none0 --id " + id, "--id: " + id + " is no node id");

@@ -14,7 +14,7 @@
 #include "host/trace/record/trace.hpp"
 #include "tests/support/video_device.hpp"
 
-// `verp bus camera` on a device that the test plays, because this PC's kernel has no camera.
+// The test plays the device: this PC's kernel has no camera.
 namespace verp::tool {
 namespace {
 
@@ -24,7 +24,7 @@ class CameraWord : public ::testing::Test {
  protected:
   CameraWord() {
     fs::create_directories(folder_);
-    // Otherwise a fast PC makes thousands of files in 0.3 s.
+    // Else a fast PC makes thousands of files.
     device_.on_wait = [this] {
       if (device_.made() < kPictures) device_.make_picture();
     };
@@ -58,7 +58,7 @@ class CameraWord : public ::testing::Test {
   }
 
   static constexpr std::uint32_t kPictures = 40;
-  // Tests run side by side, and each removes its own folder.
+  // Tests run side by side; each removes its folder.
   fs::path folder_ = fs::path(::testing::TempDir()) /
                      fmt::format("verp-camera-word-{}",
                                  ::testing::UnitTest::GetInstance()->current_test_info()->name());
@@ -96,7 +96,7 @@ TEST_F(CameraWord, WritesAPictureThatHasThePixels) {
   run();
   const std::string png = bytes_of(words_.picture);
   ASSERT_TRUE(png.starts_with("\x89PNG\r\n\x1a\n"));
-  // Uncompressed rows, each after its filter byte 0.
+  // Uncompressed rows, each after a filter byte 0.
   const std::uint32_t last = device_.made() - 1;
   std::string row(1, '\0');
   for (std::uint32_t x = 0; x < 16; ++x)
@@ -164,7 +164,6 @@ TEST_F(CameraWord, OfOneThatIsPulledTellsWhatCameUntilThen) {
   };
   words_.seconds = 1;
   words_.json = false;
-  // The answer says why there are no more pictures.
   const std::string answer = run();
   EXPECT_NE(answer.find("no such device"), std::string::npos) << answer;
   EXPECT_EQ(device_.open_descriptors(), 0);

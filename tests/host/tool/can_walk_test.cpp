@@ -3,8 +3,6 @@
 #include "host/robot/model/find.hpp"
 #include "tests/host/tool/program.hpp"
 
-// The loop over CAN with CiA 402 drives.
-
 namespace verp::tool::test {
 namespace {
 
@@ -16,7 +14,7 @@ class CanWalk : public Program {
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     return nlohmann::json::parse(outcome.out, nullptr, false);
   }
-  /// generic21 with another period on its CAN bus.
+  /// generic21 with another CAN period.
   std::string robot_at(int period_us) const {
     std::string text = slurp(model::find_model("generic21"));
     const std::string bus = "protocol=\"cia402\" baud=\"1000000\" period_us=\"";
@@ -46,9 +44,8 @@ TEST_F(CanWalk, WalksTenSecondsWithoutAFallOrAFault) {
   EXPECT_GT(json["distance_m"].get<double>(), 1);
 }
 
-// The twin's traffic matches `verp bus load` at each rate at which the robot can walk on one
-// classic bus. The table knows no walk: the test compares bits without stuffing, and expected bits
-// with all bits walked. (host/twin/can tests half a robot.)
+// At each rate that fits one classic bus. The table knows no walk, so the test compares bits
+// without stuffing, and expected bits with all bits walked.
 TEST_F(CanWalk, PutsOnTheWireWhatBusLoadSays) {
   for (const int period_us : {10'000, 8'000}) {
     SCOPED_TRACE(period_us);
@@ -67,7 +64,7 @@ TEST_F(CanWalk, PutsOnTheWireWhatBusLoadSays) {
   }
 }
 
-// Every command refuses it before anything moves or an interface is opened.
+// Before anything moves or an interface is opened.
 TEST_F(CanWalk, ARobotWhoseBusHasNoRoomIsRefusedByName) {
   const std::string robot = robot_at(6000) + " --bus can";
   const std::string needle = ": r_knee (node 13) and those after it do not fit";
@@ -89,7 +86,7 @@ TEST_F(CanWalk, GivesTheSameDigestEachTime) {
   EXPECT_EQ(first["ticks"], second["ticks"]);
 }
 
-// Replay decides it again from the counts alone.
+// From the counts alone.
 TEST_F(CanWalk, ItsTraceReplays) {
   walk("--for 3 --record can.mcap", "recorded");
   const Outcome replayed = verp("replay can.mcap", "replayed");

@@ -2,7 +2,7 @@
 
 #include "tests/host/tool/program.hpp"
 
-// `verp compare` as users see it; tests/host/compare checks the numbers.
+// tests/host/compare checks the numbers.
 
 namespace verp::tool::test {
 namespace {

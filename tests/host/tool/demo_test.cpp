@@ -27,9 +27,9 @@ TEST_F(DemoCommand, WhatCannotBeIsOneLineAndBadInput) {
   expect_refused("demo follow --for 0", "--for");
 }
 
-// Two seconds are too short for the demo.
+// Two seconds are too short.
 TEST_F(DemoCommand, ThatFailsItsCriterionEndsWithOne) {
-  fs::create_directory(folder_ / "follow.png");  // blocks the picture's file
+  fs::create_directory(folder_ / "follow.png");  // blocks the picture
   const Outcome lost = verp("demo follow --robots 2 --for 2 --json");
   EXPECT_EQ(lost.status, 1);
   EXPECT_NE(lost.err.find("follow.png"), std::string::npos) << lost.err;

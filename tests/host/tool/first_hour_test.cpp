@@ -26,7 +26,7 @@ TEST_F(NewRobot, IsATableAndTheRobotMadeFromIt) {
   EXPECT_EQ(verp("check my_bot").status, 0);
 }
 
-// The file sets the pace; an option overrides it.
+// An option overrides the file.
 TEST_F(NewRobot, WalksAtThePaceThatItsFileSays) {
   ASSERT_EQ(verp("new robot slow_bot --from generic21").status, 0);
   const std::string walk = "walk slow_bot --for 3 --physics-step 2 --json";
@@ -78,7 +78,7 @@ TEST_F(NewRobot, RefusesWhatItCannotMake) {
 
 using NewController = Program;
 
-// tests/host/own builds and walks the created project.
+// tests/host/own builds and walks the project.
 TEST_F(NewController, RefusesWhatItCannotLayOut) {
   for (const std::string name : {"3x", "'a b'", "a-b", "\xC3\xA4"})
     expect_refused("new controller " + name, "letters, digits and _");
@@ -107,7 +107,7 @@ std::vector<std::string> cells(const std::string& line) {
   return out;
 }
 
-// The table has each joint's goal and the gait's phase.
+// With each joint's goal and the gait's phase.
 TEST_F(Program, ExportTellsWhatTheControllerMadeOfEachTick) {
   ASSERT_EQ(verp("walk --for 3 --json --record a.mcap").status, 0);
   std::istringstream csv(verp("trace export a.mcap").out);

@@ -1,7 +1,6 @@
 #include "tests/host/tool/program.hpp"
 
-// Third-party Dynamixel software (tests/dynamixel/foreign_client.py) on the pseudo-terminal of
-// `verp hil`.
+// tests/dynamixel/foreign_client.py on `verp hil`'s pseudo-terminal.
 namespace verp::tool::test {
 namespace {
 

@@ -28,7 +28,7 @@ class Hil : public Program {
     return action::make_library(params(), action::read_folder(action::folder_of(entity.file)));
   }
   std::string place(const std::string& name) const { return (folder_ / name).string(); }
-  /// The twin creates `bus` and `orders`.
+  /// Creates `bus` and `orders`.
   std::string sockets() const {
     return "--link unix-listen:" + place("bus") + " --operator unix-listen:" + place("orders");
   }
@@ -41,7 +41,7 @@ class Hil : public Program {
   }
 };
 
-/// Digest, ticks and every number of the summary.
+/// Digest, ticks and the summary's numbers.
 void expect_same(const Outcome& outcome, const json& expected) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json result = json::parse(outcome.out);
@@ -52,7 +52,7 @@ void expect_same(const Outcome& outcome, const json& expected) {
   EXPECT_GT(result.at("ticks_per_s").get<double>(), 0);
 }
 
-// The run compares every tick.
+// Every tick is compared.
 TEST_F(Hil, WalksWithTheBitsOfSoftwareInTheLoopOnEveryKindOfLink) {
   const json expected = here("--for 3");
   const std::string port = std::to_string(20000 + ::getpid() % 20000);
@@ -92,8 +92,7 @@ TEST_F(Hil, LosesNoBitOnABadCable) {
   EXPECT_NE(outcome.err.find("the link is back"), std::string::npos) << outcome.err;
 }
 
-// The twin's servos stay as they were. The run reports the reset, and its trace ends with the first
-// start.
+// Servos stay as they were. The run reports the reset; its trace ends with the first start.
 TEST_F(Hil, GoesOnServingAControllerThatWasReset) {
   constexpr std::uint32_t kReset = 250;  // the robot stands
   LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"), {},
@@ -112,7 +111,7 @@ TEST_F(Hil, GoesOnServingAControllerThatWasReset) {
   EXPECT_NEAR(json::parse(replay.out).at("ticks").get<int>(), static_cast<int>(kReset), 2);
 }
 
-// Whether the robot falls is the twin's result, not a failure of the link.
+// A fall is the twin's result, not a failure of the link.
 TEST_F(Hil, TellsWhatBecameOfARobotWhoseControllerWasResetInMidWalk) {
   LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"), {}, 600);
   const Outcome outcome = hil("--for 3 --json " + sockets());
@@ -136,7 +135,7 @@ TEST_F(Hil, RefusesAControllerOfAnotherRobotByName) {
       << outcome.err;
 }
 
-// The trace is complete and the summary printed.
+// The summary is printed.
 TEST_F(Hil, KeepsTheTraceWhenInterrupted) {
   LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"));
   const Outcome outcome = shell("timeout --preserve-status -s INT 6 " + std::string(VERP_PROGRAM) +
@@ -150,7 +149,7 @@ TEST_F(Hil, KeepsTheTraceWhenInterrupted) {
   EXPECT_EQ(json::parse(info.out).at("ticks"), result.at("ticks"));
 }
 
-// Ctrl-C is a failure if no client came or if it cuts a walk short.
+// It is a failure if no client came or a walk is cut short.
 TEST_F(Hil, CtrlCEndsWhatServedSomebodyInOrder) {
   const std::string twin = std::string(VERP_PROGRAM) + " hil --json --link unix-listen:bus";
   const std::string ready = "until grep -q 'waits for a controller' err; do sleep 0.05; done; ";
@@ -167,7 +166,7 @@ TEST_F(Hil, CtrlCEndsWhatServedSomebodyInOrder) {
   EXPECT_NE(slurp(folder_ / "err").find("before anybody came"), std::string::npos);
 }
 
-// The peer accepts and hangs up, again and again; the twin must not load the computer.
+// The twin must not load the computer.
 TEST_F(Hil, MeetsALinkThatIsCutAtOnceSomeTensOfTimesASecond) {
   std::atomic<bool> over = false;
   std::thread other([&] {
@@ -179,7 +178,7 @@ TEST_F(Hil, MeetsALinkThatIsCutAtOnceSomeTensOfTimesASecond) {
       std::ofstream(folder_ / "taken") << '\n';
     }
   });
-  // The peer hangs up for three seconds, however long the start takes.
+  // For three seconds, however long the start takes.
   const Outcome outcome = shell("sleep 0.3; " + std::string(VERP_PROGRAM) +
                                 " hil --lockstep --json --link unix:" + place("bus") +
                                 " & twin=$!; until [ -e taken ]; do sleep 0.05; done; sleep 3; "
@@ -197,7 +196,7 @@ std::string story_of(const json& result) {
   return all;
 }
 
-// The bits are those of `verp walk`, and the run reports the fall meanwhile.
+// The bits are those of `verp walk`.
 TEST_F(Hil, ARobotThatIsPushedOverGetsUpByTheControllersActions) {
   const std::string words = "--for 3 --json --get-up --push '1: trunk -60,0,0 N for 0.15'";
   const json expected = here(words);
@@ -231,7 +230,7 @@ TEST_F(Hil, ARobotThatLiesGetsUpFirst) {
   EXPECT_EQ(result.at("falls"), 0);
 }
 
-// The error comes before the robot moves, with a remedy.
+// Before the robot moves, with a remedy.
 TEST_F(Hil, AControllerWithoutActionsIsToldThatItCannotGetUp) {
   LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"));
   const Outcome outcome = hil("--for 3 --json --get-up " + sockets());
@@ -262,8 +261,7 @@ TEST_F(Hil, SaysWhenTheOperatorsPortIsSilent) {
   EXPECT_NE(outcome.err.find("device 200"), std::string::npos) << outcome.err;
 }
 
-// The master gets its answers in wall-clock time. Finding and reading servos does not count: the
-// served time begins with torque.
+// In wall-clock time, which begins with torque.
 TEST_F(Hil, ServesAStockMasterInRealTime) {
   Outcome outcome;
   std::thread twin([&] { outcome = hil("--for 3 --json --link unix-listen:" + place("bus")); });

@@ -1,6 +1,6 @@
 #include "tests/host/tool/program.hpp"
 
-// `verp identify` as users see it; tests/host/identify checks its findings.
+// tests/host/identify checks the findings.
 
 namespace verp::tool::test {
 namespace {

@@ -12,10 +12,10 @@
 #include "firmware/app/operator_device.hpp"
 #include "host/os/link/link.hpp"
 
-/// A controller with two serial ports, like a board's, in a thread.
+/// Two serial ports, like a board's, in a thread.
 namespace verp::test {
 
-/// A port that opens as soon as its endpoint exists; a test can disturb it.
+/// Opens as soon as its endpoint exists; a test can disturb it.
 class ControllerPort {
  public:
   explicit ControllerPort(std::string endpoint) : endpoint_(std::move(endpoint)) {}
@@ -30,7 +30,7 @@ class ControllerPort {
       if (flips_per_million > random_() % 1'000'000) buffer[i] ^= 1;
     }
     if (count > 0 && cut_every > 0 && ++reads_ % cut_every == 0) {
-      link_.reset();  // the bytes just read are lost too
+      link_.reset();  // the bytes just read are lost
       ++cuts;
       return 0;
     }
@@ -40,7 +40,7 @@ class ControllerPort {
   hal::LinkErrors errors() const { return link_ ? link_->errors() : hal::LinkErrors{}; }
 
   unsigned flips_per_million = 0;  ///< of received bytes
-  int cut_every = 0;               ///< every so many reads with data
+  int cut_every = 0;               ///< reads with data
   int cuts = 0;
   std::atomic<bool> opened = false;  ///< the peer accepted the connection
 
@@ -61,7 +61,7 @@ class ControllerPort {
   int reads_ = 0;
 };
 
-/// Ends when the twin stops or refuses it, or with this object. Resets once, at tick `reset_at`.
+/// Ends with this object, or when the twin stops or refuses it. Resets once, at tick `reset_at`.
 /// `Lockstep<Port, Idle>` is its servo bus; `actions` must outlive it.
 template <class Port, template <class, class> class Lockstep>
 class ControllerOn {
@@ -78,7 +78,7 @@ class ControllerOn {
     thread_ = std::thread([this] { run(); });
   }
   ~ControllerOn() { join(); }
-  /// Waits for the end, which follows the twin's.
+  /// The end follows the twin's.
   void join() {
     if (!thread_.joinable()) return;
     for (int i = 0; i < 200 && !done_; ++i) {
@@ -93,7 +93,7 @@ class ControllerOn {
   lockstep::Verdict verdict() const { return verdict_; }
 
  private:
-  /// The controller from one power-up to the next.
+  /// From one power-up to the next.
   struct Life {
     Life(ControllerOn& owner)
         : device(owner.operator_port_, owner.params_, {}),

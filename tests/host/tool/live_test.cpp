@@ -10,7 +10,7 @@
 #include "tests/host/live/viewer.hpp"
 #include "tests/host/tool/program.hpp"
 
-// A viewer gets every message of the trace, and the run is the same without it.
+// A viewer gets every message of the trace and does not change the run.
 
 namespace verp::tool::test {
 namespace {
@@ -23,7 +23,7 @@ using Messages = std::map<std::string, std::vector<std::pair<std::uint64_t, std:
 
 class Live : public Program {
  protected:
-  /// Starts the program in the background; its streams go to NAME.out and NAME.err.
+  /// Its streams go to NAME.out and NAME.err.
   process::Child begin(const std::vector<std::string>& words, const std::string& name) const {
     std::vector<std::string> all = {VERP_PROGRAM};
     all.insert(all.end(), words.begin(), words.end());
@@ -33,7 +33,7 @@ class Live : public Program {
                            .error = process::Stream{.file = folder_ / (name + ".err")},
                            .folder = folder_});
   }
-  /// Waits for the port that the program prints on standard error.
+  /// Printed on standard error.
   std::uint16_t port_of(const std::string& name) const {
     const std::string before = "ws://127.0.0.1:";
     for (int i = 0; i < 3000; ++i) {
@@ -47,7 +47,7 @@ class Live : public Program {
     return 0;
   }
 
-  /// Everything that a viewer of all channels gets until the goodbye.
+  /// All channels until the goodbye.
   static Messages watch(std::uint16_t port) {
     const Viewer viewer(port);
     viewer.greet();
@@ -97,7 +97,7 @@ TEST_F(Live, AViewerSeesEveryMessageOfTheTraceAndChangesNoBit) {
   EXPECT_EQ(second.status, 3);
   EXPECT_NE(second.err.find("--live " + std::to_string(port) + ": "), std::string::npos)
       << second.err;
-  const Viewer deaf(port, 4096);  // without subscriptions it neither starts nor ends the run
+  const Viewer deaf(port, 4096);  // without subscriptions
   deaf.greet();
   const Messages seen = watch(port);
   EXPECT_EQ(walk.wait(), 0) << slurp(folder_ / "live.err");
@@ -127,7 +127,7 @@ TEST_F(Live, AnInterruptedRunSaysGoodbye) {
   Viewer viewer(port_of("live"));
   viewer.greet();
   viewer.subscribe(1, 1);
-  Viewer(port_of("live")).greet();  // and leaves at once
+  Viewer(port_of("live")).greet();  // leaves at once
   ASSERT_TRUE(live::test::next_data(viewer).has_value());
   walk.tell(SIGINT);
   EXPECT_EQ(viewer.next_text("there is none"), "") << "up to the end";

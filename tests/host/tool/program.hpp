@@ -15,7 +15,7 @@ namespace verp::tool::test {
 namespace fs = std::filesystem;
 
 struct Outcome {
-  int status = -1;  ///< exit status; -1: killed
+  int status = -1;  ///< -1: killed
   std::string out, err;
 };
 
@@ -24,7 +24,7 @@ inline std::string slurp(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Drops the address sanitizer's warning at the first change of stacks; no setting prevents it.
+/// The address sanitizer warns at the first change of stacks; no setting prevents it.
 inline std::string without_doubts(std::string err) {
   const std::size_t doubt = err.find("WARNING: ASan doesn't fully support makecontext");
   if (doubt == std::string::npos) return err;
@@ -42,7 +42,7 @@ class Program : public ::testing::Test {
   }
   ~Program() override { fs::remove_all(folder_); }
 
-  /// Runs `arguments` as in a shell; `name` separates the outputs of parallel runs.
+  /// As in a shell; `name` separates parallel outputs.
   Outcome verp(const std::string& arguments, const std::string& name = "run") const {
     return shell(std::string(VERP_PROGRAM) + " " + arguments, name);
   }
@@ -54,7 +54,7 @@ class Program : public ::testing::Test {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(out), without_doubts(slurp(err))};
   }
 
-  /// Exit 2, nothing on stdout, one line on stderr that contains `needle`.
+  /// Exit 2, no stdout, one line on stderr with `needle`.
   void expect_refused(const std::string& arguments, const std::string& needle) const {
     const Outcome outcome = verp(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments << '\n' << outcome.err;

@@ -3,8 +3,6 @@
 
 #include "tests/host/tool/program.hpp"
 
-// A file describes a run as well as a command line does.
-
 namespace verp::tool::test {
 namespace {
 

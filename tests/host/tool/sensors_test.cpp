@@ -9,13 +9,12 @@
 #include "host/trace/record/trace.hpp"
 #include "tests/host/tool/program.hpp"
 
-// Sensors come from the robot's file and end in a trace.
 namespace verp::tool::test {
 namespace {
 
 class SensorsRun : public Program {
  protected:
-  /// Adds these to generic21's left ankle, left foot and model.
+  /// To generic21's left ankle, left foot and model.
   void write_robot(const std::string& name, const std::string& joint, const std::string& foot,
                    const std::string& elements) const {
     std::string text = slurp(model::find_model("generic21"));
@@ -45,7 +44,7 @@ std::map<std::string, std::vector<Message>> messages_in(const fs::path& trace) {
     all[std::string(channel.topic)].push_back({each.time_ns,
                                                std::uint64_t{stamp[0]} * 1'000'000'000 + stamp[1],
                                                std::string(each.data), std::string(schema.name)});
-    // Each message matches its definition to the last byte.
+    // To the last byte of its definition.
     const record::TeamChannel named("a", channel.topic, schema);
     EXPECT_TRUE(named.message(each.data)) << channel.topic;
   }
@@ -82,7 +81,7 @@ TEST_F(SensorsRun, AreRecordedEachOnItsChannelAndChangeNoBitOfTheRun) {
   EXPECT_NEAR(static_cast<double>(seen["/sole"].size()), 20 * run_s, 2);
   EXPECT_NEAR(static_cast<double>(seen["/truth"].size()), 25 * run_s, 2);
 
-  // Logged when available, stamped when measured. A tick is 10 ms.
+  // Stamped when measured, logged when available.
   const auto expect_late = [&](const char* topic, double from_s, double to_s) {
     for (const Message& each : seen[topic]) {
       EXPECT_GE(1e-9 * static_cast<double>(each.time_ns - each.stamp_ns), from_s) << topic;

@@ -10,7 +10,7 @@
 #include "tests/host/shadow/polled_controller.hpp"
 #include "tests/host/tool/program.hpp"
 
-// `verp shadow` on an operator port; tests/can/shadow_test.cpp covers CAN.
+// On an operator port; tests/can/shadow_test.cpp covers CAN.
 namespace verp::shadow::test {
 namespace {
 
@@ -61,7 +61,7 @@ TEST_F(ShadowOnSerial, RefusesAnotherRobotAndAControllerThatIsNotThere) {
   EXPECT_NE(outcome.err.find("no controller was heard"), std::string::npos) << outcome.err;
 }
 
-/// Without --bus, a CAN link selects the first CAN bus.
+/// A CAN link selects the first CAN bus.
 TEST_F(ShadowOnSerial, TakesTheBusThatTheLinkIsOn) {
   const auto outcome = verp("shadow generic21 --link can:verp_none0");
   EXPECT_EQ(outcome.status, 3);

@@ -9,8 +9,7 @@
 #include "host/os/process/child.hpp"
 #include "tests/host/tool/program.hpp"
 
-// Each robot walks as it does alone, whatever drives it. One that loses its controller costs no
-// other its result.
+// Each robot walks as it does alone. One that loses its controller costs no other its result.
 
 namespace verp::tool::test {
 namespace {
@@ -19,7 +18,7 @@ using nlohmann::json;
 
 class Team : public Program {
  protected:
-  /// Controls the robot at `link`, beside the walk.
+  /// Beside the walk.
   process::Child controller(const std::string& link,
                             const std::vector<std::string>& more = {}) const {
     wait_for(link);
@@ -95,7 +94,7 @@ TEST_F(Team, AControllerInAnotherProcessMakesTheSameBits) {
     EXPECT_EQ(other.at("controller"), here + "b.end");
     EXPECT_TRUE(other.at("digest").is_null()) << "its controller's, and not told here";
     EXPECT_GT(other.at("end_m")[0].get<double>(), 0.1) << "it walked";
-    // Equal until the outside controller sits the robot down.
+    // Until the controller sits it down.
     const json first = first_difference("own.mcap", "b.mcap");
     EXPECT_EQ(first.at("stage"), "inputs") << first;
     EXPECT_GE(first.at("tick").get<int>() + 35, json::parse(own.out).at("ticks").get<int>())
@@ -120,7 +119,7 @@ TEST_F(Team, ALyingRobotGetsUpForAControllerThatMayLetIt) {
       },
       "--robot a=ext:unix-listen:c.sock --start lying:back");
   EXPECT_EQ(world.status, 0) << world.err;
-  const std::string said = slurp(folder_ / "c.sock.out");  // both of its streams
+  const std::string said = slurp(folder_ / "c.sock.out");  // both streams
   ASSERT_NE(said.find('{'), std::string::npos) << said;
   const json run = json::parse(said.substr(said.find('{'), said.rfind('}') + 1 - said.find('{')));
   EXPECT_EQ(run.at("get_ups"), 1);
@@ -157,7 +156,7 @@ TEST_F(Team, OneThatLosesItsControllerStopsTheOthersOrGoesOnWithout) {
   }
 }
 
-// The timeout applies only to connected controllers.
+// Only for connected controllers.
 TEST_F(Team, WhomItWaitsForIsSaidAtOnceAndOnceMore) {
   process::Child world(
       {.words = {VERP_PROGRAM, "walk", "--json", "--patience", "0.3", "--robot",

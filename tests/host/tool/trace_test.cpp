@@ -6,7 +6,7 @@
 #include "host/trace/record/trace_writer.hpp"
 #include "tests/host/tool/program.hpp"
 
-// The trace commands as users see them; tests/host/signals and tests/host/record check the numbers.
+// tests/host/signals and tests/host/record check the numbers.
 
 namespace verp::tool::test {
 namespace {
@@ -47,13 +47,13 @@ TEST_F(TraceCommand, PlotDrawsSignalsThatAreNamedAndHelpsWithThoseThatAreNot) {
   expect_refused("trace plot none.mcap --list", "none.mcap: no such file");
   EXPECT_EQ(shell("PATH=/nowhere " VERP_PROGRAM " " + knee + "-o b.png").status, 3);
 
-  // CSV is an alias of export.
+  // An alias.
   EXPECT_EQ(verp("trace csv a.mcap --state").out, verp("trace export a.mcap --state").out);
   EXPECT_NE(verp("trace --help").out.find("export, csv "), std::string::npos);
   EXPECT_NE(verp("completion bash").out.find("'trace csv') words='"), std::string::npos);
 }
 
-// Cores differ by design, even in a trace that a third core recovered.
+// Cores differ by design, even in a recovered trace.
 TEST_F(TraceCommand, DiffSaysWhenTwoCoresRecorded) {
   const record::Trace trace = record::read_trace(folder_ / "a.mcap");
   const std::string own = record::core_of(trace);
@@ -106,7 +106,7 @@ TEST_F(TraceCommand, ACutReplaysAndEveryCommandTakesIt) {
   expect_refused("debug --board mps2_an386 part.mcap", "begins in the midst of a run");
 }
 
-// After kill -9 every complete chunk remains.
+// Every complete chunk remains.
 TEST_F(Program, AKilledWalkLeavesAFileThatOpens) {
   const Outcome killed = shell(
       VERP_PROGRAM
@@ -124,7 +124,6 @@ TEST_F(Program, AKilledWalkLeavesAFileThatOpens) {
   EXPECT_EQ(verp("replay k.mcap").status, 0);
 }
 
-// There is nothing to recover before the first tick.
 TEST_F(TraceCommand, NothingIsPromisedOfATraceThatIsDamagedAtItsBeginning) {
   std::fstream file(folder_ / "a.mcap", std::ios::in | std::ios::out | std::ios::binary);
   file.seekp(100'000);

@@ -8,7 +8,7 @@
 
 #include "tests/host/tool/program.hpp"
 
-/// Trouble around a run costs only what it must.
+/// Trouble costs only what it must.
 namespace verp::tool::test {
 namespace {
 
@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 
 class Trouble : public Program {
  protected:
-  /// Simulates a full disk; dash counts 512 bytes.
+  /// A full disk; dash counts 512 bytes.
   Outcome verp_with_blocks(int blocks, const std::string& arguments) const {
     return shell("ulimit -f " + std::to_string(blocks) + "; " VERP_PROGRAM " " + arguments);
   }
@@ -59,11 +59,11 @@ TEST_F(Trouble, FullDiskCostsTheTraceButNotTheResult) {
   const std::string command = line.substr(start + 6, line.find('`', start + 1) - start - 6);
   EXPECT_EQ(verp(command).status, 0) << command;
   EXPECT_EQ(verp("replay a.mcap").status, 0);
-  // 4.2 kB a tick, 614 kB of room, and a chunk is 128 kB: at most one chunk is lost.
+  // 4.2 kB a tick, 614 kB of room, 128 kB a chunk: at most one is lost.
   EXPECT_GT(json::parse(verp("trace info a.mcap --json").out).at("ticks"), (614 - 128) / 4.2);
 }
 
-// The original trace still has everything.
+// The original still has everything.
 TEST_F(Trouble, ARecoveryThatTheDiskRefusesLeavesNothing) {
   ASSERT_EQ(verp("walk --for 3 --json --record a.mcap").status, 0);
   const Outcome recovery = verp_with_blocks(1200, "trace recover a.mcap -o b.mcap");
@@ -125,14 +125,14 @@ TEST_F(Trouble, ReaderThatLeavesAtOnceCostsNothing) {
   EXPECT_TRUE(fs::exists(folder_ / "out/index.html"));
 }
 
-// The trace must not become standard output, nor a full stderr end the walk.
+// No trace on standard output, and a full stderr ends no walk.
 TEST_F(Trouble, StreamsThatAreClosedOrFullCostNothingElse) {
   const struct {
     const char* streams;
     int status;
   } kRows[] = {{">&-", 1}, {"2>&-", 0}, {">&- 2>&- <&-", 1}, {">/dev/full", 1}, {"2>/dev/full", 0}};
   for (const auto& [streams, status] : kRows) {
-    // Without gnuplot the program writes to standard error.
+    // Without gnuplot the program writes to stderr.
     const Outcome walk =
         shell("PATH=/nowhere " VERP_PROGRAM " walk --for 3 --json --record a.mcap --report out " +
               std::string(streams));
@@ -170,7 +170,7 @@ TEST_F(Trouble, NohupIsRespected) {
   EXPECT_EQ(walk.status, 0) << walk.err;
 }
 
-// The first comes once there is data to plot; the report then hangs in a plot.
+// The first comes during the run; the report then hangs in a plot.
 TEST_F(Trouble, SecondSignalEndsARunThatHangs) {
   fs::create_directories(folder_ / "bin");
   std::ofstream(folder_ / "bin/gnuplot")
@@ -221,7 +221,7 @@ TEST_F(Trouble, RecoveryOfATraceInAnOddPlaceIsACommandThatWorks) {
   EXPECT_TRUE(fs::exists(folder_ / "my 'runs'/a $b.mcap"));
 }
 
-// A full disk leaves an existing CSV as it was.
+// An existing CSV stays as it was.
 TEST_F(Trouble, ExportedNumbersAreWholeOrAbsent) {
   ASSERT_EQ(verp("walk --for 3 --json --record a.mcap").status, 0);
   std::ofstream(folder_ / "a.csv") << "before";
@@ -243,7 +243,7 @@ TEST_F(Trouble, CommandsWithNothingToKeepEndAtTheFirstSignal) {
   EXPECT_EQ(outcome.err, "status 124\n");
 }
 
-// Page, numbers and trace are of one run, whichever ended last.
+// All are of the run that ended last.
 TEST_F(Trouble, TwoRunsIntoOneFolderDoNotMixTheirFiles) {
   std::thread other([&] { verp("walk --for 3 --seed 2 --report out", "other"); });
   verp("walk --for 3 --seed 1 --report out", "one");

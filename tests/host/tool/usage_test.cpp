@@ -23,13 +23,13 @@ TEST_F(Usage, HelpGoesToStdoutAndIsGood) {
   }
 }
 
-// ./verp --help prints this file without packages or a build.
+// ./verp --help prints it without a build.
 TEST_F(Usage, TheLaunchersHelpIsThePrograms) {
   EXPECT_EQ(verp("--help").out, slurp(files::source_dir() / "host/apps/tool/help.txt"))
       << "mend it: build/host-release/host/apps/tool/verp --help > host/apps/tool/help.txt";
 }
 
-// The check comes before the trace is read, and no file is written.
+// Before the trace is read; no file is written.
 TEST_F(Usage, APageIsNamedAsBrowsersWantIt) {
   expect_refused("replay none.mcap --page p.txt", "--page p.txt: a browser");
   expect_refused("replay none.mcap --page p", ".html");
@@ -52,7 +52,7 @@ TEST_F(Usage, LinesOfHelpAreWholeCommandsAndAsWideAsTheTerminal) {
   EXPECT_EQ(words(outcome.out), words(shell("COLUMNS=400 " VERP_PROGRAM " bus read --help").out));
 }
 
-// One list of choices is longer than a line.
+// One list of choices is longer.
 TEST_F(Usage, HelpFitsATerminalOfFortyColumns) {
   for (const char* word : {"walk", "run", "hil", "tune", "bus bench", "identify"}) {
     std::istringstream help(
@@ -117,7 +117,7 @@ TEST_F(Usage, ValuesThatAreMissingOrTooManyAreToldInWords) {
   expect_refused("check generic21 --json=no", "--json takes no value");
 }
 
-// An unset variable in a script must not mean the default.
+// An unset variable must not mean the default.
 TEST_F(Usage, EmptyWordsAreRefused) {
   for (const char* option :
        {"--velocity", "--sweep-step", "--record", "--report", "--on", "--set"}) {
@@ -188,9 +188,9 @@ TEST_F(Usage, ParametersAreCheckedByNameAndRange) {
   expect_refused("walk --set gait.cycle_s=0.5", "--cycle");
 }
 
-// The paper's setting is the range's end; 0.03 as a float is not 0.03 as a double.
+// 0.03 as a float is not 0.03 as a double.
 TEST_F(Usage, BothEndsOfARangeAreInsideIt) {
-  // The tuned gait does not survive 0.03 (tuning.hpp).
+  // The tuned gait falls with 0.03.
   EXPECT_NE(verp("walk --set gait.joint_delay_s=0.03 --for 3 --json").status, 2);
   EXPECT_EQ(verp("walk --set gait.joint_delay_s=0.02 --for 3 --json").status, 0);
   EXPECT_EQ(verp("walk --set safety.fall_tilt_rad=0.2 --for 3 --json").status, 0);
@@ -208,7 +208,7 @@ TEST_F(Usage, MissingAndMalformedFilesAreNamed) {
   expect_refused("replay bad.sdf", "wrong magic");
 }
 
-// The error names no line or byte.
+// No line or byte is named.
 TEST_F(Usage, FoldersAndNamesAreCalledWhatTheyAre) {
   for (const char* command : {"check", "walk", "export -o out"}) {
     expect_refused(std::string(command) + " /tmp", "/tmp: is a folder, not a robot's file; give");
@@ -239,7 +239,7 @@ TEST_F(Usage, LibrariesPrintNothingAndLeaveNothingAtHome) {
   EXPECT_FALSE(fs::exists(folder_ / ".sdformat"));
 }
 
-// A finished trace replaces the file of its name.
+// Only files are replaced.
 TEST_F(Usage, DevicesAndPipesAreNotReplacedByTraces) {
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   expect_refused("walk --record pipe", "not a regular file");
@@ -277,7 +277,7 @@ TEST_F(Usage, UnknownBoardIsBadUsageAndTheBoardsAreListed) {
   }
 }
 
-// A missing image is bad input, not a device's fault.
+// It is not a device's fault.
 TEST_F(Usage, ABoardWithoutItsImageIsBadInputEverywhere) {
   ::setenv("VERP_FIRMWARE_DIR", folder_.c_str(), 1);
   for (const char* command :
@@ -289,7 +289,7 @@ TEST_F(Usage, ABoardWithoutItsImageIsBadInputEverywhere) {
   ::unsetenv("VERP_FIRMWARE_DIR");
 }
 
-// The controller reads it, so it has no bus id.
+// The controller reads it.
 TEST_F(Usage, AnImuThatIsNoDeviceOfTheBusIsShownWithoutAnId) {
   const std::string robot = fs::absolute(model::find_model("generic21")).string();
   const std::string other = "sed 's/sensor=\"imu\" id=\"120\"/sensor=\"imu\" id=\"0\"/' " + robot;

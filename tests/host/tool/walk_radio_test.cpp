@@ -7,8 +7,7 @@
 #include "host/trace/record/ros_radio.hpp"
 #include "tests/host/tool/program.hpp"
 
-// Third-party programs in plain Python drive robots of one walk and talk through the modems on
-// their buses.
+// Plain Python programs drive robots of one walk and talk through the modems on their buses.
 
 namespace verp::tool::test {
 namespace {
@@ -17,7 +16,7 @@ using nlohmann::json;
 
 class WalkRadio : public Program {
  protected:
-  /// The example's leader drives `a`, its follower `b`.
+  /// The example's leader and follower.
   struct Talk {
     Outcome world, leader, follower;
   };
@@ -38,7 +37,7 @@ class WalkRadio : public Program {
     return talk;
   }
 
-  /// A trace's /radio messages by event, sender and receiver.
+  /// By event, sender and receiver.
   std::map<std::string, int> kept(const std::string& file) const {
     const std::string bytes = slurp(folder_ / file);
     const record::mcap::File trace = record::mcap::parse(bytes);
@@ -67,8 +66,7 @@ TEST_F(WalkRadio, ProgramsOutsideHearEachOtherAsTheAirHasIt) {
   const int heard = radio.at("heard"), lost = radio.at("lost");
   EXPECT_EQ(heard + lost, 60) << radio;
   EXPECT_NEAR(lost, 18, 9) << radio;
-  // c's trace has what c heard. As the first trace it also has the events of a and b, which are
-  // driven from outside.
+  // As the first trace, c's also has the events of robots driven from outside.
   std::map<std::string, int> events = kept("run.mcap");
   EXPECT_EQ(events.at("said 0 -1"), 30);
   EXPECT_EQ(events.at("heard 0 1") + events.at("heard 0 2"), heard);

@@ -24,7 +24,7 @@ void cut(const fs::path& from, const fs::path& to, std::size_t size) {
   std::ofstream(to, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(size));
 }
 
-// stdout has one JSON object with all documented fields.
+// One JSON object with all documented fields.
 TEST_F(Walk, JsonTraceReplayAndDiffAgree) {
   const Outcome walk = verp("walk --for 4 --json --record a.mcap");
   ASSERT_EQ(walk.status, 0) << walk.err;
@@ -52,7 +52,6 @@ TEST_F(Walk, JsonTraceReplayAndDiffAgree) {
             result.at("ticks").get<std::size_t>() + 1);
 }
 
-// A changed walk must not pass for the robot's own.
 TEST_F(Walk, WhatWasChangedStandsInSummaryReportJsonAndTrace) {
   const std::string options = "walk --for 3 --set gait.lift_m=0.02 --step 0.04 --report out";
   const Outcome walk = verp(options);
@@ -88,7 +87,7 @@ TEST_F(Walk, SameSeedSameBitsOtherSeedOtherBits) {
   EXPECT_EQ(json::parse(other.out).at("divergence").at("stage"), "inputs");
 }
 
-// The run ends with one line of error and a complete trace.
+// One line of error and a complete trace.
 TEST_F(Walk, WhatPhysicsCannotFollowKeepsItsTrace) {
   const Outcome torn =
       verp("walk --for 6 --json --record a.mcap --at '1: l_foot.torque_n_m.x=100000'");
@@ -146,7 +145,7 @@ TEST_F(Walk, TwoCopiesDoNotClobberEachOther) {
   EXPECT_FALSE(has_leftovers(folder_));
 }
 
-// Ctrl-C gives exit 130 and SIGTERM 143, as in shells.
+// As in shells: 130 for Ctrl-C, 143 for SIGTERM.
 TEST_F(Walk, InterruptKeepsTraceAndReport) {
   for (const auto& [signal, status] : {std::pair("INT", "130\n"), std::pair("TERM", "143\n")}) {
     const std::string command = std::string("timeout --preserve-status -s ") + signal +
@@ -168,7 +167,7 @@ TEST_F(Walk, ReaderThatGoesAwayIsNoCrash) {
   EXPECT_EQ(outcome.err, "");
 }
 
-// No step meets this ZMP margin, so the robot stands.
+// No step meets this ZMP margin.
 TEST_F(Walk, PlanThatIsRefusedEndsTheRun) {
   const Outcome outcome =
       verp("walk --for 6 --no-multibody --set gait.support_margin_m=0.0299 --json");
@@ -177,14 +176,13 @@ TEST_F(Walk, PlanThatIsRefusedEndsTheRun) {
   EXPECT_LT(json::parse(outcome.out).at("ticks"), 2000);
 }
 
-// The length holds for any stride, turn or cycle. While strides grow, one more step means two,
-// because it must shrink again.
+// For any stride, turn or cycle. While strides grow, one more step means two: it must shrink again.
 TEST_F(Walk, LengthIsWhatWasAskedToWithinAStep) {
   struct Asked {
     const char* options;
     double walk_s, step_s;
     int status = 0;     // 2 m/s: the limits allow less than half
-    bool slow = false;  // the remark says that its strides grow to the end
+    bool slow = false;  // a remark says that strides grow to the end
   };
   for (const Asked& asked :
        {Asked{"", 12, 0.225}, Asked{"--velocity 2,0,0", 8, 0.225, 1},
@@ -206,8 +204,7 @@ TEST_F(Walk, LengthIsWhatWasAskedToWithinAStep) {
   }
 }
 
-// 0.6 m/s for three seconds gives 17 cm of 1.55 m. Earlier, a robot that went even less had
-// "walked".
+// 0.6 m/s for three seconds gives 17 cm of 1.55 m.
 TEST_F(Walk, AShortWalkIsHeldByWhatItsGaitGoesInThatTime) {
   const json result =
       json::parse(verp("walk --velocity 0.6,0,0 --for 3 --physics-step 2 --json").out);
@@ -244,7 +241,7 @@ TEST_F(Walk, SeedsTellTheWayOfTheWayAsked) {
             std::string::npos);
 }
 
-// Earlier, they walked the default robot.
+// Not of the default robot.
 TEST_F(Walk, SeedsAreOfTheRobotThatHasAName) {
   const std::string rest = " --for 3 --physics-step 2 --json";
   const json alone = json::parse(verp("walk op3 --seed 1" + rest).out);
@@ -270,7 +267,7 @@ TEST_F(Walk, WhatWasNotMeasuredIsNullOrADash) {
   EXPECT_NE(text.out.find("- steady"), std::string::npos) << text.out;
   EXPECT_EQ(text.out.find("0.000 m/s"), std::string::npos) << text.out;
   EXPECT_NE(slurp(folder_ / "out/index.html").find("no cycle was steady"), std::string::npos);
-  const Outcome ended =  // begun, but still rising
+  const Outcome ended =  // still rising
       shell(VERP_PROGRAM
             " walk --set safety.rise_s=10 --json --record t.mcap & "
             "until ls | grep -q t.mcap; do sleep 0.02; done; sleep 0.1; kill -INT $!; wait $!");
@@ -283,7 +280,7 @@ TEST_F(Walk, WhatWasNotMeasuredIsNullOrADash) {
   EXPECT_TRUE(none.at("zmp_bias_by_state_mm").at(3).is_null());
 }
 
-// The killed walk counts as not survived.
+// It counts as not survived.
 TEST_F(Walk, AProgramThatIsKilledCountsAmongItsSeeds) {
   std::ofstream(folder_ / "kill.sh") << R"sh(
 "$1" walk --seeds 1-2 --for 8 --physics-step 2 &
@@ -301,7 +298,7 @@ done)sh";
       << outcome.out;
 }
 
-// The walk is good, but its first line shows the low speed.
+// The walk is good but slow.
 TEST_F(Walk, ASpeedThatIsFarFromWhatWasAskedStandsInTheFirstLine) {
   const auto first_line = [&](const std::string& step) {
     const Outcome walk = verp("walk --for 6 --step " + step);
@@ -312,7 +309,7 @@ TEST_F(Walk, ASpeedThatIsFarFromWhatWasAskedStandsInTheFirstLine) {
   EXPECT_EQ(first_line("0.04").find("asked"), std::string::npos);
 }
 
-// The planner cuts what the servos cannot follow.
+// Servos cannot follow.
 TEST_F(Walk, AnOrderCutToLessThanHalfIsNoGoodWalk) {
   const Outcome outcome =
       verp("walk --step 0.15 --cycle 0.3 --set gait.max_step_m=0.3 --for 15 --physics-step 2");
@@ -331,7 +328,7 @@ TEST_F(Walk, SweepGivesATable) {
   EXPECT_NE(slurp(folder_ / "out/index.html").find("Step length sweep"), std::string::npos);
 }
 
-// A limit shortens the steps.
+// A limit shortens steps.
 TEST_F(Walk, SweepTellsAskedAndWalkedSteps) {
   const Outcome outcome =
       verp("walk --for 4 --set gait.max_step_m=0.03 --sweep-step 0.02:0.04:0.02 --report out");
@@ -344,7 +341,7 @@ TEST_F(Walk, SweepTellsAskedAndWalkedSteps) {
   EXPECT_NE(slurp(folder_ / "out/index.html").find("gait.max_step_m"), std::string::npos);
 }
 
-// It has no speed or bias to compare, and the trace is of another walk.
+// It has no speed or bias; the trace is of another walk.
 TEST_F(Walk, FallInASweepIsMarkedAndPointsAtNoTrace) {
   const std::string arguments =
       "walk --for 5 --set gait.max_step_m=0.3 --set gait.step_change_m=0.1 "
@@ -365,7 +362,7 @@ TEST_F(Walk, FallInASweepIsMarkedAndPointsAtNoTrace) {
   EXPECT_FALSE(result.at("fallen")) << "the walk itself did not";
 }
 
-// The first walk takes a second or two, the sweep a minute.
+// The first walk takes seconds, the sweep a minute.
 TEST_F(Walk, SweepThatIsInterruptedKeepsTheRowItWasIn) {
   const Outcome outcome = shell("timeout --preserve-status -s TERM 8 " VERP_PROGRAM
                                 " walk --for 3 --sweep-step 0.01:0.05:0.001 --report out");

@@ -2,8 +2,6 @@
 
 #include "tests/host/tool/program.hpp"
 
-// Options for disturbances and worlds.
-
 namespace verp::tool::test {
 namespace {
 

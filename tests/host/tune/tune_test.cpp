@@ -35,7 +35,7 @@ sim::WorldOptions coarse() {
   return world;
 }
 
-// A valley a hundred times as long as wide, with noise.
+// A hundred times as long as wide, with noise.
 TEST(Evolution, GathersWhereTheCostIsLeast) {
   const Eigen::Vector4d best(1, -2, 0.5, 3), width(0.1, 1, 3, 10);
   Evolution evolution(Eigen::Vector4d::Zero(), 0.5, 12, 7);
@@ -80,7 +80,7 @@ TEST(Space, StaysInsideWhatEachNumberMayBe) {
   }
 }
 
-// 0.5 m/s in cycles of 0.45 s are steps of 11 cm; generic21 allows 8.
+// 0.5 m/s in 0.45 s are steps of 11 cm; generic21 allows 8.
 TEST(Space, LetsStepsBeAsLongAsTheSpeedNeeds) {
   const session::WalkPlan plan = plan_of("generic21");
   for (const Tuning& tuning : Space(plan.params).first_look(0.5))
@@ -110,12 +110,12 @@ TEST(Limit, IsNamed) {
   plan.params.tuning.gait.hip_height_m = 0.9F;
   EXPECT_THAT(limit_of(plan, coarse(), 0.2), HasSubstr("reach: the legs cannot stand"));
   plan = plan_of("generic21");
-  plan.params.tuning.gait.zmp_x_m = 0.05F;            // tips over its toes,
-  plan.params.tuning.balance.feedback_enable = 0.0F;  // and no step catches it
+  plan.params.tuning.gait.zmp_x_m = 0.05F;            // tips over its toes
+  plan.params.tuning.balance.feedback_enable = 0.0F;  // no step catches it
   EXPECT_THAT(limit_of(plan, coarse(), 0.2), HasSubstr("balance: fell after"));
 }
 
-// `verp walk` accepts half of the ordered way; the tuner not even a tenth too little speed.
+// `verp walk` accepts half of the way, the tuner no tenth less.
 TEST(Check, CountsWhoWalksAsFastAsWasAsked) {
   std::vector<session::WalkResult> results(4);
   const double speed_m_s[] = {0.21, 0.17, 0.19, 0.2};
@@ -131,13 +131,12 @@ TEST(Check, CountsWhoWalksAsFastAsWasAsked) {
   EXPECT_NEAR(*check.speed_m_s, 0.2, 1e-9);
 }
 
-/// A short search keeps a long one's promises. survey::Workers promises the same on any number of
-/// threads.
+/// survey::Workers promises the same on any number of threads.
 Options small() {
   return {.speed_m_s = 0.2, .generations = 1, .children = 2, .checks = 1, .try_s = 6, .check_s = 8};
 }
 
-// Here generic21's ZMP error is twice that of the first candidates.
+// generic21's ZMP error is twice that of the first candidates.
 TEST(Tune, MendsARobotAndSaysByHowMuch) {
   session::WalkPlan plan = plan_of("generic21");
   plan.params.tuning.gait.cycle_s = 0.31F;

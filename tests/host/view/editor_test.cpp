@@ -27,7 +27,7 @@ class Editor : public Window {
   void press(const char* button) { QTest::mouseClick(find<QPushButton>(button), Qt::LeftButton); }
   std::string complaint() { return find<QLabel>("editor_complaint")->text().toStdString(); }
 
-  /// Opens the cell by a double click and types.
+  /// By a double click.
   QLineEdit* type(const std::string& path, const char* text) {
     auto* table = find<QTableView>("editor_numbers");
     const int row = static_cast<EditorTable*>(table->model())->row_of(path);
@@ -118,7 +118,7 @@ TEST_F(Editor, ASmallBipedGrowsFromAnEmptyFileAndStands) {
   press("editor_mirror");
   add("imu", "link=trunk id=120 type=icm20648");
   ASSERT_EQ(complaint(), "Sound");
-  press("editor_walk");  // walks what is in no file yet
+  press("editor_walk");  // in no file yet
   ASSERT_NE(window_.player(), nullptr) << complaint();
   EXPECT_FALSE(QFile::exists(QString::fromStdString(file)));
   LiveRun& live = *window_.player()->live();

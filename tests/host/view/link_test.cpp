@@ -38,7 +38,7 @@ bool wait_for(Met met) {
   return met();
 }
 
-/// A robot, and a link whose controller is there, gone or to come.
+/// A controller that is there, gone or to come.
 class Link : public testing::Test {
  protected:
   Link() : plan_(plan_of("dxl")), entity_(std::make_shared<model::Entity>(plan_.entity)) {}
@@ -128,7 +128,7 @@ TEST(StepOn, HasTheRecordedBitsUntilANumberIsChanged) {
   std::filesystem::remove(file);
 }
 
-/// A FIFO in place of the kernel's joystick.
+/// In place of the kernel's joystick.
 class Stick : public testing::Test {
  protected:
   Stick() {

@@ -32,8 +32,7 @@ TEST(VerpView, WithoutADisplayIsOneLineAndExit3) {
   expect_one_line(run("env DISPLAY=:987", "generic21"), 3, ":987 cannot be opened");
 }
 
-/// Without a driver a window crashed; with an old one it never showed nor ended. The test uses its
-/// suite's display.
+/// With no driver a window crashes, with an old one it neither shows nor ends.
 TEST(VerpView, WithoutAGlDriverIsOneLineAndExit3) {
   const std::string limit = "timeout -k 1 30 env ";
   expect_one_line(run(limit + "LIBGL_DRIVERS_PATH=/nowhere", "generic21"), 3, "no window without");

@@ -143,13 +143,13 @@ TEST(Player, WindsARunBackTickByTick) {
   EXPECT_FALSE(player.playing());
   const double one_s = player.shown_s();
   player.step(1);
-  const double physics_step_s = 0.001;  // a tick's time falls on such a step
+  const double physics_step_s = 0.001;  // a tick falls on such a step
   EXPECT_NEAR(player.shown_s() - one_s, player.film()->period_s(), 1.5 * physics_step_s);
   player.step(-1);
   EXPECT_NEAR(player.shown_s(), one_s, 1e-6);
 }
 
-// Bus and physics steps decide a tick's instant.
+// Bus and physics steps decide it.
 TEST(Player, StepsFromInstantToInstantHoweverFarTheyAreApart) {
   constexpr double kInstants[] = {1.0, 1.009, 1.02, 1.029, 1.04};
   const auto film = std::make_shared<LiveFilm>(std::make_shared<const scene::Entity>(), 0.01);

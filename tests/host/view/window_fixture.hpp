@@ -14,7 +14,7 @@
 
 namespace verp::view {
 
-/// A user's sessions with one window; each saves a picture in the folder VERP_UI_PICTURES, if set.
+/// Saves pictures in VERP_UI_PICTURES, if set.
 class Window : public testing::Test {
  protected:
   Window()

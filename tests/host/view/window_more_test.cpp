@@ -17,7 +17,7 @@
 #include "tests/host/shadow/polled_controller.hpp"
 #include "tests/host/view/window_fixture.hpp"
 
-// Sessions with a link, a gamepad, a trace's State.
+// With a link, a gamepad, a trace's State.
 namespace verp::view {
 namespace {
 
@@ -37,7 +37,7 @@ TEST_F(Window, EachEffectIsSwitchedByItsMenuAndBack) {
     action->toggle();
     EXPECT_EQ(window_.scene().grabFramebuffer(), before) << action->text().toStdString();
   }
-  // Only some worlds have fog, textures or transparency.
+  // Some worlds have fog, textures or transparency.
   for (const char* effect :
        {"Shadows", "Antialiasing", "Sky", "Floor", "Floor's grid", "Axes of links",
         "Collision shapes", "Centre of mass", "Support polygon"})

@@ -253,7 +253,7 @@ TEST_F(Window, AJointAndAFootMoveInTheHand) {
   hold.to_world_m = scene::Vec3(0, 0, -1);
   window_.scene().held(hold);
   EXPECT_TRUE(find<QLabel>("reach")->text().contains("out of reach"));
-  // Any other link too: the last of an arm.
+  // The last of an arm.
   window_.scene().let_go(hold);
   const auto elbow = std::find_if(joints.begin(), joints.end(),
                                   [](const model::Joint& j) { return j.name == "l_elbow"; });
