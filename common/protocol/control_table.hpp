@@ -1,23 +1,23 @@
 #pragma once
 #include <cstdint>
 
-/// Register addresses of servos and of our sensor devices on the same bus. Source for servos:
-/// ROBOTIS e-Manual, control tables of XM430-W210 (docs/en/dxl/x/xm430-w210) and MX-28(2.0)
-/// (docs/en/dxl/mx/mx-28-2), which agree. Size in bytes after each address. EEPROM is writable only
-/// while Torque Enable is 0.
+/// Registers of servos and of our sensor devices on the same bus. Servos: ROBOTIS e-Manual, control
+/// tables of XM430-W210 (docs/en/dxl/x/xm430-w210) and MX-28(2.0) (docs/en/dxl/mx/mx-28-2), which
+/// agree. Size in bytes after each address; R: read only. EEPROM is writable only while Torque
+/// Enable is 0.
 namespace verp::dxl {
 
-inline constexpr std::uint16_t kModelXm430W210 = 1030;  ///< e-Manual XM430-W210, Model Number (0)
-inline constexpr std::uint16_t kModelXm430W350 = 1020;  ///< e-Manual XM430-W350, Model Number (0)
-inline constexpr std::uint16_t kModelMx28 = 30;         ///< e-Manual MX-28(2.0), Model Number (0)
-inline constexpr std::uint16_t kModelImu = 0x7601;  ///< ours; the vendor's numbers end below 0x4000
-inline constexpr std::uint16_t kModelFoot = 0x7602;  ///< ours
+inline constexpr std::uint16_t kModelXm430W210 = 1030;  ///< e-Manual, Model Number (0)
+inline constexpr std::uint16_t kModelXm430W350 = 1020;  ///< likewise
+inline constexpr std::uint16_t kModelMx28 = 30;         ///< likewise
+inline constexpr std::uint16_t kModelImu = 0x7601;      ///< ours; the vendor's end below 0x4000
+inline constexpr std::uint16_t kModelFoot = 0x7602;     ///< ours
 
 namespace address {
 // EEPROM
-inline constexpr std::uint16_t kModelNumber = 0;         // 2, read only
-inline constexpr std::uint16_t kModelInformation = 2;    // 4, read only
-inline constexpr std::uint16_t kFirmwareVersion = 6;     // 1, read only
+inline constexpr std::uint16_t kModelNumber = 0;         // 2, R
+inline constexpr std::uint16_t kModelInformation = 2;    // 4, R
+inline constexpr std::uint16_t kFirmwareVersion = 6;     // 1, R
 inline constexpr std::uint16_t kId = 7;                  // 1
 inline constexpr std::uint16_t kBaudRate = 8;            // 1, see baud_rate_code
 inline constexpr std::uint16_t kReturnDelay = 9;         // 1, units of 2 us, 0 to 254; factory 250
@@ -41,8 +41,8 @@ inline constexpr std::uint16_t kShutdown = 63;           // 1, mask over Hardwar
 inline constexpr std::uint16_t kTorqueEnable = 64;           // 1
 inline constexpr std::uint16_t kLed = 65;                    // 1
 inline constexpr std::uint16_t kStatusReturnLevel = 68;      // 1; 0 ping, 1 ping and read, 2 all
-inline constexpr std::uint16_t kRegisteredInstruction = 69;  // 1, read only
-inline constexpr std::uint16_t kHardwareError = 70;          // 1, read only, see HardwareError
+inline constexpr std::uint16_t kRegisteredInstruction = 69;  // 1, R
+inline constexpr std::uint16_t kHardwareError = 70;          // 1, R; HardwareError
 inline constexpr std::uint16_t kVelocityIGain = 76;          // 2
 inline constexpr std::uint16_t kVelocityPGain = 78;          // 2
 inline constexpr std::uint16_t kPositionDGain = 80;          // 2
@@ -57,20 +57,19 @@ inline constexpr std::uint16_t kGoalVelocity = 104;          // 4
 inline constexpr std::uint16_t kProfileAcceleration = 108;   // 4; ms with a time-based profile
 inline constexpr std::uint16_t kProfileVelocity = 112;       // 4; ms with a time-based profile
 inline constexpr std::uint16_t kGoalPosition = 116;          // 4
-inline constexpr std::uint16_t kRealtimeTick = 120;          // 2, read only, ms
-inline constexpr std::uint16_t kMoving = 122;                // 1, read only
-inline constexpr std::uint16_t kMovingStatus = 123;          // 1, read only
-inline constexpr std::uint16_t kPresentPwm = 124;            // 2, read only
-inline constexpr std::uint16_t kPresentCurrent = 126;        // 2, read only; MX(2.0): load, 0.1 %
-inline constexpr std::uint16_t kPresentVelocity = 128;       // 4, read only, 0.229 rev/min
-inline constexpr std::uint16_t kPresentPosition = 132;       // 4, read only
-inline constexpr std::uint16_t kVelocityTrajectory = 136;    // 4, read only
-inline constexpr std::uint16_t kPositionTrajectory = 140;    // 4, read only
-inline constexpr std::uint16_t kPresentVoltage = 144;        // 2, read only, 0.1 V
-inline constexpr std::uint16_t kPresentTemperature = 146;    // 1, read only, degrees Celsius
-inline constexpr std::uint16_t kBackupReady = 147;           // 1, read only
-// Two blocks of 28 pairs: Indirect Data n (1) stands for the byte (64 to 661) at Indirect Address n
-// (2).
+inline constexpr std::uint16_t kRealtimeTick = 120;          // 2, R, ms
+inline constexpr std::uint16_t kMoving = 122;                // 1, R
+inline constexpr std::uint16_t kMovingStatus = 123;          // 1, R
+inline constexpr std::uint16_t kPresentPwm = 124;            // 2, R
+inline constexpr std::uint16_t kPresentCurrent = 126;        // 2, R; MX(2.0): load, 0.1 %
+inline constexpr std::uint16_t kPresentVelocity = 128;       // 4, R, 0.229 rev/min
+inline constexpr std::uint16_t kPresentPosition = 132;       // 4, R
+inline constexpr std::uint16_t kVelocityTrajectory = 136;    // 4, R
+inline constexpr std::uint16_t kPositionTrajectory = 140;    // 4, R
+inline constexpr std::uint16_t kPresentVoltage = 144;        // 2, R, 0.1 V
+inline constexpr std::uint16_t kPresentTemperature = 146;    // 1, R, degrees Celsius
+inline constexpr std::uint16_t kBackupReady = 147;           // 1, R
+// Two blocks of 28 pairs: Indirect Data n stands for the byte at Indirect Address n.
 inline constexpr std::uint16_t kIndirectAddress1 = 168;
 inline constexpr std::uint16_t kIndirectData1 = 224;
 inline constexpr std::uint16_t kIndirectAddress29 = 578;
@@ -78,22 +77,22 @@ inline constexpr std::uint16_t kIndirectData29 = 634;
 }  // namespace address
 
 inline constexpr std::uint16_t kIndirectBlock = 28;  ///< pairs in each block
-inline constexpr std::uint16_t kIndirectFirst = 64;  ///< range of Indirect Addresses
+inline constexpr std::uint16_t kIndirectFirst = 64;  ///< addresses allowed there
 inline constexpr std::uint16_t kIndirectLast = 661;
 inline constexpr std::uint8_t kFactoryId = 1;
 inline constexpr std::uint32_t kFactoryBaud = 57600;
 
 inline constexpr std::uint8_t kTimeBasedProfile = 1 << 2;  ///< bit 2 of Drive Mode
-inline constexpr std::uint8_t kPositionMode = 3;  ///< Operating Mode: position control, one turn
-inline constexpr std::uint16_t kFullPwm = 885;    ///< PWM Limit of 100 %
+inline constexpr std::uint8_t kPositionMode = 3;           ///< Operating Mode; one turn
+inline constexpr std::uint16_t kFullPwm = 885;             ///< PWM Limit of 100 %
 
-/// After this many units with torque and no instruction packet on the bus the servo stops in place.
-/// Bus Watchdog then reads kBusWatchdogTripped, and goals are refused until 0 is written. 0: off.
+/// After this many units with torque and no instruction packet on the bus the servo stops in place,
+/// and goals are refused until 0 is written. 0: off.
 inline constexpr std::uint32_t kBusWatchdogUnit_us = 20000;
 inline constexpr std::uint8_t kBusWatchdogMost = 127;
-inline constexpr std::uint8_t kBusWatchdogTripped = 0xFF;  ///< -1
+inline constexpr std::uint8_t kBusWatchdogTripped = 0xFF;  ///< -1, read after a trip
 
-/// Bits of Hardware Error Status (70) and Shutdown (63).
+/// In Hardware Error Status (70) and Shutdown (63).
 enum HardwareError : std::uint8_t {
   kInputVoltageError = 1 << 0,
   kOverheatingError = 1 << 2,
@@ -102,7 +101,7 @@ enum HardwareError : std::uint8_t {
   kOverloadError = 1 << 5,
 };
 
-/// Value of Baud Rate (8); 0xFF for a rate that the servos lack.
+/// 0xFF for a rate that the servos lack.
 constexpr std::uint8_t baud_rate_code(std::uint32_t baud) {
   constexpr std::uint32_t kRates[] = {9600,    57600,   115200,  1000000,
                                       2000000, 3000000, 4000000, 4500000};
@@ -112,14 +111,13 @@ constexpr std::uint8_t baud_rate_code(std::uint32_t baud) {
   return 0xFF;
 }
 
-/// The sensor block: a Sync Read, with one address and length for all devices, fetches it every
-/// tick from the IMU, both feet and one servo. Twelve bytes from 136 are
+/// Twelve bytes from 136, fetched every tick by one Sync Read from the IMU, both feet and one
+/// servo:
 ///   IMU device:  gyro x y z, accel x y z; int16 each, IMU frame;
 ///   foot device: front-left, front-right, back-left, back-right; uint16 each; then 4 zero bytes;
 ///   servo:       Velocity Trajectory, Position Trajectory, Present Input Voltage, Present
 ///                Temperature, Backup Ready.
-/// Unlike Present Position, they do not begin a tick. A read may begin some bytes earlier
-/// (BusMaster::spare_bytes), which are ignored.
+/// A read may begin some bytes earlier (BusMaster::spare_bytes), which are ignored.
 namespace sensor_block {
 inline constexpr std::uint16_t kAddress = 136;
 inline constexpr std::uint16_t kBytes = 12;

@@ -7,22 +7,21 @@
 #include "common/model/params.hpp"
 #include "common/model/tuning_ranges.hpp"
 
-/// Registers of the controller as a Dynamixel device on the operator's port: the one source of the
-/// device (firmware/app/operator_device.hpp), its documentation (firmware/app/registers.md), the
-/// names in `verp bus` and an object dictionary. Those that every Dynamixel has keep their
-/// addresses (0 to 7, 64, 68 to 70). Little-endian, in order of address, each at a multiple of its
-/// size except the vendor's Model Information.
+/// The controller as a Dynamixel device on the operator's port: the one source of the device
+/// (firmware/app/operator_device.hpp), firmware/app/registers.md, the names in `verp bus` and an
+/// object dictionary. Registers of every Dynamixel keep their addresses (0 to 7, 64, 68 to 70).
+/// Little-endian, in order of address, each at a multiple of its size except Model Information.
 namespace verp::dxl::controller {
 
 inline constexpr std::uint8_t kDefaultId = 200;
-inline constexpr std::uint16_t kModel = 0x7600;  ///< ours, like the sensors' in control_table.hpp
-/// Firmware Version (6). Raise when a register moves or changes its meaning.
+inline constexpr std::uint16_t kModel = 0x7600;  ///< ours
+/// Raise when a register moves or changes its meaning.
 inline constexpr std::uint8_t kTableVersion = 1;
 
 enum class Type : std::uint8_t { kU8, kU16, kU32, kU64, kI8, kI16, kI32, kF32, kText };
 inline constexpr const char* kTypeNames[] = {"u8",  "u16", "u32", "u64", "i8",
                                              "i16", "i32", "f32", "text"};
-/// Bytes of one element.
+/// One element.
 constexpr std::uint8_t type_bytes(Type type) {
   constexpr std::uint8_t kBytes[] = {1, 2, 4, 8, 1, 2, 4, 4, 1};
   return kBytes[static_cast<std::size_t>(type)];
@@ -32,9 +31,9 @@ constexpr bool is_signed(Type type) {
 }
 
 enum class Access : std::uint8_t {
-  kRead,      ///< written only by the controller
-  kWrite,     ///< written at any time
-  kDisarmed,  ///< written only while no servo holds torque
+  kRead,      ///< by the controller only
+  kWrite,     ///< at any time
+  kDisarmed,  ///< only while no servo holds torque
 };
 inline constexpr const char* kAccessNames[] = {"R", "RW", "RW disarmed"};
 
@@ -43,22 +42,22 @@ struct Register {
   const char* name = "";
   Type type = Type::kU8;
   Access access = Access::kRead;
-  std::uint16_t count = 1;    ///< elements, contiguous from `address`
+  std::uint16_t count = 1;    ///< contiguous from `address`
   std::int32_t minimum = 0;   ///< of written values
-  std::uint32_t maximum = 0;  ///< read as an int32 if `minimum` is negative
+  std::uint32_t maximum = 0;  ///< int32 if `minimum` is negative
   const char* unit = "";
   const char* meaning = "";
 
   constexpr unsigned bytes() const { return unsigned{count} * type_bytes(type); }
   constexpr bool writable() const { return access != Access::kRead; }
-  /// CANopen: each register is a manufacturer object (2000h to 5FFFh). Several elements are an
-  /// ARRAY, subindices from 1; a text is one VISIBLE_STRING.
+  /// CANopen: a manufacturer object (2000h to 5FFFh). Several elements are an ARRAY, subindices
+  /// from 1; a text is one VISIBLE_STRING.
   constexpr std::uint16_t object_index() const {
     return static_cast<std::uint16_t>(0x2000 + address);
   }
 };
 
-/// Rows of device arrays: servos in the order of Params, then these.
+/// Rows of device arrays: servos as in Params, then these.
 inline constexpr int kDeviceImu = kMaxJoints;
 inline constexpr int kDeviceFoot = kDeviceImu + 1;  ///< left, then right
 inline constexpr int kDeviceBus = kDeviceFoot + kFeet;
@@ -90,7 +89,7 @@ enum class SelfTest : std::uint8_t {
   kKinematics,
   kControl
 };
-/// As hal/chip/stm32/reset_cause.hpp. kFault: a crash record was found.
+/// As in hal/chip/stm32/reset_cause.hpp. kFault: a crash record.
 enum class ResetCause : std::uint8_t {
   kUnknown,
   kPower,
@@ -100,10 +99,9 @@ enum class ResetCause : std::uint8_t {
   kLowPower,
   kFault
 };
-/// As hal/chip/stm32/clock.hpp. kUnknown: not reported.
+/// As in hal/chip/stm32/clock.hpp.
 enum class ClockSource : std::uint8_t { kUnknown, kCrystal, kInternalPll, kInternal, kAbsent };
-/// Why a board never gives torque, and how often its LED flashes; from 2, because one flash is the
-/// sign of life.
+/// Why a board never gives torque, and how often its LED flashes; one flash is the sign of life.
 enum class StartFault : std::uint8_t {
   kNone,
   kSelfTest = 2,
@@ -176,8 +174,8 @@ inline constexpr Register kTable[] = {
     r(76, "crash_cause", u32, "bits", "CFSR of the core at that crash"),
     // The operator's order. A write to 80..101 makes it fresh and feeds the operator watchdog. With
     // torque off, request returns to 0 when a loop begins or stood still for longer than an order
-    // lasts. After each start, even by a watchdog, 1 to 3 are refused (Result Fail) until 0 was
-    // written: a repeated order must not raise a robot that was reset.
+    // lasts. After each start 1 to 3 are refused (Result Fail) until 0 was written: a repeated
+    // order must not raise a robot that was reset.
     rw(80, "request", u8, 3, "", "0 relax, 1 stand, 2 walk, 3 stand, from the floor too: leave to get up by the robot's own action; after each start 1 to 3 are refused until 0 was written; with torque off back to 0 when a loop begins or stood still"),
     rw(81, "command_sequence", u8, 255, "", "count the orders here; it is recorded with each tick"),
     rw_i16(82, "walk_vx", "0.1 mm/s", "forward velocity, body frame"),
@@ -195,8 +193,8 @@ inline constexpr Register kTable[] = {
     r(103, "imu_calibration", u8, "", "0 none, 1 measuring, 2 kept; refused, the old one counts: 3 moved, 4 not upright, 5 too few samples in 20 s (chip silent, or a twin in lockstep); 6 none counts: the kept one is of another scale or mounting"),
     r(104, "bring_up", u8, "", "0 not yet, 1 every device is ready; the last failure: 2 silent, 3 another model, 4 refused a write, 5 does not keep it, 6 has a hardware error, 7 somebody else commands nodes on its bus, 8 did not boot when it was reset"),
     r(105, "bring_up_device", u8, "", "bus id of the device at which it failed"),
-    // One number of the tuning. A write of parameter_value reaches exactly one tick; until then
-    // another is refused (Result Fail).
+    // A write of parameter_value reaches exactly one tick; until then another is refused (Result
+    // Fail).
     rw(106, "parameter_id", u16, kTuningCount - 1, "", "which number; see the list below"),
     rw(108, "parameter_value", f32, kAll32, "", "its value in force; writing is refused out of its range"),
     r(112, "parameter_low", f32, "", "lowest value allowed"),
@@ -238,7 +236,7 @@ inline constexpr Register kTable[] = {
     r(244, "link_noise", u32, "", "this link: bytes with noise or wrong parity"),
     r(248, "link_losses", u32, "", "this link: times it was lost"),
     r(252, "bus_noise", u32, "bytes", "servo bus: bytes that belonged to no whole packet"),
-    // The joints, in the order of Params.
+    // In the order of Params.
     r(256, "present_position", i32, "counts", "as last read from each servo", kMaxJoints),
     r(384, "goal_position", i32, "counts", "as last sent to each servo", kMaxJoints),
     r(512, "joint_id", u8, "", "bus id of each servo", kMaxJoints),
@@ -261,7 +259,7 @@ inline constexpr Register kTable[] = {
     rw(1124, "window_data", u8, 255, "", "reads show the image in force; writes go to a new one, of actions with torque off only", kWindowBytes),
     rw(1252, "window_crc", u32, kAll32, "", "CRC-32 (zip) of all bytes of the new image"),
     disarmed(1256, "window_commit", u8, 1, "", "1: check the new image and take it; reads as 0"),
-    // For a program that runs the same controller in parallel and compares.
+    // For a program that runs the same controller and compares.
     rw(1257, "tick_hold", u8, 2, "", "1: the State of the last tick stands still, to be read as an image, 2: the last ticks too; the loop goes on; refused where none are kept"),
     r(1258, "inputs_flags", u16, "bits", "of the last tick: InputFlag; on CAN also 256 IMU counts in parts, and from 4096 on the number of parts"),
     r(1260, "tick_low", u16, "ticks", "low half of tick"),
@@ -270,8 +268,8 @@ inline constexpr Register kTable[] = {
     r(1272, "joint_velocity", i32, "counts/s", "as each drive told last (606Ch); CiA 402 only", kMaxJoints),
     r(1400, "joint_torque", i16, "0.1 %", "of the rated torque, as each drive told last (6077h); CiA 402 only", kMaxJoints),
     r(1464, "image_field", text, "", "with self_test 4: the number in the Params image that is none, or none of a robot; empty: it is not that", kFieldNameLength),
-    // The robot's own estimate (common/balance/estimator.hpp): z up from the ground under the
-    // stance soles, x and y from the place and heading at power-up, with odometry's drift.
+    // common/balance/estimator.hpp: z up from the ground under the stance soles, x and y from
+    // power-up, with odometry's drift.
     r(1504, "body_position", f32, "m", "estimated: origin of the body frame, x y z from where it was at power-up", 3),
     r(1516, "body_attitude", f32, "rad", "estimated: roll, pitch (nose down positive) and yaw (turned to the left since power-up)", 3),
     r(1528, "com_position", f32, "m", "estimated: centre of mass, x y z, as body_position", 3),
@@ -283,7 +281,6 @@ inline constexpr Register kTable[] = {
 
 inline constexpr const auto& kTable = row::kTable;
 inline constexpr std::size_t kRegisters = sizeof(row::kTable) / sizeof(Register);
-/// Size of the table.
 inline constexpr std::uint16_t kTableBytes =
     static_cast<std::uint16_t>(kTable[kRegisters - 1].address + kTable[kRegisters - 1].bytes());
 
@@ -294,7 +291,7 @@ constexpr bool same_name(const char* a, const char* b) {
   return false;
 }
 
-/// Returns nullptr if there is none.
+/// nullptr if there is none.
 constexpr const Register* find(const char* name) {
   for (const Register& each : row::kTable) {
     if (same_name(each.name, name)) return &each;
@@ -302,11 +299,11 @@ constexpr const Register* find(const char* name) {
   return nullptr;
 }
 
-/// A register's rule at run time, without texts, because flash is short.
+/// A register without texts, because flash is short.
 struct Rule {
   std::uint16_t address = 0;
   std::uint8_t count = 0;
-  std::uint8_t size : 4 = 0;  ///< of one element
+  std::uint8_t size : 4 = 0;  ///< one element's
   Access access : 2 = Access::kRead;
   bool is_text : 1 = false;
   std::int16_t minimum = 0;
@@ -353,7 +350,7 @@ consteval bool rules_hold_all() {
 }
 static_assert(rules_hold_all(), "a register is longer, or has other bounds, than Rule can say");
 
-/// The rule of the element that begins at `address`; nullptr if none does.
+/// The element that begins at `address`; else nullptr.
 constexpr const Rule* rule_at(std::uint16_t address) {
   std::size_t low = 0, high = kRegisters;  // the last at or before `address` is in [low, high)
   while (high - low > 1) {

@@ -4,29 +4,27 @@
 
 #include "common/protocol/dynamixel2.hpp"
 
-/// The device side of Protocol 2.0 common to all devices: its part of a packet, and whether a write
-/// is allowed. Rules from the e-Manual.
+/// Protocol 2.0 on the device side. Rules from the e-Manual.
 namespace verp::dxl {
 
-/// A Sync or Bulk Read, fast or not, for one device.
+/// One device's part of a Sync or Bulk Read.
 struct ReadEntry {
   std::uint8_t id = 0;
   std::uint16_t address = 0;
   std::uint16_t length = 0;
 };
-/// Entry `index` of such a read, in order of the answers. False if there is none, or the packet is
-/// malformed or of another kind.
+/// In order of the answers. False if there is none, or the packet is malformed or of another kind.
 bool read_entry(const Packet& packet, std::size_t index, ReadEntry& entry);
 
-/// A Sync or Bulk Write for one device.
+/// One device's part of a Sync or Bulk Write.
 struct WriteEntry {
   std::uint8_t id = 0;
   std::uint16_t address = 0;
   const std::uint8_t* data = nullptr;
   std::size_t size = 0;
 };
-/// The entry at `offset` of such a write; advances `offset`, which starts at 0. False if there are
-/// no more, or the packet is of another kind.
+/// The entry at `offset`, from 0; advances it. False if there are no more, or the packet is of
+/// another kind.
 bool write_entry(const Packet& packet, std::size_t& offset, WriteEntry& entry);
 
 constexpr bool is_fast_read(Instruction instruction) {
@@ -47,14 +45,14 @@ constexpr std::int64_t register_value(const std::uint8_t* bytes, unsigned size, 
 }
 
 struct WriteRule {
-  std::uint8_t size = 0;  ///< bytes of the register that begins there; 0: none
+  std::uint8_t size = 0;  ///< the register that begins there; 0: none
   bool writable = false;
-  std::int64_t minimum = 0;  ///< a negative minimum makes the register signed
+  std::int64_t minimum = 0;  ///< negative: a signed register
   std::int64_t maximum = 0;
 };
 
-/// kNone if the `size` bytes at `address` cover whole, writable registers with values in range.
-/// `rule_at(address)` returns the present WriteRule.
+/// kNone if the bytes cover whole, writable registers with values in range. `rule_at(address)`
+/// returns the present WriteRule.
 template <class RuleAt>
 constexpr Error check_write(std::uint16_t address, const std::uint8_t* data, std::size_t size,
                             RuleAt&& rule_at) {

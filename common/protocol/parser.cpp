@@ -31,7 +31,7 @@ bool Parser::next() {
   }
 }
 
-/// True if the bytes there match a header, as far as they go.
+/// As far as the bytes go.
 bool Parser::may_begin_at(std::size_t offset) const {
   const std::uint8_t* from = buffer_ + begin_ + offset;
   for (std::size_t i = 0; i < sizeof kHeader && offset + i < size_; ++i) {
@@ -59,7 +59,6 @@ Parser::Look Parser::look() {
   return Look::kPacket;
 }
 
-/// Moves on to the next possible packet.
 void Parser::search_on() {
   std::size_t offset = 1;
   while (offset < size_ && !may_begin_at(offset)) ++offset;
@@ -75,7 +74,7 @@ void Parser::drop(std::size_t count) {
   begin_ = size_ == 0 ? 0 : begin_ + count;
 }
 
-/// begin_ is above 0: a packet at the buffer's front is complete when it is full.
+/// begin_ is above 0: a packet at the front is complete when the buffer is full.
 void Parser::make_room() {
   for (std::size_t i = 0; i < size_; ++i) buffer_[i] = buffer_[begin_ + i];
   begin_ = 0;

@@ -1,24 +1,23 @@
 #pragma once
 #include <cstdint>
 
-/// The interface between firmware/boot and a board image. Boot covers vectors, memory, FPU, stack
-/// measurement and fault capture for every core; it uses no peripheral.
+/// Between firmware/boot and a board image. Boot uses no peripheral.
 namespace verp::boot {
 
-/// A fault as the core reports it (ARMv7-M ARM, B1.5 and B3.2.15).
+/// ARMv7-M ARM, B1.5 and B3.2.15.
 struct FaultReport {
-  std::uint32_t pc = 0;  ///< faulting instruction; 0 after a stack overflow, which saves nothing
+  std::uint32_t pc = 0;  ///< 0 after a stack overflow, which saves nothing
   std::uint32_t lr = 0;
   std::uint32_t cause = 0;    ///< CFSR
-  std::uint32_t address = 0;  ///< BFAR or MMFAR, if the cause says it is valid
+  std::uint32_t address = 0;  ///< BFAR or MMFAR, if valid by the cause
   bool stack_overflow = false;
 };
 
 }  // namespace verp::boot
 
-/// The image's main function. Its result goes to verp_exit().
+/// The result goes to verp_exit().
 extern "C" int verp_main();
-/// Called after verp_main(): an emulator exits, a robot resets.
+/// An emulator exits, a robot resets.
 extern "C" [[noreturn]] void verp_exit(int status);
-/// The board's fault handler; runs on a fresh stack.
+/// Runs on a fresh stack.
 extern "C" [[noreturn]] void verp_fault(const verp::boot::FaultReport& report);

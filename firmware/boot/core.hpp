@@ -1,11 +1,10 @@
 #pragma once
 
-/// Functions that each core family implements in firmware/boot/<family>. Its entry sets the stack
-/// pointer and calls verp_reset().
+/// Implemented in firmware/boot/<family>, whose entry sets the stack pointer and calls
+/// verp_reset().
 namespace verp::boot {
 
-/// Called first: enables float instructions and routes faults to verp_fault(). Code before it may
-/// use neither.
+/// Called first: enables float instructions and routes faults to verp_fault().
 void enable_core();
 
 }  // namespace verp::boot

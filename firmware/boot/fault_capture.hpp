@@ -4,8 +4,8 @@
 #include "firmware/boot/boot.hpp"
 #include "firmware/boot/stack.hpp"
 
-/// C++ continuation of a family's fault entry, on a fresh stack, with the registers at the fault.
-/// For families whose hardware saves nothing on the stack.
+/// Runs on a fresh stack, with the registers at the fault. For families whose hardware saves
+/// nothing on the stack.
 extern "C" __attribute__((used)) [[noreturn]] void verp_fault_capture(std::uint32_t pc,
                                                                       std::uint32_t lr,
                                                                       std::uint32_t cause,

@@ -11,7 +11,7 @@ std::uintptr_t stack_limit() {
   return reinterpret_cast<std::uintptr_t>(verp_stack_limit);
 }
 
-// Read in each round: before the loop the compiler may not have pushed all saved registers.
+// In each round: the compiler may push registers late.
 __attribute__((always_inline)) static inline std::uintptr_t stack_pointer() {
   std::uintptr_t sp;
 #ifdef __riscv
@@ -23,8 +23,7 @@ __attribute__((always_inline)) static inline std::uintptr_t stack_pointer() {
 }
 
 __attribute__((noinline)) std::uintptr_t paint_stack() {
-  // Volatile: the compiler must neither drop the stores nor replace them by a call, which needs
-  // this stack.
+  // Volatile: the compiler must not call a function, which needs this stack.
   volatile std::uint32_t* word = verp_stack_limit;
   while (reinterpret_cast<std::uintptr_t>(word) < stack_pointer()) *word++ = kPattern;
   return stack_pointer();

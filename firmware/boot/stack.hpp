@@ -2,20 +2,19 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Measures stack depth: startup fills the stack with a pattern; whatever differs was used.
+/// Startup fills the stack with a pattern; whatever differs was used.
 namespace verp::boot {
 
-/// Lowest address of the stack.
 std::uintptr_t stack_limit();
 
-/// Call at start. Forbids access to the 32 bytes below the stack, so that an overflow faults at
-/// once. False: no memory protection unit; the stack then ends with RAM.
+/// At start: forbids the 32 bytes below the stack, so that an overflow faults at once. False: no
+/// memory protection unit; the stack then ends with RAM.
 bool guard_stack();
 
-/// Refills the stack below the caller's frame and returns the address from which depth counts.
+/// Below the caller's frame; depth counts from the result.
 std::uintptr_t paint_stack();
 
-/// Deepest use below `from`, in bytes, since it was last painted.
+/// Bytes, since last painted.
 std::size_t stack_used_below(std::uintptr_t from);
 
 }  // namespace verp::boot

@@ -4,8 +4,7 @@
 #include "firmware/boot/core.hpp"
 #include "firmware/boot/stack.hpp"
 
-/// From the core's entry to verp_main(): FPU, stack pattern, .data, .bss, constructors. Symbols
-/// from sections.ld.
+/// From the core's entry to verp_main(). Symbols from sections.ld.
 extern "C" {
 extern const std::uint32_t verp_data_image[];
 extern std::uint32_t verp_data_begin[];
@@ -19,8 +18,7 @@ extern const Constructor verp_init_end[];
 
 namespace {
 
-// Volatile keeps the compiler from calling memcpy and memset, which need not work yet on every
-// core.
+// Volatile: memcpy and memset need not work yet on every core.
 void fill_memory() {
   const volatile std::uint32_t* from = verp_data_image;
   for (volatile std::uint32_t* to = verp_data_begin; to != verp_data_end; ++to) *to = *from++;

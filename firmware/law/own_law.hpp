@@ -11,11 +11,10 @@
 namespace verp::app {
 
 /// A user's controller in the core's place, on a board as on the PC. Each tick calls `Controller`
-/// with Params, the core's State, Inputs and the previous tick's Outputs; its other memory is its
-/// own.
+/// with Params, the core's State, Inputs and the previous Outputs; its other memory is its own.
 ///
-/// A goal outside its joint's range (also from a NaN) is not sent: the joint keeps its previous
-/// goal, or stays limp. The digest covers what is sent, in addition to the core's part.
+/// A goal outside its joint's range (also NaN) is not sent: the joint keeps its previous goal, or
+/// stays limp. The digest covers what is sent.
 template <class Controller>
 class OwnLaw {
  public:
@@ -28,7 +27,7 @@ class OwnLaw {
       refused_ = joint;
       refused_count_ = outputs.goal_count[joint];
       outputs.goal_count[joint] = before.goal_count[joint];
-      // A limp joint has no previous goal and stays limp.
+      // A limp joint stays limp.
       const std::uint32_t bit = 1U << joint;
       if ((before.torque_enable & bit) == 0) outputs.torque_enable &= ~bit;
     }
@@ -38,12 +37,12 @@ class OwnLaw {
   }
 
   static constexpr int kNone = -1;
-  /// The first joint whose goal was refused in the last tick, and that goal.
+  /// In the last tick.
   int refused() const { return refused_; }
   std::int32_t refused_count() const { return refused_count_; }
 
  private:
-  /// Margin beyond the range: as much as the core's own goals use against gravity's sag.
+  /// As the core's own goals use against sag.
   static constexpr float kSlack_rad = 0.1F;
 
   static bool is_sound(const JointParams& joint, int index, const Outputs& outputs) {
@@ -57,7 +56,7 @@ class OwnLaw {
   std::int32_t refused_count_ = 0;
 };
 
-/// A joint's goal in counts. NaN becomes a value that OwnLaw refuses.
+/// In counts. OwnLaw refuses a NaN's.
 inline std::int32_t goal_of(const JointParams& joint, float rad) {
   return rad == rad ? model::count_of(joint, rad) : std::numeric_limits<std::int32_t>::min();
 }

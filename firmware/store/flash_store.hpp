@@ -6,26 +6,26 @@
 #include "hal/contract/flash_pages.hpp"
 #include "hal/contract/store.hpp"
 
-/// A board's Store: a log in one of two flash pages. Values are appended. When the page is full,
-/// the live values move to the other page; its header, written last, completes the change.
+/// A board's Store: a log in one of two flash pages. When it is full, the live values move to the
+/// other page; its header, written last, completes the change.
 ///
-/// Power cuts are safe because only the last unit written can be unsure. open() settles it before
-/// any read. A complete last record is programmed again, which makes it firm; an incomplete one is
-/// zeroed from its end. The slot behind the log may only look erased, so the first append skips it.
-/// The header of an invalid page is spoilt until the page is erased in the same session.
+/// Power cuts: only the last unit written can be unsure. open() settles it before any read: a
+/// complete last record is programmed again, which makes it firm; an incomplete one is zeroed from
+/// its end. The slot behind the log may only look erased, so the first append skips it. An invalid
+/// page's header is spoilt until the page is erased.
 namespace verp::store {
 
 /// One work() programs at most kSlotsPerWork * kSlot bytes, plus four slots at a page change, or
-/// one record when it undoes a failed write. Capacity: kMaxKeys values of up to kMaxValue bytes;
-/// together, the smaller page less two records.
+/// one record after a failed write. Capacity: kMaxKeys values of up to kMaxValue bytes; together,
+/// the smaller page less two records.
 template <hal::FlashPages Flash, std::size_t kMaxKeys = 32, std::size_t kMaxValue = 256,
           std::size_t kSlotsPerWork = 4>
 class FlashStore {
  public:
   explicit FlashStore(Flash& flash) : page_{Page<Flash>(flash, 0), Page<Flash>(flash, 1)} {}
 
-  /// Call once, first. Settles the effects of a power cut, which may program up to a record; erases
-  /// nothing. Pages without a log are an empty store.
+  /// First, once. Settles a power cut, which may program a record; erases nothing. Pages without a
+  /// log are an empty store.
   void open() {
     const PageHeader header[2] = {page_[0].header(), page_[1].header()};
     const bool valid[2] = {is_valid(header[0]), is_valid(header[1])};
@@ -37,7 +37,7 @@ class FlashStore {
     page_[1 - active_].spoil_header();
     scan();
     tail_unsure_ = true;
-    // If a unit can hold a whole record, a slot that reads erased now may read as a value later.
+    // A slot that reads erased now may read as a value later.
     if (Flash::kUnit == kSlot && tail_ < page_[active_].bytes()) give_tail_slot_up();
   }
 
@@ -75,8 +75,8 @@ class FlashStore {
     return written_ > 0 || fits() ? append() : begin_move(may_erase);
   }
 
-  /// Lends the page without the log while lent() is true. work() takes it back when the log needs
-  /// it; open() spoils only a page's header.
+  /// Lends the page without the log while lent() is true; work() takes it back when the log needs
+  /// it.
   std::size_t lend_spare() {
     while (moving_) move();
     other_erased_ = false;
@@ -84,10 +84,9 @@ class FlashStore {
     return other();
   }
   bool lent() const { return lent_; }
-  /// Damaged records that open() found within the log: the flash lost bits. Their keys have older
-  /// values or none.
+  /// Records that the flash lost. Their keys have older values or none.
   std::uint32_t damaged() const { return damaged_; }
-  /// Bytes left before the next erase.
+  /// Room before the next erase.
   std::size_t free_bytes() const { return active_ == kNone ? 0 : page_[active_].bytes() - tail_; }
 
  private:
@@ -111,7 +110,7 @@ class FlashStore {
     for (std::size_t i = 0; i < count_; ++i) bytes += record_size(entry_[i]);
     return bytes;
   }
-  /// Old and new value must fit one page together; removing a key always fits.
+  /// Old and new value must fit one page; removing a key always fits.
   bool has_room(std::uint16_t key, std::size_t size) const {
     if (size == 0) return true;
     if (find(key) == kMaxKeys) return false;
@@ -129,7 +128,7 @@ class FlashStore {
     }
     return true;
   }
-  /// Makes the record at `offset` the value of its key.
+  /// A key's newest record.
   void note(const RecordHeader& header, std::size_t offset) {
     const std::size_t i = find(header.key);
     if (header.size == 0) {
@@ -147,7 +146,7 @@ class FlashStore {
     tail_ = page.bytes();
     while (tail_ > kFirst && page.slot_is(tail_ - kSlot, 0xFF)) tail_ -= kSlot;
     std::size_t at = kFirst;
-    std::size_t garbage = 0;  // where invalid data began; 0: none
+    std::size_t garbage = 0;  // begin of invalid data; 0: none
     std::size_t last = kFirst;
     std::size_t last_end = kFirst;
     while (at < tail_) {
@@ -171,7 +170,7 @@ class FlashStore {
       return;
     }
     tail_ = at;
-    if (last_end < tail_) last = tail_ - kSlot;  // the log ends with a void slot
+    if (last_end < tail_) last = tail_ - kSlot;  // a void slot ends the log
     for (; last < tail_; last += kSlot) page.make_firm(last);
   }
   void give_tail_slot_up() {
@@ -217,15 +216,15 @@ class FlashStore {
     return failed();
   }
 
-  /// Counts a flash failure; after kMostFailures it drops the new value.
+  /// After kMostFailures it drops the new value.
   hal::WorkState failed() {
     if (++failures_ < kMostFailures) return hal::WorkState::kWorking;
     pending_ = false;
     return hal::WorkState::kFailed;
   }
 
-  // When idle with torque off, moves a nearly full page with enough old values, so that an update
-  // while walking finds room.
+  // When idle with torque off: moves a nearly full page, so that an update while walking finds
+  // room.
   bool worth_moving() const {
     if (active_ == kNone || failures_ >= kMostFailures) return false;
     const std::size_t quarter = page_[active_].bytes() / 4;
@@ -292,14 +291,14 @@ class FlashStore {
   std::size_t count_ = 0;
   std::uint32_t damaged_ = 0;
   int failures_ = 0;
-  bool tail_unsure_ = false;   ///< a power cut may have hit the slot at tail_
-  bool other_erased_ = false;  ///< in this session, verified
+  bool tail_unsure_ = false;   ///< a power cut may have hit tail_
+  bool other_erased_ = false;  ///< this session, verified
   bool pending_ = false;
   bool moving_ = false;
-  bool lent_ = false;          ///< the other page is lent
-  std::size_t written_ = 0;    ///< bytes of the pending record
+  bool lent_ = false;
+  std::size_t written_ = 0;    ///< of the pending record
   std::size_t moved_ = 0;      ///< entries
-  std::size_t copied_ = 0;     ///< bytes of the next entry
+  std::size_t copied_ = 0;     ///< of the next entry
   std::size_t move_tail_ = 0;  ///< in the other page
   Entry entry_[kMaxKeys] = {};
   std::uint32_t new_offset_[kMaxKeys] = {};

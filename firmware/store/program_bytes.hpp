@@ -6,9 +6,9 @@
 
 namespace verp::store {
 
-/// Programs `size` bytes from `offset` and verifies them. A unit may be programmed in parts: bytes
-/// outside the range stay. Calls `idle()` after each unit, because all units may take longer than
-/// the watchdog's timeout. False: no room, or the memory did not take them (not erased, or worn).
+/// Programs `size` bytes from `offset` and verifies them; other bytes of a unit stay. Calls
+/// `idle()` after each unit, for the watchdog. False: no room, or the memory did not take them (not
+/// erased, or worn).
 template <hal::FlashPages Flash, class Idle>
 bool program_bytes(Flash& flash, std::size_t page, std::size_t offset, const std::uint8_t* from,
                    std::size_t size, Idle&& idle) {

@@ -6,18 +6,17 @@
 #include "common/base/fields.hpp"
 #include "hal/contract/flash_pages.hpp"
 
-/// Page layout of the flash store, in slots of kSlot bytes: two slots of PageHeader, then records.
-/// A record is a slot of RecordHeader and the value, padded with 0xFF. A zero slot is void: no
-/// header is 0. All integers are little-endian.
+/// Page layout in slots of kSlot bytes: two slots of PageHeader, then records: RecordHeader and the
+/// value, padded with 0xFF. A zero slot is void. Little-endian.
 namespace verp::store {
 
-inline constexpr std::size_t kSlot = 8;  ///< bytes; the largest programming unit
+inline constexpr std::size_t kSlot = 8;  ///< largest programming unit, bytes
 
-/// A page with a correct header is valid; of two, the higher sequence wins.
+/// Correct: the page is valid; of two, the higher sequence wins.
 struct PageHeader {
   std::uint32_t magic = kMagic;
-  std::uint32_t sequence = 0;  ///< increases by one with each new page
-  std::uint32_t crc32 = 0;     ///< of magic and sequence
+  std::uint32_t sequence = 0;  ///< one more with each new page
+  std::uint32_t crc32 = 0;     ///< magic and sequence
   std::uint32_t crc32_inverse = 0;
   VERP_FIELDS(magic, sequence, crc32, crc32_inverse)
   static constexpr std::uint32_t kMagic = 0x53505256;  ///< "VRPS"
@@ -39,8 +38,8 @@ inline bool is_valid(const PageHeader& header) {
 
 struct RecordHeader {
   std::uint16_t key = 0;
-  std::uint16_t size = 0;   ///< of the value in bytes; 0 removes the key
-  std::uint32_t crc32 = 0;  ///< of key, size and value
+  std::uint16_t size = 0;   ///< bytes; 0 removes the key
+  std::uint32_t crc32 = 0;  ///< key, size and value
   VERP_FIELDS(key, size, crc32)
 };
 VERP_PACKED(RecordHeader);
@@ -49,7 +48,7 @@ static_assert(sizeof(RecordHeader) == kSlot && sizeof(PageHeader) == 2 * kSlot);
 constexpr std::size_t slots_bytes(std::size_t bytes) {
   return (bytes + kSlot - 1) / kSlot * kSlot;
 }
-/// Page bytes that a value of `size` bytes takes.
+/// Header and padding included.
 constexpr std::size_t record_bytes(std::size_t size) {
   return sizeof(RecordHeader) + slots_bytes(size);
 }
@@ -64,7 +63,7 @@ inline bool is_all(const std::uint8_t* slot, std::uint8_t byte) {
   return true;
 }
 
-/// A page, accessed by slots.
+/// By slots.
 template <hal::FlashPages Flash>
 class Page {
  public:
@@ -80,7 +79,7 @@ class Page {
     read(offset, slot, kSlot);
     return is_all(slot, byte);
   }
-  /// Skips units that stay erased. False: the flash failed.
+  /// Skips erased units. False: the flash failed.
   bool program(std::size_t offset, const std::uint8_t* slot) const {
     for (std::size_t i = 0; i < kSlot; i += Flash::kUnit) {
       bool blank = true;
@@ -93,11 +92,11 @@ class Page {
     constexpr std::uint8_t kZeros[kSlot] = {};
     return program(offset, kZeros);
   }
-  /// Goes backwards, so that a cut leaves no header of a half-erased record.
+  /// Backwards: a cut leaves no header of a half-erased record.
   void make_void(std::size_t from, std::size_t to) const {
     while (to > from) make_void(to -= kSlot);
   }
-  /// Programs the contents again, which makes its zeros firm: a cut slot keeps what it reads now.
+  /// Programs again: a cut slot keeps what it reads now.
   bool make_firm(std::size_t offset) const {
     std::uint8_t slot[kSlot] = {};
     read(offset, slot, kSlot);
@@ -122,13 +121,13 @@ class Page {
     __builtin_memcpy(slots, &header, sizeof header);
     return program(0, slots) && program(kSlot, slots + kSlot);
   }
-  /// Invalidates the header, whatever it reads.
+  /// Also where it reads as erased.
   void spoil_header() const {
     make_void(kSlot);
     make_void(0);
   }
 
-  /// Whether a complete record of at most `max_value` bytes begins at `offset`.
+  /// A complete record of at most `max_value` bytes.
   bool record_at(std::size_t offset, std::size_t max_value, RecordHeader& header) const {
     read(offset, &header, sizeof header);
     if (header.key == 0 || header.size > max_value ||

@@ -9,19 +9,18 @@
 #include "firmware/store/record.hpp"
 #include "hal/contract/flash_pages.hpp"
 
-/// Two images in one flash page, robot and actions, that can only be erased together. The new
-/// contents are first written to another page at an offset, then a note in front of them completes
-/// the request. From then on the copy home finishes despite power cuts: now, or at the next start.
-/// Before that, home is untouched.
+/// Two images in one flash page, robot and actions. New contents are first written to another page;
+/// a note in front of them completes the request. From then on the copy home finishes despite power
+/// cuts, now or at the next start. Before that, home is untouched.
 namespace verp::store {
 
-/// FlashPages that the processor can read as memory: memory(page) is a page's address.
+/// memory(page): its address for the processor.
 template <class Flash>
 concept MappedPages = hal::FlashPages<Flash> && requires(const Flash& flash, std::size_t page) {
   { flash.memory(page) } -> std::same_as<const std::uint8_t*>;
 };
 
-/// The bytes of a page that count.
+/// Bytes that count.
 struct Layout {
   std::uint32_t first_bytes = 0;
   std::uint32_t second = 0;  ///< offset of the second image
@@ -33,11 +32,11 @@ struct Layout {
   }
 };
 
-/// Note in front of the waiting contents, behind a possible log header (record.hpp).
+/// In front of the waiting contents, behind a log header (record.hpp).
 struct WaitingNote {
   std::uint32_t magic = kMagic;
   Layout layout;
-  std::uint32_t crc32 = 0;  ///< of magic and layout
+  std::uint32_t crc32 = 0;  ///< magic and layout
   std::uint32_t crc32_inverse = 0;
   VERP_FIELDS(magic, layout, crc32, crc32_inverse)
   static constexpr std::uint32_t kMagic = 0x57505256;  ///< "VRPW"
@@ -61,7 +60,6 @@ bool write_note(Flash& flash, std::size_t page, const WaitingNote& note, Idle&& 
                        sizeof note, idle);
 }
 
-/// Whether complete contents wait in that page.
 template <hal::FlashPages Flash>
 bool read_note(const Flash& flash, std::size_t page, WaitingNote& note) {
   flash.read(page, kNoteAt, reinterpret_cast<std::uint8_t*>(&note), sizeof note);
@@ -70,15 +68,14 @@ bool read_note(const Flash& flash, std::size_t page, WaitingNote& note) {
          note.layout.fits(flash.page_bytes(page) - kBehindNote);
 }
 
-/// Copies waiting contents from one of the pages of `other` to page 0 of `home`. Takes seconds, in
-/// which the processor may stall. True if anything waited: home has changed. The reader's own check
-/// (CRC) detects a memory failure.
+/// From a page of `other` to page 0 of `home`. Takes seconds, in which the processor may stall.
+/// True if anything waited: home has changed. The reader's CRC detects a memory failure.
 template <hal::FlashPages Home, MappedPages Other, class Idle>
 bool finish_waiting(Home& home, Other& other, Idle&& idle) {
   for (std::size_t page = 0; page < 2; ++page) {
     WaitingNote note;
     if (!read_note(other, page, note)) continue;
-    write_note(other, page, note, idle);  // makes firm a note that a cut left unsure
+    write_note(other, page, note, idle);  // a cut may have left it unsure
     const Layout& layout = note.layout;
     const std::uint8_t* from = other.memory(page) + kBehindNote;
     if (home.erase(0) && program_bytes(home, 0, 0, from, layout.first_bytes, idle)) {
@@ -91,22 +88,21 @@ bool finish_waiting(Home& home, Other& other, Idle&& idle) {
   return false;
 }
 
-/// Where new images wait: the page that FlashStore does not use. The log has priority: if it needs
-/// the page, the waiting contents are lost.
+/// New images wait in the page that FlashStore does not use. If the log needs it, they are lost.
 template <MappedPages Home, MappedPages Other, class Log>
 class WaitingRoom {
  public:
-  /// The second image is at `second` in page 0 of `home`, with `second_room` bytes.
+  /// The second image is at `second` in page 0 of `home`.
   WaitingRoom(Home& home, std::size_t second, std::size_t second_room, Other& other, Log& log)
       : home_(home), other_(other), log_(log), second_(second), second_room_(second_room) {}
 
-  // The place of a new second image (app::ActionPlace).
+  // app::ActionPlace.
   std::size_t room() const {
     const std::size_t most = other_.page_bytes(page_) - kBehindNote - second_;
     return second_room_ < most ? second_room_ : most;
   }
   const std::uint8_t* bytes() const { return other_.memory(page_) + kBehindNote + second_; }
-  /// Makes room for a new image. Does not trust an erase before this start: power may have failed.
+  /// Does not trust an erase before this start: power may have failed.
   void begin() {
     if (!log_.lent()) {
       page_ = log_.lend_spare();
@@ -115,15 +111,14 @@ class WaitingRoom {
     wanted_ = page_state_ == PageState::kUsed;
   }
   bool ready() const { return !wanted_; }
-  /// Writes a block within the room, in any order; repeating a write is allowed. False: the memory
-  /// failed, or the log took the page.
+  /// In any order, repeats allowed. False: the memory failed, or the log took the page.
   bool write(std::size_t offset, const std::uint8_t* from, std::size_t count) {
     const bool erased = page_state_ != PageState::kBad;
     page_state_ = PageState::kUsed;
     return erased && log_.lent() &&
            program_bytes(other_, page_, kBehindNote + second_ + offset, from, count, [] {});
   }
-  /// Call regularly: performs a wanted erase when torque is off. An erase stops the processor.
+  /// Performs a wanted erase when torque is off: it stops the processor.
   void work(bool may_erase) {
     if (!wanted_ || !may_erase) return;
     wanted_ = false;
@@ -131,8 +126,8 @@ class WaitingRoom {
   }
 
   /// Replaces the first image by `first`, unless nullptr, and the second by `taken` bytes of the
-  /// one written here, unless 0. The rest stays: of the second image, `kept` bytes. Nothing else
-  /// may run afterwards: reset next. False: home is unchanged.
+  /// one written here, unless 0; else `kept` bytes of it stay. Reset next: nothing else may run.
+  /// False: home is unchanged.
   template <class Idle>
   bool replace(const std::uint8_t* first, std::size_t first_bytes, std::size_t taken,
                std::size_t kept, Idle&& idle) {
@@ -155,8 +150,8 @@ class WaitingRoom {
  private:
   enum class PageState : std::uint8_t {
     kUsed,
-    kBlank,  ///< erased since the start, verified, not written
-    kBad,    ///< erase failed
+    kBlank,  ///< verified, not written
+    kBad,
   };
   bool erase() {
     const bool good = Page<Other>(other_, page_).erase();

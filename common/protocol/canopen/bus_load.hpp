@@ -4,21 +4,19 @@
 #include "common/protocol/canopen/frame.hpp"
 
 /// Bits of a frame on the wire, and a bus's load (ISO 11898-1). A stuff bit follows five equal bits
-/// and may be the first of the next five: at worst one after the first five bits, then one each
-/// four.
+/// and may begin the next five: at worst one after five bits, then one each four.
 ///
 ///     classic   header 19 (39) | data | CRC 15 || delimiters, ACK, end 10 | intermission 3
 ///     FD        header 22 (41) | data || stuff count 4, CRC 17 (21), fixed stuff bits 6 (7) |
 ///               delimiters, ACK, end 10 | intermission 3
 ///
-/// In brackets: 29-bit identifiers; FD with more than 16 bytes. Stuffing ends at the double line;
-/// FD has fixed stuff bits behind it.
+/// In brackets: 29-bit identifiers; FD with more than 16 bytes. Stuffing ends at the double line.
 namespace verp::canopen {
 
-/// Stuff bits: none, mean for random bits, maximum.
+/// None, mean of random bits, maximum.
 enum class Stuffing : std::uint8_t { kNone, kExpected, kWorst };
 
-/// The two phases of an FD frame that switches its rate.
+/// The phases of an FD frame that switches its rate.
 struct FrameBits {
   std::uint32_t nominal = 0;
   std::uint32_t data = 0;
@@ -45,8 +43,8 @@ constexpr std::uint32_t worst_stuff_bits(std::uint32_t bits) {
   return bits < 5 ? 0 : (bits - 1) / 4;
 }
 
-/// A random bit, like a stuff bit, starts a new run or continues one; from there to five equal bits
-/// takes 2 + 4 + 8 + 16 bits on average.
+/// A random bit starts or continues a run; from there to five equal bits takes 2 + 4 + 8 + 16 bits
+/// on average.
 constexpr std::uint32_t stuff_bits(std::uint32_t bits, Stuffing stuffing) {
   constexpr std::uint32_t kBetweenTwo = 30;
   switch (stuffing) {
@@ -60,14 +58,14 @@ constexpr std::uint32_t stuff_bits(std::uint32_t bits, Stuffing stuffing) {
   return 0;
 }
 
-/// Data frame with `size` bytes and the intermission.
+/// With the intermission.
 constexpr FrameBits classic_bits(std::uint8_t size, Stuffing stuffing, bool extended = false) {
   const std::uint32_t stuffed = (extended ? 39u : 19u) + 8u * size + 15u;
   return {stuffed + stuff_bits(stuffed, stuffing) + kFrameEndBits + kIntermissionBits, 0};
 }
 
-/// Frame with room for `size` bytes and the intermission. `switched`: from after BRS to the CRC
-/// delimiter at the data rate; these two, where the rate changes, count as nominal.
+/// With room for `size` bytes and the intermission. `switched`: data rate from after BRS to the CRC
+/// delimiter; these two count as nominal.
 constexpr FrameBits fd_bits(std::size_t size, Stuffing stuffing, bool switched,
                             bool extended = false) {
   const std::uint32_t bytes = can_fd_size(size);
@@ -75,7 +73,7 @@ constexpr FrameBits fd_bits(std::size_t size, Stuffing stuffing, bool switched,
   const std::uint32_t stuffed_data = 5 + 8 * bytes;      // ESI, data length code, data
   const std::uint32_t crc = bytes > 16 ? 4 + 21 + 7 : 4 + 17 + 6;
   const std::uint32_t arbitration_stuff = stuff_bits(arbitration, stuffing);
-  // At the very end it would be the CRC field's first fixed one.
+  // At the very end it is the CRC field's.
   const std::uint32_t data_stuff =
       stuff_bits(arbitration + stuffed_data - 1, stuffing) - arbitration_stuff;
   const std::uint32_t slow = arbitration + arbitration_stuff + kFrameEndBits + kIntermissionBits;
@@ -88,10 +86,10 @@ constexpr FrameBits frame_bits(const Frame& frame, Stuffing stuffing) {
   return classic_bits(frame.remote ? std::uint8_t{0} : frame.size, stuffing, frame.extended);
 }
 
-/// With the stuff bits that this frame causes. FD as sent by an error-active node.
+/// With its stuff bits. FD as sent by an error-active node.
 FrameBits exact_bits(const Frame& frame);
 
-/// Polynomial 4599h over all bits from start of frame to data.
+/// Polynomial 4599h, from start of frame to data.
 std::uint16_t classic_crc(const Frame& frame);
 
 /// Bit/s. FD frames that switch use `data`.
@@ -99,13 +97,13 @@ struct BitRates {
   std::uint32_t nominal = 1'000'000;
   std::uint32_t data = 1'000'000;
 };
-/// Duration, rounded up.
+/// Rounded up.
 constexpr std::uint64_t wire_time_ns(const FrameBits& bits, const BitRates& rates) {
   constexpr std::uint64_t kSecond = 1'000'000'000;
   return (bits.nominal * kSecond + rates.nominal - 1) / rates.nominal +
          (bits.data * kSecond + rates.data - 1) / rates.data;
 }
-/// Busy share of a bus with `bits` each `period_us`, in thousandths, rounded up.
+/// Thousandths of a bus with `bits` each `period_us`, rounded up.
 constexpr std::uint32_t load_permille(const FrameBits& bits, const BitRates& rates,
                                       std::uint32_t period_us) {
   return static_cast<std::uint32_t>((wire_time_ns(bits, rates) + period_us - 1) / period_us);

@@ -10,8 +10,7 @@ struct Row {
   State next;
 };
 
-// CiA 402's transitions without 13, from every state, and 12 and 16, which depend on the quick stop
-// option code.
+// Without 13, from every state, and 12 and 16, which depend on the quick stop option code.
 constexpr Row kRows[] = {
     {1, State::kNotReady, Trigger::kInitialised, State::kSwitchOnDisabled},
     {2, State::kSwitchOnDisabled, Trigger::kShutdown, State::kReadyToSwitchOn},
@@ -80,7 +79,7 @@ std::uint8_t Drive::event(Trigger trigger, std::int16_t quick_stop_option) {
 std::uint8_t Drive::connection_lost(AbortConnection option, std::int16_t quick_stop_option) {
   switch (option) {
     case AbortConnection::kFault:
-      // Leaves no cause, so the next reset clears it.
+      // The next reset clears it.
       return apply(Trigger::kFault, quick_stop_option);
     case AbortConnection::kDisableVoltage:
       return apply(Trigger::kDisableVoltage, quick_stop_option);
@@ -97,7 +96,7 @@ void EnableSequence::begin(std::uint64_t now_us) {
   since_us_ = now_us;
 }
 
-// A reset is an edge: a word without the bit comes between two. False after too many.
+// A reset is an edge. False after too many.
 bool EnableSequence::reset_fault(std::uint64_t now_us) {
   if (word_ == kWordFaultReset) {
     if (now_us >= reset_us_ + kResetUs) word_ = kWordDisableVoltage;
@@ -131,7 +130,7 @@ EnableSequence::Result EnableSequence::update(std::uint16_t statusword, std::uin
       break;
     case State::kNotReady:
     case State::kFaultReactionActive:
-    case State::kQuickStopActive:  // leaves this state with every option code
+    case State::kQuickStopActive:  // leaves it with every option code
       word_ = kWordDisableVoltage;
       break;
   }

@@ -1,8 +1,8 @@
 #pragma once
 #include <cstdint>
 
-/// State machine of drives, CiA 402 (IEC 61800-7-201): controlword (6040h) and statusword (6041h),
-/// both sides. Transitions have the standard's numbers.
+/// Drives' state machine, CiA 402 (IEC 61800-7-201): controlword (6040h) and statusword (6041h),
+/// both sides, with the standard's transition numbers.
 namespace verp::canopen::cia402 {
 
 enum class State : std::uint8_t {
@@ -25,11 +25,11 @@ inline constexpr std::uint16_t kBitQuickStop = 1 << 2;  ///< 0 stops
 inline constexpr std::uint16_t kBitEnableOperation = 1 << 3;
 inline constexpr std::uint16_t kBitFaultReset = 1 << 7;  ///< effective on its rising edge
 
-// Controlwords that a master sends.
+// From a master.
 inline constexpr std::uint16_t kWordDisableVoltage = 0x0000;
 inline constexpr std::uint16_t kWordQuickStop = 0x0002;
 inline constexpr std::uint16_t kWordShutdown = 0x0006;
-inline constexpr std::uint16_t kWordSwitchOn = 0x0007;  ///< and "disable operation"
+inline constexpr std::uint16_t kWordSwitchOn = 0x0007;  ///< or "disable operation"
 inline constexpr std::uint16_t kWordEnableOperation = 0x000F;
 inline constexpr std::uint16_t kWordFaultReset = 0x0080;
 
@@ -38,10 +38,10 @@ inline constexpr std::uint16_t kVoltageEnabled = 1 << 4;
 inline constexpr std::uint16_t kWarning = 1 << 7;
 inline constexpr std::uint16_t kRemote = 1 << 9;  ///< the drive obeys the controlword
 inline constexpr std::uint16_t kInternalLimit = 1 << 11;
-inline constexpr std::uint16_t kFollowsCommand = 1 << 12;  ///< cyclic modes: the target is used
-inline constexpr std::uint16_t kFollowingError = 1 << 13;  ///< cyclic synchronous position
+inline constexpr std::uint16_t kFollowsCommand = 1 << 12;  ///< cyclic modes
+inline constexpr std::uint16_t kFollowingError = 1 << 13;  ///< cyclic position mode
 
-/// The statusword's state bits (0 to 3, 5, 6).
+/// Bits 0 to 3, 5, 6.
 constexpr std::uint16_t state_bits(State state) {
   constexpr std::uint16_t kBits[kStates] = {0x00, 0x40, 0x21, 0x23, 0x27, 0x07, 0x0F, 0x08};
   return kBits[static_cast<unsigned>(state)];
@@ -67,25 +67,25 @@ constexpr State state_of(std::uint16_t statusword) {
   }
 }
 
-/// A controlword's command or an internal event.
+/// A command or an internal event.
 enum class Trigger : std::uint8_t {
   kShutdown,
-  kSwitchOn,         ///< if operation is enabled: "disable operation"
-  kEnableOperation,  ///< if not switched on: switch on first
+  kSwitchOn,         ///< or "disable operation"
+  kEnableOperation,  ///< and switch on before
   kDisableVoltage,
   kQuickStop,
   kFaultReset,
-  kNone,         ///< a controlword without a command
-  kInitialised,  ///< this and the following are events
+  kNone,         ///< no command
+  kInitialised,  ///< events from here
   kQuickStopDone,
   kFault,
   kFaultReactionDone,
 };
 
-/// A fault reset is an edge, has priority, and needs the `previous` controlword.
+/// A fault reset is an edge and has priority.
 constexpr Trigger command_of(std::uint16_t controlword, std::uint16_t previous) {
   if ((controlword & ~previous & kBitFaultReset) != 0) return Trigger::kFaultReset;
-  if ((controlword & kBitFaultReset) != 0) return Trigger::kNone;  // other commands have a 0 there
+  if ((controlword & kBitFaultReset) != 0) return Trigger::kNone;  // other commands have a 0
   if ((controlword & kBitEnableVoltage) == 0) return Trigger::kDisableVoltage;
   if ((controlword & kBitQuickStop) == 0) return Trigger::kQuickStop;
   if ((controlword & kBitSwitchOn) == 0) return Trigger::kShutdown;
@@ -93,19 +93,18 @@ constexpr Trigger command_of(std::uint16_t controlword, std::uint16_t previous) 
 }
 
 struct Transition {
-  std::uint8_t number = 0;  ///< the standard's number; 0: no transition
+  std::uint8_t number = 0;  ///< 0: no transition
   State next = State::kNotReady;
 };
-/// `stays_in_quick_stop`: quick stop option code 5 to 8, which waits in kQuickStopActive and may be
-/// enabled from there.
+/// `stays_in_quick_stop`: quick stop option code 5 to 8, which waits in kQuickStopActive.
 Transition transition(State state, Trigger trigger, bool stays_in_quick_stop);
 
-/// Quick stop option code, object 605Ah.
+/// Object 605Ah.
 constexpr bool stays_in_quick_stop(std::int16_t option) {
   return option >= 5 && option <= 8;
 }
 
-/// Abort connection option code, object 6007h: reaction to a lost master heartbeat (1016h) or bus.
+/// Object 6007h: reaction to a lost master heartbeat (1016h) or bus.
 enum class AbortConnection : std::int16_t {
   kNothing = 0,
   kFault = 1,
@@ -117,23 +116,23 @@ enum class AbortConnection : std::int16_t {
 class Drive {
  public:
   State state() const { return state_; }
-  /// True if torque is on.
+  /// True: torque is on.
   bool powered() const {
     return state_ == State::kOperationEnabled || state_ == State::kQuickStopActive ||
            state_ == State::kFaultReactionActive;
   }
-  /// `bits`: those other than the state's.
+  /// `bits`: the other ones.
   std::uint16_t statusword(std::uint16_t bits) const {
     return static_cast<std::uint16_t>((bits & ~0x6F) | state_bits(state_));
   }
 
   /// Call for each controlword, changed or not: 000Fh in kReadyToSwitchOn first switches on, the
-  /// next enables. Returns the transition's number, 0 for none.
+  /// next enables. Returns the transition's number, or 0.
   std::uint8_t control(std::uint16_t controlword, std::int16_t quick_stop_option);
   /// kInitialised, kQuickStopDone, kFault or kFaultReactionDone. A fault cannot be reset before
   /// clear_fault().
   std::uint8_t event(Trigger trigger, std::int16_t quick_stop_option);
-  /// Call when the fault's cause is gone.
+  /// The fault's cause is gone.
   void clear_fault() { fault_present_ = false; }
   std::uint8_t connection_lost(AbortConnection option, std::int16_t quick_stop_option);
 
@@ -144,25 +143,24 @@ class Drive {
   bool fault_present_ = false;
 };
 
-/// The master side: brings a drive to operation enabled from any state, or reports why not.
+/// Brings a drive to operation enabled from any state, or reports why not.
 class EnableSequence {
  public:
   enum class Result : std::uint8_t {
     kBusy,
     kEnabled,
-    kStuck,   ///< a state did not change in time
-    kFaulty,  ///< the fault outlasted kMaxResets resets
+    kStuck,   ///< no change in time
+    kFaulty,  ///< not gone after kMaxResets
   };
   static constexpr std::uint64_t kStateTimeoutUs = 1'000'000;
-  static constexpr std::uint64_t kResetUs = 200'000;  ///< between two resets
+  static constexpr std::uint64_t kResetUs = 200'000;  ///< between resets
   static constexpr std::uint8_t kMaxResets = 3;
 
   void begin(std::uint64_t now_us);
-  /// Takes the statusword; word() is then the controlword to send. A drive that leaves operation is
-  /// not brought back before begin().
+  /// word() is then the controlword to send. A drive that leaves operation is not brought back
+  /// before begin().
   Result update(std::uint16_t statusword, std::uint64_t now_us);
   std::uint16_t word() const { return word_; }
-  /// From the last statusword.
   State state() const { return state_; }
   Result result() const { return result_; }
 

@@ -1,12 +1,11 @@
 #pragma once
 #include <cstdint>
 
-/// Identifiers by CiA 301's generic pre-defined connection set: function code (four bits) and node
-/// id (seven bits).
+/// CiA 301's generic pre-defined connection set: function code (four bits), node id (seven bits).
 namespace verp::canopen {
 
 inline constexpr std::uint8_t kMaxNode = 127;
-inline constexpr std::uint8_t kPdosOfSet = 4;  ///< per direction, with an identifier
+inline constexpr std::uint8_t kPdosOfSet = 4;  ///< per direction
 
 constexpr bool is_node(unsigned node) {
   return node >= 1 && node <= kMaxNode;
@@ -19,19 +18,17 @@ inline constexpr std::uint16_t kTimeId = 0x100;
 constexpr std::uint16_t emcy_id(std::uint8_t node) {
   return static_cast<std::uint16_t>(0x080 + node);
 }
-/// `number` 1 to 4; the device sends it.
+/// `number` 1 to 4; from the device.
 constexpr std::uint16_t tpdo_id(unsigned number, std::uint8_t node) {
   return static_cast<std::uint16_t>(0x080 + 0x100 * number + node);
 }
-/// `number` 1 to 4; the device receives it.
+/// `number` 1 to 4; to the device.
 constexpr std::uint16_t rpdo_id(unsigned number, std::uint8_t node) {
   return static_cast<std::uint16_t>(0x100 + 0x100 * number + node);
 }
-/// From the server (the device).
 constexpr std::uint16_t sdo_response_id(std::uint8_t node) {
   return static_cast<std::uint16_t>(0x580 + node);
 }
-/// To the server.
 constexpr std::uint16_t sdo_request_id(std::uint8_t node) {
   return static_cast<std::uint16_t>(0x600 + node);
 }
@@ -45,9 +42,8 @@ struct SdoChannel {
 constexpr SdoChannel default_sdo(std::uint8_t node) {
   return {sdo_request_id(node), sdo_response_id(node)};
 }
-/// Channel `number`, from 1, in 1201h and on. Only one node of a bus may have any, since two
-/// clients of a channel take each other's answers. The predefined set leaves these identifiers
-/// free.
+/// Channel `number`, from 1, in 1201h and on. Only one node of a bus may have any: two clients of a
+/// channel take each other's answers. The predefined set leaves these identifiers free.
 constexpr SdoChannel further_sdo(unsigned number) {
   return {static_cast<std::uint16_t>(0x6D0 + number), static_cast<std::uint16_t>(0x6C0 + number)};
 }
@@ -56,7 +52,7 @@ constexpr std::uint16_t heartbeat_id(std::uint8_t node) {
 }
 
 enum class Service : std::uint8_t {
-  kOther,  ///< not an identifier of the set
+  kOther,
   kNmt,
   kSync,
   kTime,
@@ -70,12 +66,12 @@ enum class Service : std::uint8_t {
 
 struct Connection {
   Service service = Service::kOther;
-  std::uint8_t node = 0;    ///< 0 for services without one
-  std::uint8_t number = 0;  ///< of a PDO, 1 to 4
+  std::uint8_t node = 0;    ///< 0 without one
+  std::uint8_t number = 0;  ///< PDO, 1 to 4
   constexpr bool operator==(const Connection&) const = default;
 };
 
-/// The service of an 11-bit identifier in the default configuration.
+/// Default configuration, 11 bits.
 constexpr Connection connection_of(std::uint32_t id) {
   if (id == kNmtId) return {Service::kNmt};
   if (id == kSyncId) return {Service::kSync};
@@ -94,7 +90,7 @@ constexpr Connection connection_of(std::uint32_t id) {
   return {};
 }
 
-/// Identifiers closed to configurable services (SYNC, EMCY, PDO ...): CiA 301's list.
+/// Closed to configurable services (SYNC, EMCY, PDO ...): CiA 301's list.
 constexpr bool is_restricted(std::uint32_t id) {
   return id <= 0x07F || (id >= 0x101 && id <= 0x180) || (id >= 0x581 && id <= 0x5FF) ||
          (id >= 0x601 && id <= 0x67F) || (id >= 0x6E0 && id <= 0x6FF) || id >= 0x701;

@@ -7,22 +7,22 @@
 #include "common/protocol/canopen/pdo_record.hpp"
 #include "common/protocol/canopen/sync.hpp"
 
-/// A device's communication objects, 1000h to 1FFFh (CiA 301), before its application's.
+/// A device's objects 1000h to 1FFFh (CiA 301).
 namespace verp::canopen {
 
 /// The text must outlive it.
 struct Identity {
   std::uint32_t device_type = 0;  ///< 1000h: 00020192h is a CiA 402 servo drive
   const char* name = "";          ///< 1008h
-  std::uint32_t vendor = 0;       ///< 1018h: vendor, product, revision, serial number
+  std::uint32_t vendor = 0;       ///< 1018h, four numbers
   std::uint32_t product = 0;
   std::uint32_t revision = 0;
   std::uint32_t serial = 0;
 };
 
-/// An application adds this to a Dictionary so that PDOs can map its objects.
-///  - mappable(at, bits, receive): kNone if an RPDO (TPDO) may map the object.
-///  - get(at, bits), put(at, bits, value): a mapped object's low bits.
+/// Lets PDOs map an application's objects:
+///  - mappable(at, bits, receive): kNone if an RPDO (TPDO) may map it.
+///  - get(at, bits), put(at, bits, value): its low bits.
 template <class A>
 concept Application = Dictionary<A> &&
     requires(A& application, Address at, std::uint8_t bits, std::uint64_t value) {
@@ -34,16 +34,16 @@ concept Application = Dictionary<A> &&
 struct DeviceSize {
   std::size_t rpdos = 1;
   std::size_t tpdos = 1;
-  std::size_t entries = 8;       ///< of a mapping; 8: a classic frame's bytes
-  std::size_t watched = 1;       ///< nodes in 1016h
-  bool beats = true;             ///< false: another sender beats for it, and 1017h is read-only
-  bool falls_back = true;        ///< 1029h; false: stays operational after errors
-  bool stores = false;           ///< 1010h and 1011h
-  std::size_t further_sdos = 0;  ///< besides the default one: 1201h and on
+  std::size_t entries = 8;       ///< of a mapping; 8: classic frames
+  std::size_t watched = 1;       ///< nodes, 1016h
+  bool beats = true;             ///< false: 1017h is read-only
+  bool falls_back = true;        ///< 1029h; false: stays operational
+  bool stores = false;           ///< 1010h, 1011h
+  std::size_t further_sdos = 0;  ///< 1201h and on
 };
 inline constexpr std::size_t kErrorHistory = 4;
 
-/// By 1010h:1 and 1011h:1. Defaults take effect at the next reset.
+/// 1010h:1 and 1011h:1. Defaults take effect at the next reset.
 enum class StoreOrder : std::uint8_t { kNone, kStore, kRestore };
 inline constexpr std::uint32_t kSaveSignature = 0x65766173;  ///< "save"
 inline constexpr std::uint32_t kLoadSignature = 0x64616F6C;  ///< "load"
@@ -126,13 +126,13 @@ class CommunicationObjects {
     return application_.write_done(at, size);
   }
 
-  /// Returns and clears the last order.
+  /// Clears the order.
   StoreOrder take_store_order() {
     const StoreOrder order = order_;
     order_ = StoreOrder::kNone;
     return order;
   }
-  /// Restores from `stored` what 1010h stores.
+  /// As 1010h stores it.
   void restore(const CommunicationObjects& stored) {
     for (std::size_t i = 0; i < kSize.rpdos; ++i) rpdos[i] = stored.rpdos[i];
     for (std::size_t i = 0; i < kSize.tpdos; ++i) tpdos[i] = stored.tpdos[i];
@@ -142,7 +142,7 @@ class CommunicationObjects {
     error_behaviour = stored.error_behaviour;
   }
 
-  // The application's defaults before a start; the bus changes them afterwards.
+  // The application sets defaults before a start; then the bus changes them.
   Record rpdos[kSize.rpdos];
   Record tpdos[kSize.tpdos];
   HeartbeatProducer producer;
@@ -153,7 +153,7 @@ class CommunicationObjects {
   ErrorBehaviour error_behaviour = ErrorBehaviour::kPreOperational;
 
  private:
-  /// All are off until configured; the first four have predefined identifiers.
+  /// Off until configured; the first four have predefined identifiers.
   static Record off(Direction direction, std::size_t number, std::uint16_t id) {
     return {direction, number < kPdosOfSet ? id | kPdoInvalid : kPdoInvalid, kEventProfile, {}};
   }
@@ -245,8 +245,7 @@ class CommunicationObjects {
     number = {static_cast<std::uint8_t>(at.subindex == 0 ? 1 : 4), false, values[at.subindex]};
     return Abort::kNone;
   }
-  /// Null if there is none. 200h indices each: RPDO communication, mapping, TPDO communication,
-  /// mapping.
+  /// Or null. 200h indices each: RPDO communication, mapping, TPDO communication, mapping.
   const Record* record(std::uint16_t index) const {
     if (index < 0x1400 || index >= 0x1C00) return nullptr;
     const std::size_t number = index & 0x1FFu;

@@ -5,18 +5,17 @@
 #include "common/protocol/canopen/communication.hpp"
 #include "common/protocol/canopen/sdo_servers.hpp"
 
-/// A whole CANopen device: CiA 301's services around an application's objects.
+/// A CANopen device: CiA 301's services around an application's objects.
 ///
 ///  - receive() takes each frame of the bus, next() returns frames to send until there are none;
-///    neither waits. Call next() after each receive() and regularly: heartbeats are due by time.
-///  - DeviceEvents tell the application what happened.
+///    neither waits. Call next() regularly: heartbeats are due by time.
 ///  - PDOs pass only in NMT state operational; SDO, SYNC and EMCY also in pre-operational.
 namespace verp::canopen {
 
 struct DeviceEvents {
   NmtEvent nmt = NmtEvent::kNone;
-  bool sync = false;         ///< a SYNC: RPDOs took effect, TPDOs are made
-  std::uint8_t counter = 0;  ///< of that SYNC
+  bool sync = false;         ///< RPDOs took effect, TPDOs are made
+  std::uint8_t counter = 0;  ///< that SYNC's
   bool put = false;          ///< an RPDO wrote objects
 };
 
@@ -32,12 +31,12 @@ class Device {
         nmt_(node),
         servers_(objects_, node) {}
 
-  /// The communication objects, for setting defaults.
+  /// To set defaults.
   Objects& objects() { return objects_; }
   NmtState state() const { return nmt_.state(); }
 
-  /// Starts, also after a reset: boot-up message, then pre-operational. The caller sets defaults
-  /// before a restart.
+  /// Also after a reset: boot-up message, then pre-operational. The caller sets defaults before a
+  /// restart.
   void start() {
     servers_.reset();
     leave_operational();
@@ -70,7 +69,7 @@ class Device {
     return events;
   }
 
-  /// False if there is no frame to send.
+  /// False: no frame to send.
   bool next(Frame& frame, std::uint64_t now_us) {
     if (kSize.beats && objects_.producer.next(now_us, nmt_.state(), frame)) return true;
     if (!may_sdo(nmt_.state())) return false;
@@ -83,13 +82,12 @@ class Device {
     return next_tpdo(frame, now_us) || servers_.next(frame, now_us);
   }
 
-  /// Reports new data for TPDO `which` (from 0). An event-driven one goes out after its inhibit
-  /// time, an acyclic one with the next SYNC.
+  /// New data for TPDO `which` (from 0): an event-driven one goes out after its inhibit time, an
+  /// acyclic one with the next SYNC.
   void trigger(std::size_t which) {
     if (which < kSize.tpdos) sending_[which].event = true;
   }
-  /// Returns TPDO `which` (from 0) if it is due. For objects that may change again before next()
-  /// reaches it.
+  /// TPDO `which` (from 0) if due, for objects that may change before next() reaches it.
   bool next_pdo(std::size_t which, Frame& frame, std::uint64_t now_us) {
     if (which >= kSize.tpdos || !may_pdo(nmt_.state()) || !objects_.tpdos[which].on()) return false;
     const auto& record = objects_.tpdos[which];
@@ -107,27 +105,26 @@ class Device {
     return true;
   }
   /// Reports an error by EMCY, 1001h and 1003h; with over kErrorHistory waiting, by 1003h only.
-  /// Code 0 (no error) leaves no entry there. `error_register`: the application's part of 1001h,
-  /// without communication errors.
+  /// `error_register`: the application's part of 1001h.
   void report(ErrorCode code, std::uint8_t error_register) {
     hold_error(code, error_register);
     tell(code);
   }
-  /// Sets the application's error without an EMCY, because one was sent already.
+  /// Without an EMCY: one was sent already.
   void hold_error(ErrorCode code, std::uint8_t error_register) {
     application_code_ = code;
     application_errors_ =
         code == ErrorCode::kNoError ? error_register : error_register | kErrorGeneric;
     show_errors();
   }
-  /// The present error while 1001h is set: the application's before the communication's.
+  /// While 1001h is set: the application's before the communication's.
   ErrorCode standing_error() const {
     if (application_errors_ != 0) return application_code_;
     if ((standing_ & kMasterSilent) != 0) return ErrorCode::kHeartbeatLost;
     if ((standing_ & kSyncOdd) != 0) return ErrorCode::kSyncLength;
     return (standing_ & kPdoOdd) != 0 ? pdo_code_ : ErrorCode::kNoError;
   }
-  /// True if a watched node (1016h) fell silent. Reports it and acts by 1029h.
+  /// True if a watched node (1016h) fell silent; acts by 1029h.
   bool heartbeat_lost(std::uint64_t now_us) {
     std::uint8_t subindex = 0;
     if (!objects_.consumer.next_lost(now_us, subindex)) return false;
@@ -142,15 +139,14 @@ class Device {
  private:
   struct Sending {
     SyncSchedule schedule;
-    std::uint8_t times_on = 0;  ///< PdoRecord::times_on() when the schedule began
+    std::uint8_t times_on = 0;  ///< PdoRecord's, when the schedule began
     bool event = false;
-    bool due = false;  ///< a SYNC has made `frame`
+    bool due = false;  ///< a SYNC made `frame`
     Frame frame;
     std::uint64_t sent_us = 0;
     bool sent = false;
   };
 
-  /// Communication errors.
   enum Cause : std::uint8_t { kSyncOdd = 1, kPdoOdd = 2, kMasterSilent = 4 };
   void show_errors() {
     std::uint8_t all = application_errors_;
@@ -165,8 +161,7 @@ class Device {
       queue_[emergencies_++] = {node_, number, objects_.error_register, {}};
     }
   }
-  // One EMCY at an error's start and one at its end (CiA 301): a wrong SYNC comes a hundred times a
-  // second.
+  // One EMCY at an error's start and one at its end (CiA 301).
   void complain(Cause cause, ErrorCode code) {
     if ((standing_ & cause) != 0) return;
     standing_ |= cause;
@@ -240,7 +235,7 @@ class Device {
     }
     return false;
   }
-  /// True after an event or the event timer, but never within the inhibit time.
+  /// Never within the inhibit time.
   static bool event_due(const PdoRecord<kSize.entries>& record, const Sending& each,
                         std::uint64_t now_us) {
     const std::uint64_t timer_us = std::uint64_t{record.event_timer_ms()} * 1000;
@@ -260,9 +255,9 @@ class Device {
   Emergency queue_[kErrorHistory + 1];
   std::size_t emergencies_ = 0;
   std::uint8_t standing_ = 0;            ///< Cause bits
-  std::uint8_t application_errors_ = 0;  ///< the application's part of 1001h
+  std::uint8_t application_errors_ = 0;  ///< its part of 1001h
   ErrorCode application_code_ = ErrorCode::kNoError;
-  ErrorCode pdo_code_ = ErrorCode::kNoError;  ///< of the last PDO with a wrong length
+  ErrorCode pdo_code_ = ErrorCode::kNoError;  ///< last PDO of a wrong length
 };
 
 }  // namespace verp::canopen

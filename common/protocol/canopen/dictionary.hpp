@@ -3,10 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 
-/// The object dictionary for SDO and PDO, and why access is refused.
 namespace verp::canopen {
 
-/// SDO abort codes, CiA 301's table.
+/// CiA 301's table.
 enum class Abort : std::uint32_t {
   kNone = 0,
   kToggle = 0x05030000,
@@ -42,7 +41,7 @@ enum class Abort : std::uint32_t {
   kNoData = 0x08000024,
 };
 
-/// English name of the abort; "unknown abort code" if it is not in the table.
+/// In English.
 const char* abort_text(Abort abort);
 
 struct Address {
@@ -54,16 +53,16 @@ struct Address {
 struct Entry {
   bool readable = false;
   bool writable = false;
-  std::uint32_t size = 0;      ///< bytes that a read returns now
-  std::uint32_t min_size = 0;  ///< bytes that a write may have
+  std::uint32_t size = 0;      ///< that a read returns now
+  std::uint32_t min_size = 0;  ///< that a write may have
   std::uint32_t max_size = 0;
 };
 
-/// Promises, without waiting or allocating:
+/// Neither waits nor allocates:
 ///  - find(at, entry): kNone and the entry, or kNoObject, kNoSubindex.
 ///  - read(at, offset, buffer, size): copies bytes [offset, offset + size), little-endian, or
-///    returns an error. Objects up to the server's buffer are read in one call and may change at
-///    any time; larger ones are read in pieces and must not change meanwhile.
+///    returns an error. Objects up to the server's buffer are read in one call; larger ones in
+///    pieces, and must not change meanwhile.
 ///  - write(at, data, size): the whole new value, within the entry's sizes; done or refused, never
 ///    half.
 template <class D>
@@ -74,11 +73,10 @@ concept Dictionary = requires(D& dictionary, Address at, Entry& entry, std::uint
   { dictionary.write(at, data, size) } -> std::same_as<Abort>;
 };
 
-/// Has writable objects larger than the server's buffer (an image, an action):
+/// Writes objects larger than the server's buffer (an image, an action):
 ///  - write_part(at, offset, data, size): the next bytes, without effect yet. Offset 0 discards an
 ///    abandoned transfer.
-///  - write_done(at, size): all bytes are there and passed the transfer's check, if any: take
-///    effect or refuse.
+///  - write_done(at, size): all bytes passed the transfer's check, if any: take effect or refuse.
 template <class D>
 concept StreamingDictionary = Dictionary<D> &&
     requires(D& dictionary, Address at, std::uint32_t offset, const std::uint8_t* data,

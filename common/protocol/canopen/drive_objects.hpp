@@ -4,16 +4,15 @@
 
 #include "common/protocol/canopen/dictionary.hpp"
 
-/// Objects of a CiA 402 drive in cyclic synchronous position mode: the one source of a virtual
-/// drive's dictionary, a master's mapping and a description for tools. Positions are encoder
-/// increments (608Fh a turn), speeds increments per second, torques thousandths of the rated one
-/// (6076h).
+/// A CiA 402 drive in cyclic synchronous position mode: the one source of a virtual drive's
+/// dictionary, a master's mapping and a description for tools. Encoder increments (608Fh a turn),
+/// increments per second, thousandths of the rated torque (6076h).
 namespace verp::canopen::cia402 {
 
-/// Modes of operation (6060h) in use.
+/// 6060h.
 inline constexpr std::int8_t kModeNone = 0;
 inline constexpr std::int8_t kModeCyclicPosition = 8;
-/// Supported drive modes (6502h): bit n - 1 for mode n.
+/// 6502h: bit n - 1 for mode n.
 inline constexpr std::uint32_t kSupportedCyclicPosition = 1u << (kModeCyclicPosition - 1);
 
 namespace object {
@@ -47,12 +46,12 @@ inline constexpr Address kPeriodExponent{0x60C2, 2};
 inline constexpr Address kSupportedModes{0x6502, 0};
 }  // namespace object
 
-/// Defaults are CiA 402's, if it has any.
+/// Defaults are CiA 402's.
 struct DriveObjects {
   std::int32_t target_position = 0;
   std::int32_t actual_position = 0;
   std::int32_t actual_velocity = 0;
-  std::int32_t home_offset = 0;  ///< encoder position of the application's zero
+  std::int32_t home_offset = 0;  ///< encoder position of zero
   std::int32_t min_position = INT32_MIN;
   std::int32_t max_position = INT32_MAX;
   std::uint32_t following_window = UINT32_MAX;  ///< UINT32_MAX: no check
@@ -60,7 +59,7 @@ struct DriveObjects {
   std::uint32_t dc_link_mv = 0;
   std::uint32_t rated_current_ma = 0;
   std::uint32_t rated_torque_mn_m = 0;
-  std::uint32_t encoder_increments = 0;  ///< per encoder_turns turns of the joint
+  std::uint32_t encoder_increments = 0;  ///< per encoder_turns of the joint
   std::uint32_t encoder_turns = 1;
   std::uint16_t controlword = 0;
   std::uint16_t statusword = 0;
@@ -86,32 +85,31 @@ struct ObjectRow {
   bool is_signed;
   ObjectAccess access;
   ObjectMapping mapping;
-  std::uint16_t place;  ///< offset of the value in DriveObjects
+  std::uint16_t place;  ///< in DriveObjects
 };
 
 extern const ObjectRow kDriveRows[];
 extern const std::size_t kDriveRowCount;
 
-/// Null if there is none; subindex 0 of an object with several is no row.
+/// Null if there is none; subindex 0 of several is no row.
 const ObjectRow* find_row(Address at);
-/// Value of subindex 0: the number of subindices of an object with several, else 0.
+/// Subindex 0: the number of subindices of an object with several, else 0.
 std::uint8_t highest_subindex(std::uint16_t index);
 
-/// Entry and value of a drive's object, for a Dictionary.
 Abort find_object(Address at, Entry& entry);
 Abort read_object(const DriveObjects& objects, Address at, std::uint8_t* buffer);
-/// Refuses values that no state allows: an unsupported mode, a period of 0, unknown option codes.
+/// Refuses an unsupported mode, a period of 0, unknown option codes.
 Abort write_object(DriveObjects& objects, Address at, const std::uint8_t* data);
-/// kNone if a PDO may map the object with that length.
+/// kNone: a PDO may map that length.
 Abort check_mappable(Address at, std::uint8_t bits, bool receive);
 
-/// 60C2h: value times ten to the exponent seconds, in microseconds. 0 if invalid or over a minute.
+/// 60C2h: value times ten to the exponent seconds. 0 if invalid or over a minute.
 std::uint32_t interpolation_period_us(std::uint8_t value, std::int8_t exponent);
 
-/// Monitors the distance of target and actual position (6065h, 6066h).
+/// Distance of target and actual position (6065h, 6066h).
 class FollowingMonitor {
  public:
-  /// Call each cycle while following. True after too long outside the window.
+  /// Each cycle while following. True after too long outside the window.
   bool update(const DriveObjects& objects, std::uint64_t now_us);
   void reset() { outside_ = false; }
 

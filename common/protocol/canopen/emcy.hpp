@@ -6,18 +6,17 @@
 #include "common/protocol/canopen/dictionary.hpp"
 #include "common/protocol/canopen/frame.hpp"
 
-/// Emergency messages (CiA 301; the drives' codes are CiA 402's).
+/// CiA 301; the drives' codes are CiA 402's.
 namespace verp::canopen {
 
-/// Codes that we send or know.
 enum class ErrorCode : std::uint16_t {
-  kNoError = 0x0000,  ///< "error reset": see the error register for what is left
+  kNoError = 0x0000,  ///< "error reset": see the error register
   kGeneric = 0x1000,
   kOverCurrent = 0x2310,
   kUnderVoltage = 0x3220,
   kOverVoltage = 0x3210,
   kOverTemperature = 0x4310,
-  kCommunication = 0x8100,  ///< another one; NMT has stopped the node
+  kCommunication = 0x8100,  ///< NMT has stopped the node
   kCanOverrun = 0x8110,
   kErrorPassive = 0x8120,
   kHeartbeatLost = 0x8130,
@@ -28,7 +27,7 @@ enum class ErrorCode : std::uint16_t {
   kFollowingError = 0x8611,
 };
 
-/// Bits of the error register, object 1001h.
+/// Object 1001h.
 inline constexpr std::uint8_t kErrorGeneric = 1;
 inline constexpr std::uint8_t kErrorVoltage = 4;
 inline constexpr std::uint8_t kErrorTemperature = 8;
@@ -61,7 +60,7 @@ constexpr bool decode_emcy(const Frame& frame, Emergency& emergency) {
   return true;
 }
 
-/// Object 1003h: the last kEntries errors, newest at subindex 1.
+/// Object 1003h, newest at subindex 1.
 template <std::size_t kEntries>
 class ErrorHistory {
  public:
@@ -78,7 +77,7 @@ class ErrorHistory {
     value = subindex == 0 ? count_ : errors_[subindex - 1];
     return Abort::kNone;
   }
-  /// Only subindex 0 is writable, with 0: clears all.
+  /// Subindex 0 only, with 0: clears all.
   constexpr Abort write(std::uint8_t subindex, std::uint32_t value) {
     if (subindex > kEntries) return Abort::kNoSubindex;
     if (subindex != 0) return Abort::kReadOnly;

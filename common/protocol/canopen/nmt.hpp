@@ -6,12 +6,12 @@
 #include "common/protocol/canopen/dictionary.hpp"
 #include "common/protocol/canopen/frame.hpp"
 
-/// Network management and heartbeat, both sides (CiA 301). Times are bus time in microseconds.
+/// Network management and heartbeat, both sides (CiA 301). Bus time in microseconds.
 namespace verp::canopen {
 
-/// Values as in a heartbeat.
+/// As in a heartbeat.
 enum class NmtState : std::uint8_t {
-  kInitialising = 0,  ///< in a heartbeat: the boot-up message
+  kInitialising = 0,  ///< the boot-up message
   kStopped = 4,
   kOperational = 5,
   kPreOperational = 127,
@@ -41,22 +41,21 @@ constexpr bool may_sdo(NmtState state) {
   return state == NmtState::kOperational || state == NmtState::kPreOperational;
 }
 
-/// Object 1029h:1: an operational node's reaction to a communication error.
+/// Object 1029h:1: reaction to a communication error.
 enum class ErrorBehaviour : std::uint8_t { kPreOperational = 0, kStay = 1, kStop = 2 };
 
 enum class NmtEvent : std::uint8_t { kNone, kState, kResetNode, kResetCommunication };
 
-/// NMT state of a device.
 class NmtSlave {
  public:
   constexpr explicit NmtSlave(std::uint8_t node) : node_(node) {}
 
   constexpr NmtState state() const { return state_; }
-  /// The node is now pre-operational. HeartbeatProducer sends the boot-up message.
+  /// HeartbeatProducer sends the boot-up message.
   constexpr void initialised() {
     if (state_ == NmtState::kInitialising) state_ = NmtState::kPreOperational;
   }
-  /// Communication error: leaves operational (1029h).
+  /// Leaves operational (1029h).
   constexpr NmtEvent fall_back(ErrorBehaviour behaviour) {
     if (state_ != NmtState::kOperational || behaviour == ErrorBehaviour::kStay) {
       return NmtEvent::kNone;
@@ -106,17 +105,17 @@ constexpr bool decode_heartbeat(const Frame& frame, std::uint8_t& node, NmtState
   const Connection connection = connection_of(frame.id);
   if (connection.service != Service::kHeartbeat) return false;
   node = connection.node;
-  state = static_cast<NmtState>(frame.data[0] & 0x7F);  // the high bit is node guarding's toggle
+  state = static_cast<NmtState>(frame.data[0] & 0x7F);  // the high bit is node guarding's
   return true;
 }
 
-/// Sends the boot-up message after each initialisation, then a heartbeat every 1017h milliseconds
-/// (0: none). A late caller skips periods, so heartbeats never burst.
+/// A boot-up message after each initialisation, then a heartbeat every 1017h milliseconds (0:
+/// none). A late caller skips periods.
 class HeartbeatProducer {
  public:
   constexpr explicit HeartbeatProducer(std::uint8_t node) : node_(node) {}
 
-  /// Object 1017h. A new period starts at once.
+  /// Object 1017h. Starts a new period.
   constexpr void set_period_ms(std::uint16_t period_ms) {
     period_ms_ = period_ms;
     due_us_ = 0;
@@ -125,7 +124,7 @@ class HeartbeatProducer {
   /// Boot-up is due again.
   constexpr void restart() { booted_ = false; }
 
-  /// False if no frame is due.
+  /// False: nothing is due.
   constexpr bool next(std::uint64_t now_us, NmtState state, Frame& frame) {
     if (state == NmtState::kInitialising) {
       booted_ = false;
@@ -152,24 +151,24 @@ class HeartbeatProducer {
 };
 
 enum class Life : std::uint8_t {
-  kUnused,   ///< entry not used
-  kUnknown,  ///< no heartbeat yet, or since boot-up: not watched
+  kUnused,
+  kUnknown,  ///< no heartbeat since boot-up: not watched
   kAlive,
   kLost,
 };
 enum class LifeEvent : std::uint8_t {
   kNone,
-  kBooted,  ///< boot-up message: just started or restarted
-  kAlive,   ///< first heartbeat, or first after a loss
-  kState,   ///< the NMT state changed
+  kBooted,  ///< started or restarted
+  kAlive,   ///< first heartbeat, or after a loss
+  kState,   ///< another NMT state
 };
 
-/// Object 1016h with kNodes entries: watched nodes, and how long each may be silent.
+/// Object 1016h: watched nodes, and how long each may be silent.
 template <std::size_t kNodes>
 class HeartbeatConsumer {
  public:
-  /// Entry `subindex` (1 to kNodes): node id in bits 16 to 23, milliseconds below; a 0 in either
-  /// disables it. No node may be watched twice.
+  /// `subindex` (1 to kNodes): node id in bits 16 to 23, milliseconds below; 0 in either disables
+  /// it. No node may be watched twice.
   constexpr Abort write(std::uint8_t subindex, std::uint32_t value) {
     if (subindex < 1 || subindex > kNodes) return Abort::kNoSubindex;
     const auto node = static_cast<std::uint8_t>(value >> 16);
@@ -182,15 +181,15 @@ class HeartbeatConsumer {
     entries_[subindex - 1] = {value, node, used ? Life::kUnknown : Life::kUnused};
     return Abort::kNone;
   }
-  /// The entry as it was written.
+  /// As written.
   constexpr std::uint32_t value(std::uint8_t subindex) const {
     return entries_[subindex - 1].value;
   }
   constexpr Life life(std::uint8_t subindex) const { return entries_[subindex - 1].life; }
-  /// From the node's last heartbeat.
+  /// By the last heartbeat.
   constexpr NmtState state(std::uint8_t subindex) const { return entries_[subindex - 1].state; }
 
-  /// `subindex`: the event's entry.
+  /// `subindex`: the node's entry.
   constexpr LifeEvent receive(const Frame& frame, std::uint64_t now_us, std::uint8_t& subindex) {
     std::uint8_t node = 0;
     NmtState state = NmtState::kInitialising;
@@ -204,7 +203,7 @@ class HeartbeatConsumer {
     return LifeEvent::kNone;
   }
 
-  /// Reports each loss once. Call until false.
+  /// Each loss once. Call until false.
   constexpr bool next_lost(std::uint64_t now_us, std::uint8_t& subindex) {
     for (std::size_t i = 0; i < kNodes; ++i) {
       Watched& each = entries_[i];

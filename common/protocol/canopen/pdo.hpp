@@ -6,11 +6,10 @@
 #include "common/protocol/canopen/dictionary.hpp"
 #include "common/protocol/canopen/frame.hpp"
 
-/// PDOs (CiA 301): mappings, packing, unpacking. Objects follow in mapping order without gaps,
-/// least significant bit first.
+/// CiA 301. Objects follow in mapping order without gaps, least significant bit first.
 namespace verp::canopen {
 
-/// Entry of 1600h or 1A00h: index high, subindex, length in bits.
+/// 1600h or 1A00h: index high, subindex, length in bits.
 struct Mapped {
   Address at;
   std::uint8_t bits = 0;
@@ -25,8 +24,7 @@ struct Mapped {
   constexpr bool operator==(const Mapped&) const = default;
 };
 
-/// Bits that a data type's object (0001h to 0007h: BOOLEAN, INTEGER8 to 32, UNSIGNED8 to 32) skips
-/// in an RPDO; 0 for other objects.
+/// Bits that a data type's object (0001h to 0007h) skips in an RPDO; 0 for others.
 constexpr std::uint8_t dummy_bits(Address at) {
   constexpr std::uint8_t kBits[] = {0, 1, 8, 16, 32, 8, 16, 32};
   return at.subindex == 0 && at.index < 8 ? kBits[at.index] : std::uint8_t{0};
@@ -35,7 +33,7 @@ inline constexpr Mapped kDummyU8{{0x0005, 0}, 8};
 inline constexpr Mapped kDummyU16{{0x0006, 0}, 16};
 inline constexpr Mapped kDummyU32{{0x0007, 0}, 32};
 
-/// 8 entries for a classic frame's bytes, 64 for an FD frame's.
+/// 8 for a classic frame's bytes, 64 for FD.
 template <std::size_t kEntries = 8>
 struct PdoMapping {
   std::uint8_t count = 0;
@@ -47,7 +45,7 @@ struct PdoMapping {
     return sum;
   }
   constexpr unsigned bytes() const { return (bits() + 7) / 8; }
-  /// False if full.
+  /// False: full.
   constexpr bool add(Mapped entry) {
     if (count >= kEntries) return false;
     entries[count++] = entry;
@@ -80,8 +78,8 @@ constexpr std::uint64_t get_bits(const std::uint8_t* bytes, unsigned at, unsigne
   return value;
 }
 
-/// Fills data and size, an FD frame up to the next valid size. `get(at, bits)` returns an object's
-/// value; dummies are zero. At most 64 bits, 512 in an FD frame.
+/// Fills data and size, in an FD frame up to the next valid size. `get(at, bits)` returns an
+/// object's value; dummies are zero.
 template <std::size_t kEntries, class Get>
 constexpr void pack_pdo(const PdoMapping<kEntries>& mapping, Frame& frame, Get&& get) {
   const unsigned bytes = mapping.bytes();
@@ -100,10 +98,10 @@ constexpr void pack_pdo(const PdoMapping<kEntries>& mapping, Frame& frame, Get&&
 enum class PdoLength : std::uint8_t {
   kRight,
   kTooShort,  ///< not processed: EMCY 8210h is due
-  kTooLong,   ///< processed without the rest: EMCY 8220h is due
+  kTooLong,   ///< rest ignored: EMCY 8220h is due
 };
 
-/// Passes received objects to `put(at, bits, value)`, without dummies.
+/// `put(at, bits, value)` gets all but dummies.
 template <std::size_t kEntries, class Put>
 constexpr PdoLength unpack_pdo(const PdoMapping<kEntries>& mapping, const Frame& frame, Put&& put) {
   const unsigned bytes = mapping.bytes();

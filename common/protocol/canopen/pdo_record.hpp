@@ -4,13 +4,13 @@
 
 #include "common/protocol/canopen/pdo.hpp"
 
-/// A PDO's communication and mapping records (1400h, 1600h, 1800h, 1A00h and on), and when it is
-/// sent or takes effect (CiA 301).
+/// A PDO's records (1400h, 1600h, 1800h, 1A00h and on), and when it is sent or takes effect (CiA
+/// 301).
 namespace verp::canopen {
 
 enum class Direction : std::uint8_t { kReceive, kTransmit };
 
-/// Transmission types. 1 to 240: with every n-th SYNC.
+/// 1 to 240: every n-th SYNC.
 inline constexpr std::uint8_t kAcyclicSync = 0;  ///< with the next SYNC after a change
 inline constexpr std::uint8_t kMaxCyclicSync = 240;
 inline constexpr std::uint8_t kEventManufacturer = 254;
@@ -19,23 +19,23 @@ constexpr bool is_synchronous(std::uint8_t type) {
   return type <= kMaxCyclicSync;
 }
 
-inline constexpr std::uint32_t kPdoInvalid = 0x80000000;  ///< bit 31 of a PDO's COB-ID: PDO off
+inline constexpr std::uint32_t kPdoInvalid = 0x80000000;  ///< bit 31: off
 inline constexpr std::uint32_t kPdoNoRemote = 0x40000000;
 inline constexpr std::uint32_t kPdoExtended = 0x20000000;
 
-/// Both records of one PDO. Mapping changes only in CiA 301's order: PDO off, subindex 0 to 0,
-/// entries, subindex 0 to their number, PDO on. So no PDO uses a half-written mapping.
+/// Mapping changes only in CiA 301's order: PDO off, subindex 0 to 0, entries, subindex 0 to their
+/// number, PDO on. So no PDO uses a half-written mapping.
 template <std::size_t kEntries = 8>
 class PdoRecord {
  public:
   constexpr PdoRecord() = default;
-  /// Makes a PDO that is on.
+  /// On from the start.
   constexpr PdoRecord(Direction direction, std::uint32_t id, std::uint8_t type,
                       const PdoMapping<kEntries>& mapping)
       : direction_(direction), cob_id_(id | kPdoNoRemote), type_(type), mapping_(mapping) {}
 
   constexpr bool on() const { return (cob_id_ & kPdoInvalid) == 0; }
-  /// Times switched on, modulo 256: each restarts the SYNC count.
+  /// Modulo 256: each restarts the SYNC count.
   constexpr std::uint8_t times_on() const { return times_on_; }
   constexpr std::uint16_t id() const { return static_cast<std::uint16_t>(cob_id_ & 0x7FF); }
   constexpr std::uint8_t type() const { return type_; }
@@ -44,7 +44,7 @@ class PdoRecord {
   constexpr std::uint16_t event_timer_ms() const { return event_timer_; }
   constexpr const PdoMapping<kEntries>& mapping() const { return mapping_; }
 
-  /// Subindex 0 is 5 (RPDO) or 6 (TPDO); 4 does not exist.
+  /// Subindex 0 is 5 (RPDO) or 6 (TPDO).
   constexpr Abort read_communication(std::uint8_t subindex, std::uint32_t& value) const {
     switch (subindex) {
       case 0:
@@ -103,8 +103,7 @@ class PdoRecord {
     value = subindex == 0 ? mapping_.count : mapping_.entries[subindex - 1].value();
     return Abort::kNone;
   }
-  /// `mappable(at, bits)` returns kNone if this PDO may map the object, else the reason. Dummies
-  /// are for RPDOs only.
+  /// `mappable(at, bits)`: kNone, or the reason against it. Dummies are for RPDOs only.
   template <class Mappable>
   constexpr Abort write_mapping(std::uint8_t subindex, std::uint32_t value, Mappable&& mappable) {
     if (subindex > kEntries) return Abort::kNoSubindex;
@@ -128,7 +127,7 @@ class PdoRecord {
     if ((value & kPdoExtended) != 0 || (value & 0x1FFFF800) != 0) return Abort::kValueRange;
     const bool turned_on = (value & kPdoInvalid) == 0;
     if (turned_on && is_restricted(value & 0x7FF)) return Abort::kValueRange;
-    // The identifier changes only while off.
+    // Changes only while off.
     if (turned_on && on() && (value & 0x7FF) != id()) return Abort::kValueRange;
     if (turned_on && !on()) times_on_ = static_cast<std::uint8_t>(times_on_ + 1);
     cob_id_ = value;
@@ -167,17 +166,17 @@ class PdoRecord {
   PdoMapping<kEntries> mapping_;
 };
 
-/// When a synchronous TPDO is sent. With a start value, and a counter in the SYNC, it first answers
-/// that SYNC, then every n-th: groups of drives with different start values share the SYNCs.
+/// With a start value, and a counter in the SYNC, a synchronous TPDO first answers that SYNC, then
+/// every n-th: groups of drives share the SYNCs.
 class SyncSchedule {
  public:
-  /// Call when the node became operational or the record was written.
+  /// Node operational, or record written.
   constexpr void restart() {
     left_ = 0;
     started_ = false;
   }
-  /// True if the TPDO is sent after this SYNC. `counter`: 0 for a SYNC without one. `event`: an
-  /// acyclic TPDO has new data.
+  /// True: send after this SYNC. `counter` 0: a SYNC without one. `event`: new data of an acyclic
+  /// TPDO.
   constexpr bool on_sync(std::uint8_t type, std::uint8_t start, std::uint8_t counter, bool event) {
     if (type == kAcyclicSync) return event;
     if (type > kMaxCyclicSync) return false;
@@ -201,8 +200,7 @@ class SyncSchedule {
   bool started_ = false;
 };
 
-/// A synchronous RPDO waits for the next SYNC, others take effect at once. A later frame replaces a
-/// waiting one.
+/// A synchronous RPDO waits for the next SYNC. A later frame replaces it.
 class RpdoLatch {
  public:
   constexpr bool receive(std::uint8_t type, const Frame& frame) {
@@ -211,7 +209,7 @@ class RpdoLatch {
     frame_ = frame;
     return false;
   }
-  /// True if `frame` takes effect now.
+  /// True: `frame` takes effect now.
   constexpr bool on_sync(Frame& frame) {
     if (!waiting_) return false;
     waiting_ = false;

@@ -4,42 +4,42 @@
 
 #include "common/io/io.hpp"
 
-/// A controller's report of each tick, in event-driven TPDOs of its node. With the frames of drives
-/// and sensors a listener knows the tick's Inputs and their digest:
+/// A controller's report of each tick, in event-driven TPDOs. With drives' and sensors' frames a
+/// listener knows the tick's Inputs and their digest:
 ///
 ///     TPDO 2   chained digest of all ticks so far                                     each tick
 ///     TPDO 3   tick (low 16 bits), fresh mask, flags                                  each tick
-///     TPDO 4   a part of Inputs that stands in no other frame of the bus, up to 6     when it
-///              bytes of it: operator's orders, parameter writes, a chip's IMU         changes
+///     TPDO 4   up to 6 bytes of Inputs that no other frame of the bus holds:          when it
+///              operator's orders, parameter writes, a chip's IMU                      changes
 ///
-/// In this order, after the tick's goals, which have lower identifiers. Little-endian.
+/// After the tick's goals, which have lower identifiers. Little-endian.
 namespace verp::canopen::published {
 
 inline constexpr unsigned kDigestPdo = 2;
 inline constexpr unsigned kRecordPdo = 3;
 inline constexpr unsigned kPartPdo = 4;
-/// Frames in every tick.
+/// In every tick.
 inline constexpr int kFrames = 2;
 inline constexpr std::uint8_t kFrameBytes = 8;
 
-// Flags: Inputs::flags' low byte, and
+// Low byte of Inputs::flags, and
 inline constexpr std::uint16_t kInputsMask = 0x00FF;
-inline constexpr std::uint16_t kImuInParts = 1 << 8;  ///< IMU counts are not from the bus
-inline constexpr int kPartsShift = 12;                ///< number of parts, from here up
-/// Most parts of a tick. With more, none are sent, and the listener must ask for them.
+inline constexpr std::uint16_t kImuInParts = 1 << 8;  ///< IMU not from the bus
+inline constexpr int kPartsShift = 12;                ///< number of parts, from here
+/// In a tick. With more, none are sent, and the listener must ask for them.
 inline constexpr int kMostParts = 6;
 inline constexpr unsigned kTooManyParts = 15;
 
 inline constexpr std::size_t kPartBytes = 6;
-/// Parts of the IMU's counts: gyro and accelerometer, contiguous.
+/// Gyro and accelerometer.
 inline constexpr int kImuParts = 2;
 static_assert(sizeof(Inputs::gyro_count) + sizeof(Inputs::accel_count) == kImuParts * kPartBytes);
-/// Most parts of new orders: a Command, a parameter write, the mailbox.
+/// A Command, a parameter write, the mailbox.
 inline constexpr int kOrderParts = 4;
 static_assert(sizeof(Command) == 2 * kPartBytes && kImuParts + kOrderParts == kMostParts);
 static_assert(sizeof(Inputs) % 2 == 0 && sizeof(Inputs) / 2 <= 256);
 
-/// A part: half the offset into Inputs, size, bytes.
+/// Half the offset into Inputs, size, bytes.
 struct Part {
   std::uint8_t place = 0;
   std::uint8_t size = 0;
@@ -55,7 +55,7 @@ struct Part {
     __builtin_memcpy(&value, this, sizeof value);
     return value;
   }
-  /// Copies the part into `inputs`. False, without effect, if it lies outside.
+  /// False, without effect, if it lies outside.
   bool put(Inputs& inputs) const {
     const std::size_t offset = 2u * place;
     if (size > kPartBytes || offset + size > sizeof(Inputs)) return false;
@@ -65,8 +65,7 @@ struct Part {
 };
 static_assert(sizeof(Part) == kFrameBytes);
 
-/// Copies the part of Inputs that frames of record, drives and sensors carry. `imu`: it is on the
-/// bus.
+/// The part that frames of record, drives and sensors carry. `imu`: on the bus.
 inline void copy_heard(Inputs& to, const Inputs& from, bool imu) {
   to.tick = from.tick;
   to.fresh = from.fresh;
@@ -89,10 +88,9 @@ inline void copy_heard(Inputs& to, const Inputs& from, bool imu) {
   }
 }
 
-/// The parts of one tick.
 class Parts {
  public:
-  /// Finds what a listener that knows `before` and hears the bus still lacks of `now`.
+  /// Finds the parts of `now` that a listener lacks who knows `before` and hears the bus.
   void find(const Inputs& before, const Inputs& now, bool bus_imu) {
     Inputs heard = before;
     copy_heard(heard, now, bus_imu);

@@ -6,21 +6,19 @@
 #include "common/protocol/canopen/robot_plan.hpp"
 #include "common/protocol/canopen/sdo.hpp"
 
-/// Load of a robot's CAN bus in one tick, from the plan that configures its nodes (robot_plan.hpp):
-/// for `verp bus load`, the refusal of slow buses and the test against the twin's bit count. Other
-/// requests to nodes are not counted.
+/// Load of a robot's CAN bus in one tick, from the plan that configures its nodes (robot_plan.hpp).
+/// Other requests to nodes are not counted.
 namespace verp::canopen::plan {
 
-/// Frame format of the nodes.
 struct LoadFormat {
   Stuffing stuffing = Stuffing::kWorst;
-  bool fd = false;  ///< FD frames that switch, with goals and words of more drives
+  bool fd = false;  ///< FD frames with more drives each
 };
 
-/// A usual tick, or one with new controlwords and strengths for all drives.
+/// Usual, or with new controlwords and strengths for all drives.
 enum class TickKind : std::uint8_t { kSteady, kChange };
 
-/// `kind` with as many drives as an FD frame's 64 bytes hold.
+/// As many drives as 64 bytes hold.
 constexpr Shared widened(Shared kind) {
   kind.width = static_cast<std::uint8_t>(kMaxCanFdData / kind.bytes_each());
   return kind;
@@ -41,9 +39,9 @@ class TickLoad {
     const bool change = kind == TickKind::kChange;
     sum += change ? all(kWords) : one(kWords);
     if (change) sum += all(kStrengths);
-    sum += of(sdo::kFrameBytes) * 2;                 // a drive's telemetry, request and response
+    sum += of(sdo::kFrameBytes) * 2;                 // one drive's telemetry
     sum += of(sdo::kFrameBytes) * 2 / kEffortTicks;  // one drive's velocity or torque
-    sum += of(1);                                    // the controller's heartbeat
+    sum += of(1);                                    // controller's heartbeat
     return sum;
   }
   /// Additional bits of a published tick (published_tick.hpp). `own_imu`: no other frame holds the
@@ -51,7 +49,7 @@ class TickLoad {
   constexpr FrameBits published(bool own_imu) const {
     return of(published::kFrameBytes) * (published::kFrames + (own_imu ? published::kImuParts : 0));
   }
-  /// Additional bits of a tick with new orders.
+  /// With new orders.
   constexpr FrameBits published_order() const {
     return of(published::kFrameBytes) * published::kOrderParts;
   }
@@ -79,20 +77,19 @@ class TickLoad {
   LoadFormat format_;
 };
 
-/// Most load of a steady tick. Above it nothing can be repeated, so the robot is refused, as on the
-/// serial bus.
+/// A steady tick. Above it nothing can be repeated, so the robot is refused.
 inline constexpr std::uint32_t kMostLoadPermille = 800;
-/// A tick in which all drives change state ends before the next.
+/// A tick in which all drives change state must end before the next.
 inline constexpr std::uint32_t kMostChangePermille = 1000;
 
-/// True if a bus carries the ticks of all drives; baud and period of `params` do not count.
+/// True if a bus carries the ticks of all drives; ignores baud and period of `params`.
 constexpr bool has_room(const Params& params, bool fd, const BitRates& rates,
                         std::uint32_t period_us) {
   const TickLoad load(params, {.stuffing = Stuffing::kWorst, .fd = fd});
   return load_permille(load.bits(TickKind::kSteady), rates, period_us) <= kMostLoadPermille &&
          load_permille(load.bits(TickKind::kChange), rates, period_us) <= kMostChangePermille;
 }
-/// Number of drives that fit, in joint order. Calls `fits` with fewer and fewer.
+/// In joint order. Calls `fits` with fewer and fewer.
 template <class Fits>
 int drives_that_fit(Params part, const Fits& fits) {
   part.joint_count = part.servo_count();
@@ -101,9 +98,8 @@ int drives_that_fit(Params part, const Fits& fits) {
   return part.joint_count;
 }
 
-/// Most load at which a controller publishes by default. Orders are occasional and not counted.
-/// Ticks with them must stay under kMostLoadPermille, with all drives changing state under
-/// kMostChangePermille. `own_imu`: see TickLoad::published().
+/// Most load for publishing by default. Ticks with orders must stay under kMostLoadPermille, with
+/// all drives changing state under kMostChangePermille. `own_imu`: see TickLoad::published().
 inline constexpr std::uint32_t kMostToPublishPermille = 700;
 constexpr bool has_room_to_publish(const Params& params, bool own_imu) {
   if (params.baud == 0 || params.period_us == 0) return false;
@@ -119,7 +115,7 @@ constexpr bool has_room_to_publish(const Params& params, bool own_imu) {
          share(TickKind::kChange, true) <= kMostChangePermille;
 }
 
-/// Duration of a steady tick on a classic bus with worst stuffing.
+/// A steady tick on a classic bus, worst stuffing.
 constexpr std::uint32_t tick_us(const Params& params) {
   const FrameBits bits = TickLoad(params, {}).bits(TickKind::kSteady);
   return static_cast<std::uint32_t>((wire_time_ns(bits, {params.baud, params.baud}) + 999) / 1000);

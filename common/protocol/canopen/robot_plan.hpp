@@ -8,24 +8,24 @@
 #include "common/protocol/canopen/frame.hpp"
 #include "common/protocol/canopen/pdo.hpp"
 
-/// How one robot's nodes share a CAN bus: what the controller configures and relies on. Node ids
-/// are those in Params, identifiers CiA 301's predefined ones.
+/// How one robot's nodes share a CAN bus. Node ids are those in Params, identifiers CiA 301's
+/// predefined ones.
 ///
 /// A tick is a round of SYNCs, 1 to sync_groups() (1019h). Drives answer in groups of five, in
 /// joint order, the first group SYNC 1; IMU and feet answer the last. Goals, controlwords and
 /// strengths of several drives share a frame: each drive maps its part, and dummies for the others.
 namespace verp::canopen::plan {
 
-/// The controller's node, which sends the heartbeat that drives watch.
+/// Sends the heartbeat that drives watch.
 inline constexpr std::uint8_t kControllerNode = 127;
 
-/// Profile number in the low half of a drive's 1000h. A sensor's is 0 (no profile).
+/// Low half of a drive's 1000h. A sensor's is 0.
 inline constexpr std::uint16_t kDriveProfile = 402;
-/// 1018h:2, product code: a drive's ServoProfile::model_number (0 there: any), a sensor's
-/// dxl::kModelImu or dxl::kModelFoot.
+/// 1018h:2: a drive's ServoProfile::model_number (0 there: any), a sensor's dxl::kModelImu or
+/// dxl::kModelFoot.
 inline constexpr Address kDeviceType{0x1000, 0};
-/// CiA assigns vendor ids; this project has no id. Manufacturer objects (2000h to 5FFFh) mean the
-/// following only on nodes with vendor 0.
+/// 0: this project has no vendor id. Manufacturer objects (2000h to 5FFFh) mean the following only
+/// there.
 inline constexpr Address kVendor{0x1018, 1};
 inline constexpr std::uint32_t kOurVendor = 0;
 inline constexpr Address kProductCode{0x1018, 2};
@@ -39,11 +39,11 @@ inline constexpr Address kAccel[3] = {{0x2011, 1}, {0x2011, 2}, {0x2011, 3}};  /
 inline constexpr Address kFoot[kFootSensors] = {
     {0x2020, 1}, {0x2020, 2}, {0x2020, 3}, {0x2020, 4}};  ///< foot sensors: u16
 
-/// Content of kTelemetry.
+/// kTelemetry.
 struct Telemetry {
   std::uint16_t voltage_tenth_v = 0;
   std::uint8_t temperature_c = 0;
-  std::uint8_t errors = 0;  ///< bits of dxl::HardwareError
+  std::uint8_t errors = 0;  ///< dxl::HardwareError
 
   static constexpr Telemetry from(std::uint32_t value) {
     return {static_cast<std::uint16_t>(value), static_cast<std::uint8_t>(value >> 16),
@@ -55,20 +55,19 @@ struct Telemetry {
   constexpr bool operator==(const Telemetry&) const = default;
 };
 
-/// Ticks between asking one drive for velocity or torque.
+/// Between two drives' velocity or torque.
 inline constexpr std::uint8_t kEffortTicks = 4;
 
-/// Most frames that answer one SYNC. An SJA1000 stores 64 bytes, and a classic frame of eight bytes
-/// takes eleven.
+/// An SJA1000 stores 64 bytes; a classic frame of eight takes eleven.
 inline constexpr int kAnswersToOneSync = 5;
 
-/// Frames of IMU (gyro TPDO 1, accelerometer TPDO 2) and feet.
+/// IMU (gyro TPDO 1, accelerometer TPDO 2) and feet.
 constexpr int sensor_answers(const Params& params) {
   int frames = params.imu.device_id != 0 ? 2 : 0;
   for (const std::uint8_t id : params.feet.device_id) frames += id != 0 ? 1 : 0;
   return frames;
 }
-/// SYNCs of a tick, at least 2 (1019h has no 1), and all TPDOs' transmission type.
+/// At least 2 (1019h has no 1); also all TPDOs' transmission type.
 constexpr std::uint8_t sync_groups(const Params& params) {
   const int joints = params.servo_count();
   const int in_last = joints == 0 ? 0 : (joints - 1) % kAnswersToOneSync + 1;
@@ -76,7 +75,7 @@ constexpr std::uint8_t sync_groups(const Params& params) {
   if (in_last + sensor_answers(params) > kAnswersToOneSync) ++groups;
   return static_cast<std::uint8_t>(groups < 2 ? 2 : groups);
 }
-/// SYNC start value of a drive's TPDO; a sensor's is sync_groups().
+/// A drive's start value; a sensor's is sync_groups().
 constexpr std::uint8_t group_of_joint(int joint) {
   return static_cast<std::uint8_t>(joint / kAnswersToOneSync + 1);
 }
@@ -84,8 +83,8 @@ constexpr std::uint8_t group_of_joint(int joint) {
 constexpr Mapped mapped(Address at, std::uint8_t bits) {
   return {at, bits};
 }
-/// TPDO 1 of a drive. Velocity or torque in the two free bytes would load the bus of 21 drives to
-/// 73 % at 125 Hz, and mappings cannot alternate: the controller asks for them by SDO, in turn.
+/// TPDO 1 of a drive. Velocity or torque would load the bus of 21 drives to 73 % at 125 Hz: the
+/// controller asks for them by SDO, in turn.
 constexpr PdoMapping<> drive_answer() {
   PdoMapping<> mapping;
   mapping.add(mapped(cia402::object::kStatusword, 16));
@@ -94,14 +93,14 @@ constexpr PdoMapping<> drive_answer() {
 }
 inline constexpr std::uint8_t kDriveAnswerBytes = 6;
 static_assert(drive_answer().bytes() == kDriveAnswerBytes);
-/// TPDO 1 and 2 of an IMU.
+/// TPDO 1 and 2.
 constexpr PdoMapping<> imu_answer(const Address (&axes)[3]) {
   PdoMapping<> mapping;
   for (const Address& axis : axes) mapping.add(mapped(axis, 16));
   return mapping;
 }
 inline constexpr std::uint8_t kImuAnswerBytes = 6;
-/// TPDO 1 of a foot.
+/// TPDO 1.
 constexpr PdoMapping<> foot_answer() {
   PdoMapping<> mapping;
   for (const Address& sensor : kFoot) mapping.add(mapped(sensor, 16));
@@ -109,9 +108,9 @@ constexpr PdoMapping<> foot_answer() {
 }
 inline constexpr std::uint8_t kFootAnswerBytes = 8;
 
-/// Data for several drives in one frame, event-driven (type 255): effective on arrival.
+/// Several drives' data in one frame, event-driven (type 255): effective on arrival.
 struct Shared {
-  std::uint8_t rpdo = 1;   ///< PDO 1 to 3
+  std::uint8_t rpdo = 1;   ///< 1 to 3
   std::uint8_t width = 2;  ///< drives in one frame
   Mapped own;
   Mapped dummy;
@@ -122,7 +121,7 @@ inline constexpr Shared kGoals{1, 2, {cia402::object::kTargetPosition, 32}, kDum
 inline constexpr Shared kWords{2, 4, {cia402::object::kControlword, 16}, kDummyU16};
 inline constexpr Shared kStrengths{3, 4, {cia402::object::kMaxTorque, 16}, kDummyU16};
 
-/// Frames of one kind. Frame f has joints first_of() to first_of() + members - 1.
+/// Frame f has joints first_of() to first_of() + members - 1.
 constexpr int shared_frames(const Shared& kind, const Params& params) {
   return (params.servo_count() + kind.width - 1) / kind.width;
 }
@@ -133,11 +132,11 @@ constexpr int members_of(const Shared& kind, const Params& params, int frame) {
   const int left = params.servo_count() - first_of(kind, frame);
   return left < kind.width ? left : kind.width;
 }
-/// RPDO identifier of the frame's first drive.
+/// The frame's first drive's.
 constexpr std::uint16_t shared_id(const Shared& kind, const Params& params, int frame) {
   return rpdo_id(kind.rpdo, params.joint[first_of(kind, frame)].servo_id);
 }
-/// The RPDO of `joint`'s drive; its frame is joint / width.
+/// For `joint`'s drive, in frame joint / width.
 constexpr PdoMapping<> shared_mapping(const Shared& kind, const Params& params, int joint) {
   const int frame = joint / kind.width;
   PdoMapping<> mapping;
@@ -158,14 +157,14 @@ inline std::uint16_t patience_ms(const Params& params) {
   return static_cast<std::uint16_t>(time_ms < 1 ? 1 : time_ms > kMost_ms ? kMost_ms : time_ms);
 }
 inline constexpr std::int16_t kQuickStopAndHold = 6;
-/// All but one of these heartbeats may be lost.
+/// All but one may be lost.
 inline constexpr std::uint16_t kHeartbeatsInPatience = 5;
 inline std::uint16_t heartbeat_ms(const Params& params) {
   return static_cast<std::uint16_t>(patience_ms(params) / kHeartbeatsInPatience);
 }
 
-/// SDO channels of the controller besides the default one, which is for anyone.
-inline constexpr unsigned kWatcherSdo = 1;  ///< 1201h: a listener that follows the ticks
+/// The controller's, besides the default one for anyone.
+inline constexpr unsigned kWatcherSdo = 1;  ///< 1201h: follows the ticks
 inline constexpr unsigned kToolSdo = 2;     ///< 1202h: `verp bus`
 inline constexpr unsigned kControllerSdos = 2;
 constexpr bool is_to_controllers_sdo(std::uint32_t id) {
@@ -181,7 +180,7 @@ constexpr bool is_of_controllers_sdo(std::uint32_t id) {
   return false;
 }
 
-/// True for a master's frames: a controller, or a tool that asks nodes.
+/// A controller's, or a tool's that asks nodes.
 constexpr bool is_of_master(const Frame& frame) {
   if (!is_canopen(frame)) return false;
   const Connection from = connection_of(frame.id);
@@ -200,7 +199,7 @@ constexpr bool is_of_master(const Frame& frame) {
       return false;
   }
 }
-/// Silence that means no controller: slightly more than its heartbeat's period.
+/// Slightly more than the controller's heartbeat period.
 inline std::uint32_t quiet_us(const Params& params) {
   return 1000u * heartbeat_ms(params) + 50'000;
 }

@@ -6,14 +6,14 @@
 #include "common/protocol/canopen/frame.hpp"
 
 /// SDO frames (CiA 301). Byte 0 begins with a three-bit command, except in a block's segments.
-/// Initiating frames and aborts have the object's address in bytes 1 to 3.
+/// Initiating frames and aborts have the address in bytes 1 to 3.
 namespace verp::canopen::sdo {
 
 inline constexpr std::uint8_t kFrameBytes = 8;
 inline constexpr std::uint8_t kSegmentBytes = 7;
-inline constexpr std::uint8_t kMaxBlock = 127;        ///< segments in a block
-inline constexpr std::uint8_t kMaxIdleBlocks = 8;     ///< consecutive blocks without progress
-inline constexpr std::uint32_t kTimeoutUs = 500'000;  ///< bus time; common masters wait 0.3-1 s
+inline constexpr std::uint8_t kMaxBlock = 127;        ///< in a block
+inline constexpr std::uint8_t kMaxIdleBlocks = 8;     ///< in a row without progress
+inline constexpr std::uint32_t kTimeoutUs = 500'000;  ///< bus time; masters often wait 0.3-1 s
 
 /// Client command specifiers; the server's differ.
 namespace request {
@@ -33,7 +33,7 @@ inline constexpr std::uint8_t kBlockDownload = 5;
 inline constexpr std::uint8_t kBlockUpload = 6;
 }  // namespace response
 
-inline constexpr std::uint8_t kAbort = 0x80;  ///< byte 0; no block segment has it
+inline constexpr std::uint8_t kAbort = 0x80;  ///< no block segment has it
 
 // Bits of byte 0.
 inline constexpr std::uint8_t kToggleBit = 0x10;
@@ -43,7 +43,7 @@ inline constexpr std::uint8_t kSizeGiven = 0x01;
 inline constexpr std::uint8_t kLastOfBlocks = 0x80;
 inline constexpr std::uint8_t kBlockCrc = 0x04;
 inline constexpr std::uint8_t kBlockSizeGiven = 0x02;
-/// Sub-commands of a block transfer; the mask leaves out the bits above.
+/// Block transfers only.
 inline constexpr std::uint8_t kSubMask = 0x03;
 inline constexpr std::uint8_t kBlockInitiate = 0;
 inline constexpr std::uint8_t kBlockEnd = 1;
@@ -59,8 +59,7 @@ constexpr std::uint8_t specifier_of(const Frame& frame) {
 constexpr Address address_of(const Frame& frame) {
   return {static_cast<std::uint16_t>(get_le(frame.data + 1, 2)), frame.data[3]};
 }
-/// Unused bytes, by byte 0: of an expedited transfer's four, a segment's seven, a block's last
-/// segment.
+/// Unused bytes, by byte 0: of four (expedited), of seven (a segment), a block's last segment.
 constexpr unsigned unused_of_four(const Frame& frame) {
   return frame.data[0] >> 2 & 3u;
 }
@@ -76,7 +75,7 @@ constexpr Frame bare(std::uint32_t id, std::uint8_t byte0) {
   frame.data[0] = byte0;
   return frame;
 }
-/// `number` goes into bytes 4 to 7.
+/// `number`: bytes 4 to 7.
 constexpr Frame addressed(std::uint32_t id, std::uint8_t byte0, Address at,
                           std::uint32_t number = 0) {
   Frame frame = bare(id, byte0);
@@ -88,7 +87,7 @@ constexpr Frame addressed(std::uint32_t id, std::uint8_t byte0, Address at,
 constexpr Frame abort_frame(std::uint32_t id, Address at, Abort reason) {
   return addressed(id, kAbort, at, static_cast<std::uint32_t>(reason));
 }
-/// `size` is at most 7.
+/// At most 7 bytes.
 constexpr Frame segment(std::uint32_t id, std::uint8_t specifier, bool toggle,
                         const std::uint8_t* data, unsigned size, bool last) {
   const unsigned unused = kSegmentBytes - size;
@@ -103,7 +102,7 @@ constexpr Frame block_end(std::uint32_t id, std::uint8_t specifier, unsigned unu
   put_le(frame.data + 1, crc, 2);
   return frame;
 }
-/// Confirms the last segment in order and sets the next block's size.
+/// Confirms segments in order, sets the next block's size.
 constexpr Frame block_response(std::uint32_t id, std::uint8_t specifier, std::uint8_t sequence,
                                std::uint8_t block) {
   Frame frame = bare(id, command(specifier, kBlockResponse));
@@ -112,7 +111,7 @@ constexpr Frame block_response(std::uint32_t id, std::uint8_t specifier, std::ui
   return frame;
 }
 
-/// CRC-16: polynomial 1021h, not reflected, initial value 0 or an earlier part's `crc`.
+/// Polynomial 1021h, not reflected, initial value 0 or an earlier `crc`.
 std::uint16_t crc16(const std::uint8_t* data, std::size_t size, std::uint16_t crc = 0);
 
 }  // namespace verp::canopen::sdo

@@ -3,20 +3,19 @@
 
 #include "common/protocol/canopen/sdo.hpp"
 
-/// A block transfer's data phase. Sender: client of a download or server of an upload; receiver:
-/// the other side.
+/// A block transfer's data phase. Sender: client of a download or server of an upload.
 namespace verp::canopen::sdo {
 
-/// Sends blocks of numbered segments and repeats what was not confirmed.
+/// Repeats segments that were not confirmed.
 class BlockSender {
  public:
   constexpr BlockSender() = default;
   BlockSender(std::uint32_t size, std::uint8_t block) : size_(size), block_(block) {}
 
-  /// False when a response is due.
+  /// False: a response is due.
   bool sending() const { return sequence_ < block_ && !all_sent(); }
 
-  /// `read(offset, buffer, size)` supplies the segment's bytes and returns an Abort.
+  /// `read(offset, buffer, size)` supplies bytes and returns an Abort.
   template <class Read>
   Abort next(std::uint32_t id, Frame& frame, Read&& read) {
     const std::uint32_t offset = base_ + std::uint32_t{sequence_} * kSegmentBytes;
@@ -26,14 +25,14 @@ class BlockSender {
     frame = bare(
         id, static_cast<std::uint8_t>(sequence_ | (left <= kSegmentBytes ? kLastOfBlocks : 0)));
     const Abort refused = read(offset, frame.data + 1, bytes);
-    if (refused == Abort::kNone && offset == summed_) {  // repeated ones are in the CRC
+    if (refused == Abort::kNone && offset == summed_) {  // not for repeated ones
       crc_ = crc16(frame.data + 1, bytes, crc_);
       summed_ += bytes;
     }
     return refused;
   }
 
-  /// Takes a response: `sequence` segments arrived; the next block has `block`.
+  /// `sequence` segments arrived; the next block has `block`.
   Abort confirm(std::uint8_t sequence, std::uint8_t block) {
     if (sequence > sequence_) return Abort::kSequence;
     if (block < 1 || block > kMaxBlock) return Abort::kBlockSize;
@@ -45,9 +44,9 @@ class BlockSender {
     sequence_ = 0;
     return Abort::kNone;
   }
-  /// True if everything is confirmed.
+  /// All is confirmed.
   bool done() const { return done_; }
-  /// Unused bytes of the last segment.
+  /// In the last segment.
   unsigned unused() const {
     if (size_ == 0) return kSegmentBytes;
     return (kSegmentBytes - size_ % kSegmentBytes) % kSegmentBytes;
@@ -55,29 +54,29 @@ class BlockSender {
   std::uint16_t crc() const { return crc_; }
 
  private:
-  /// An empty object has one segment, too.
+  /// An empty object has one segment.
   bool all_sent() const {
     return sequence_ > 0 && base_ + std::uint32_t{sequence_} * kSegmentBytes >= size_;
   }
   std::uint32_t size_ = 0;
-  std::uint32_t base_ = 0;    ///< offset of this block's first byte
+  std::uint32_t base_ = 0;    ///< this block's first byte
   std::uint32_t summed_ = 0;  ///< bytes in the CRC
   std::uint16_t crc_ = 0;
   std::uint8_t block_ = 0;
-  std::uint8_t sequence_ = 0;  ///< of the last segment sent
+  std::uint8_t sequence_ = 0;  ///< last sent
   std::uint8_t idle_ = 0;
   bool done_ = false;
 };
 
-/// Takes segments in order, drops others. Keeps the last one until the end says how many of its
-/// bytes count.
+/// Takes segments in order, drops others. The last one waits for the end, which says how many of
+/// its bytes count.
 class BlockReceiver {
  public:
   enum class Take : std::uint8_t {
-    kStray,    ///< out of order: no progress
-    kMore,     ///< the block continues
-    kRespond,  ///< the sender waits for respond()
-    kFailed,   ///< the store refused, see failure()
+    kStray,  ///< out of order
+    kMore,
+    kRespond,  ///< the sender waits
+    kFailed,   ///< refused, see failure()
   };
 
   constexpr BlockReceiver() = default;
@@ -89,7 +88,7 @@ class BlockReceiver {
     const auto sequence = static_cast<std::uint8_t>(frame.data[0] & 0x7F);
     const bool last = (frame.data[0] & kLastOfBlocks) != 0;
     const bool ends_block = last || sequence >= block_;
-    // After a block's end the sender waits, even if segments were lost.
+    // The sender waits now, even if segments were lost.
     if (complete_ || sequence != sequence_ + 1) return ends_block ? Take::kRespond : Take::kStray;
     if (!flush(kSegmentBytes, store)) return Take::kFailed;
     sequence_ = sequence;
@@ -100,7 +99,7 @@ class BlockReceiver {
     return ends_block ? Take::kRespond : Take::kMore;
   }
 
-  /// The response's sequence number; starts the next block.
+  /// Sequence number; starts the next block.
   std::uint8_t respond() {
     const std::uint8_t sequence = sequence_;
     if (!complete_) sequence_ = 0;
@@ -108,10 +107,10 @@ class BlockReceiver {
   }
   bool complete() const { return complete_; }
   std::uint8_t block() const { return block_; }
-  /// Total of segments taken: grows only with progress.
+  /// Total segments: grows only with progress.
   std::uint32_t taken() const { return taken_; }
 
-  /// `unused` bytes of the last segment do not count.
+  /// `unused` bytes of the last segment.
   template <class Store>
   Abort finish(unsigned unused, Store&& store) {
     return flush(kSegmentBytes - unused, store) ? Abort::kNone : failure_;
@@ -132,14 +131,14 @@ class BlockReceiver {
   bool held_ = false;
   bool complete_ = false;
   std::uint8_t block_ = 0;
-  std::uint8_t sequence_ = 0;  ///< of the last segment in order
+  std::uint8_t sequence_ = 0;  ///< last in order
   std::uint16_t crc_ = 0;
   std::uint32_t taken_ = 0;
   Abort failure_ = Abort::kNone;
 };
 
-/// Either side's timeout: kTimeoutUs of bus time without progress. A block receiver reminds the
-/// sender halfway, in case a block's last segment was lost.
+/// kTimeoutUs of bus time without progress. A block receiver reminds the sender halfway, in case
+/// the last segment was lost.
 class Patience {
  public:
   void progress(std::uint64_t now_us) {
@@ -147,7 +146,7 @@ class Patience {
     reminded_ = false;
   }
   bool over(std::uint64_t now_us) const { return now_us >= since_us_ + kTimeoutUs; }
-  /// True once per silence.
+  /// Once per silence.
   bool remind(std::uint64_t now_us) {
     if (reminded_ || now_us < since_us_ + kTimeoutUs / 2) return false;
     reminded_ = true;

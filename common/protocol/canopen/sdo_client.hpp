@@ -5,33 +5,31 @@
 #include "common/protocol/canopen/cob_id.hpp"
 #include "common/protocol/canopen/sdo_block.hpp"
 
-/// SDO client: reads and writes one node's objects, one at a time; a machine fed with frames and
-/// bus time.
+/// SDO client: reads and writes one node's objects, one at a time.
 ///
-///  - download() or upload() begins; receive() takes frames; next() returns one to send a call.
-///    None waits. state() shows the end, at the latest kTimeoutUs after the last progress.
-///  - kDone: the server confirmed a download, or an upload is complete with the announced size and
-///    CRC.
-///  - Frames of an earlier transfer are ignored while one is initiated; later, foreign frames abort
-///    it.
+///  - download() or upload() begins; receive() takes frames; next() returns one to send. None
+///  waits.
+///    state() shows the end, at the latest kTimeoutUs after the last progress.
+///  - kDone: the download is confirmed, or the upload complete with the announced size and CRC.
+///  - While initiating, frames of an earlier transfer are ignored; later, foreign frames abort.
 ///  - The caller's memory is in use until the end.
 namespace verp::canopen {
 
 class SdoClient {
  public:
   enum class Mode : std::uint8_t {
-    kPlain,  ///< expedited up to 4 bytes, else segmented
-    kBlock,  ///< with CRC; a server without it aborts with kCommand
+    kPlain,  ///< expedited or segmented
+    kBlock,  ///< with CRC; else the server aborts with kCommand
   };
   enum class State : std::uint8_t { kIdle, kBusy, kDone, kAborted };
 
   explicit SdoClient(std::uint8_t node) : SdoClient(default_sdo(node)) {}
   explicit SdoClient(SdoChannel channel) : channel_(channel) {}
 
-  /// False, without effect, while another transfer runs.
+  /// False, without effect, while another runs.
   bool download(Address at, const std::uint8_t* data, std::uint32_t size, Mode mode,
                 std::uint64_t now_us);
-  /// An object larger than `capacity` aborts with kOutOfMemory.
+  /// A larger object aborts with kOutOfMemory.
   bool upload(Address at, std::uint8_t* buffer, std::uint32_t capacity, Mode mode,
               std::uint64_t now_us);
   void cancel(Abort reason = Abort::kGeneral) {
@@ -39,13 +37,13 @@ class SdoClient {
   }
 
   void receive(const Frame& frame, std::uint64_t now_us);
-  /// False if there is no frame to send.
+  /// False: no frame to send.
   bool next(Frame& frame, std::uint64_t now_us);
 
   State state() const { return state_; }
-  /// Reason of the last abort, by either side.
+  /// Last abort, by either side.
   Abort reason() const { return reason_; }
-  /// Size of a finished upload.
+  /// For a finished upload.
   std::uint32_t size() const { return size_; }
 
  private:
@@ -87,15 +85,15 @@ class SdoClient {
   Phase phase_ = Phase::kBeginUpload;
   Abort reason_ = Abort::kNone;
   bool toggle_ = false;
-  bool last_ = false;       ///< the present segment is the last
-  bool crc_ = false;        ///< both sides support the block CRC
-  bool announced_ = false;  ///< the server announced the size
-  bool sending_ = false;    ///< frame_ has to be sent
+  bool last_ = false;       ///< segment
+  bool crc_ = false;        ///< both sides have the block CRC
+  bool announced_ = false;  ///< by the server
+  bool sending_ = false;    ///< frame_ waits
   Address at_;
   const std::uint8_t* data_ = nullptr;
   std::uint8_t* buffer_ = nullptr;
   std::uint32_t capacity_ = 0;
-  std::uint32_t size_ = 0;  ///< of a download; uploaded so far
+  std::uint32_t size_ = 0;  ///< download's; uploaded so far
   std::uint32_t announced_size_ = 0;
   std::uint32_t offset_ = 0;
   sdo::Patience patience_;

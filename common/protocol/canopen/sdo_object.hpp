@@ -6,8 +6,8 @@
 
 namespace verp::canopen::sdo {
 
-/// The object of a server's transfer. Small ones pass through a buffer, so the dictionary reads and
-/// writes them whole; large ones go in pieces.
+/// A server's object. Small ones pass through a buffer, so they are read and written whole; large
+/// ones go in pieces.
 template <Dictionary D, std::size_t kBuffer>
 class OpenObject {
   static_assert(kBuffer >= 8, "numbers go whole");
@@ -17,12 +17,12 @@ class OpenObject {
 
   Address at() const { return at_; }
   void close() { at_ = {}; }
-  /// Size of an upload, or bytes downloaded so far.
+  /// Upload, or downloaded so far.
   std::uint32_t size() const { return size_; }
-  /// Size of an expedited download that does not give it.
+  /// Expedited download without a size.
   std::uint32_t implied_size() const { return entry_.max_size < 4 ? entry_.max_size : 4; }
 
-  /// Reads a small object at once.
+  /// Small objects at once.
   Abort open_read(Address at) {
     if (const Abort refused = find(at); refused != Abort::kNone) return refused;
     if (!entry_.readable) return Abort::kWriteOnly;
@@ -36,7 +36,7 @@ class OpenObject {
     return Abort::kNone;
   }
 
-  /// `given`: the client announced `size`.
+  /// `given`: the client announced it.
   Abort open_write(Address at, bool given, std::uint32_t size) {
     if (const Abort refused = find(at); refused != Abort::kNone) return refused;
     if (!entry_.writable) return Abort::kReadOnly;
@@ -59,7 +59,6 @@ class OpenObject {
     size_ += size;
     return refused;
   }
-  /// All bytes have arrived.
   Abort commit() {
     if (announced_ && size_ != announced_size_) return Abort::kLength;
     if (const Abort refused = check_size(size_); refused != Abort::kNone) return refused;

@@ -6,15 +6,13 @@
 #include "common/protocol/canopen/sdo_block.hpp"
 #include "common/protocol/canopen/sdo_object.hpp"
 
-/// SDO server: one client's access to an object dictionary; a machine fed with frames and bus time.
-/// Expedited, segmented and block transfers, both ways.
+/// SDO server for one client: expedited, segmented and block transfers, both ways.
 ///
 ///  - receive() takes a frame, next() returns one to send; neither waits. Call next() after each
-///    receive() and while there is room: a block upload sends many frames in a row.
+///    receive() and while there is room: a block upload sends many in a row.
 ///  - Any frames end in data, an abort or silence. A foreign frame aborts the transfer, a new
 ///    request replaces it, and kTimeoutUs without progress abandon it.
-///  - Objects up to kBuffer bytes are read and written whole, larger ones in pieces if the
-///    dictionary can.
+///  - Objects up to kBuffer bytes go whole, larger ones in pieces if the dictionary can.
 ///  - A download of a wrong size or CRC is never written.
 ///  - Work for a frame is bounded by kBuffer bytes.
 namespace verp::canopen {
@@ -39,7 +37,7 @@ class SdoServer {
     }
   }
 
-  /// False if there is no frame to send.
+  /// False: no frame to send.
   bool next(Frame& frame, std::uint64_t now_us) {
     expire(now_us);
     if (phase_ == Phase::kBlockSegments && !replying_ && patience_.remind(now_us)) {
@@ -61,22 +59,23 @@ class SdoServer {
   }
 
   bool idle() const { return phase_ == Phase::kIdle; }
-  /// Call when the node was reset or stopped.
+  /// The node was reset or stopped.
   void reset() {
     forget();
     replying_ = false;
   }
 
  private:
+  /// Names the frame that the server waits for.
   enum class Phase : std::uint8_t {
     kIdle,
-    kDownload,       ///< waits for a segment
-    kUpload,         ///< waits for a segment request
-    kBlockSegments,  ///< block download: waits for segments
-    kBlockEnd,       ///< block download: waits for its end
-    kStartUpload,    ///< block upload: waits for the start
-    kSendBlock,      ///< block upload: sends, or waits for a response
-    kEndUpload,      ///< block upload: waits for the last answer
+    kDownload,       ///< a segment
+    kUpload,         ///< a segment request
+    kBlockSegments,  ///< segments
+    kBlockEnd,       ///< the block's end
+    kStartUpload,    ///< upload's start
+    kSendBlock,      ///< sends, or awaits a response
+    kEndUpload,      ///< the last answer
   };
 
   std::uint32_t id() const { return channel_.response; }
@@ -121,7 +120,7 @@ class SdoServer {
     abort(Abort::kCommand);
   }
 
-  /// True for kNone; otherwise aborts.
+  /// True for kNone; else aborts.
   bool granted(Abort refused) {
     if (refused != Abort::kNone) abort(refused);
     return refused == Abort::kNone;
@@ -187,7 +186,7 @@ class SdoServer {
     if (receiver_.taken() != taken) patience_.progress(now_us);
     if (take == Take::kRespond) respond_to_block();
   }
-  // A client sends a whole block before it listens: after an earlier abort the rest would look like
+  // A client sends a whole block before it listens: after an abort the rest would look like
   // commands.
   void respond_to_block() {
     if (refused_ != Abort::kNone) return abort(refused_);
@@ -246,7 +245,7 @@ class SdoServer {
     if (!open_read(frame)) return;
     const std::uint8_t block = frame.data[4];
     if (block < 1 || block > sdo::kMaxBlock) return abort(Abort::kBlockSize);
-    // Protocol switch threshold: the client prefers a plain upload up to this size.
+    // The client prefers a plain upload up to this size.
     if (frame.data[5] != 0 && object_.size() <= frame.data[5]) return send_upload();
     crc_ = (frame.data[0] & sdo::kBlockCrc) != 0;
     sender_ = sdo::BlockSender(object_.size(), block);
@@ -276,12 +275,12 @@ class SdoServer {
   SdoChannel channel_;
   Phase phase_ = Phase::kIdle;
   bool toggle_ = false;
-  bool crc_ = false;  ///< the client wants the block CRC
+  bool crc_ = false;  ///< wanted by the client
   bool replying_ = false;
-  std::uint32_t offset_ = 0;  ///< of the next segment to upload
+  std::uint32_t offset_ = 0;  ///< next segment to upload
   sdo::Patience patience_;
   Frame reply_;
-  Abort refused_ = Abort::kNone;  ///< to be reported at the block's end
+  Abort refused_ = Abort::kNone;  ///< reported at the block's end
   sdo::BlockSender sender_;
   sdo::BlockReceiver receiver_;
 };

@@ -5,17 +5,17 @@
 #include "common/protocol/canopen/dictionary.hpp"
 #include "common/protocol/canopen/frame.hpp"
 
-/// SYNC with its optional counter (CiA 301, objects 1005h and 1019h).
+/// CiA 301, objects 1005h and 1019h.
 namespace verp::canopen {
 
 inline constexpr std::uint8_t kMaxSyncCounter = 240;
 
-/// Object 1019h: 0 (no counter) or 2 to 240.
+/// 1019h: 0 (no counter) or 2 to 240.
 constexpr Abort check_sync_overflow(std::uint8_t overflow) {
   return overflow == 1 || overflow > kMaxSyncCounter ? Abort::kValueRange : Abort::kNone;
 }
 
-/// `counter` 0: none, for 1019h of 0.
+/// `counter` 0: none.
 constexpr Frame sync_frame(std::uint8_t counter) {
   Frame frame = classic_frame(kSyncId, counter == 0 ? 0 : 1);
   frame.data[0] = counter;
@@ -23,12 +23,12 @@ constexpr Frame sync_frame(std::uint8_t counter) {
 }
 
 enum class SyncSeen : std::uint8_t {
-  kNo,           ///< another frame
-  kSync,         ///< of the length in 1019h
-  kWrongLength,  ///< of another length: valid, EMCY 8240h is due
+  kNo,
+  kSync,         ///< of 1019h's length
+  kWrongLength,  ///< valid, EMCY 8240h is due
 };
 
-/// Sets `counter`, to 0 for a SYNC without a counter.
+/// `counter` 0: none.
 constexpr SyncSeen read_sync(const Frame& frame, std::uint8_t overflow, std::uint8_t& counter) {
   if (!is_canopen(frame) || frame.id != kSyncId) return SyncSeen::kNo;
   counter = overflow != 0 && frame.size == 1 ? frame.data[0] : std::uint8_t{0};

@@ -14,7 +14,7 @@ void verp_systick();
 
 namespace {
 
-// ARMv7-M Architecture Reference Manual, B3.5: memory protection unit.
+// ARMv7-M ARM, B3.5: memory protection unit.
 constexpr std::uintptr_t kMpuType = 0xE000ED90, kMpuCtrl = 0xE000ED94, kMpuRnr = 0xE000ED98,
                          kMpuRbar = 0xE000ED9C, kMpuRasr = 0xE000EDA0;
 constexpr std::uint32_t kMpuRegions = 0xFFu << 8;
@@ -36,8 +36,7 @@ union Vector {
 namespace verp::boot {
 
 #ifdef __ARM_FP
-// Coprocessor Access Control Register (ARMv7-M ARM, B3.2.20): full access to CP10 and CP11. Float
-// instructions before this fault.
+// CPACR (ARMv7-M ARM, B3.2.20): full access to CP10 and CP11. Float instructions fault before.
 void enable_core() {
   reg(0xE000ED88u) |= 0xFu << 20;
   __asm__ volatile("dsb\n isb" ::: "memory");
@@ -66,8 +65,7 @@ bool guard_stack() {
 
 }  // namespace verp::boot
 
-// The table of ARMv7-M ARM, B1.5.3. A board with interrupts appends its own table in section
-// .vectors.interrupts.
+// ARMv7-M ARM, B1.5.3. A board's interrupt table follows in section .vectors.interrupts.
 extern const Vector verp_vectors[16];
 __attribute__((section(".vectors"), used)) const Vector verp_vectors[16] = {
     {.stack = verp_stack_top},      // initial stack

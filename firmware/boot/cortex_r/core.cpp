@@ -6,16 +6,16 @@
 #include "firmware/boot/fault_capture.hpp"
 #include "firmware/boot/stack.hpp"
 
-/// Cortex-R5; ARMv7-A and ARMv7-R Architecture Reference Manual: exceptions (B1.8), system control
-/// registers of a PMSA (B6.1), memory protection (B5).
+/// Cortex-R5; ARMv7-A and ARMv7-R ARM: exceptions (B1.8), system control registers of a PMSA
+/// (B6.1), memory protection (B5).
 extern "C" {
 extern std::uint32_t verp_stack_guard[];
 extern std::uint32_t verp_code_begin[];
-extern std::uint32_t verp_code_bytes[];  ///< the address is the value
+extern std::uint32_t verp_code_bytes[];  ///< the address
 }
 
-/// The exception vectors and their targets: eight loads, then eight words, position-independent.
-/// The first one is also the core's entry.
+/// Exception vectors: eight loads, then eight words, position-independent. The first is the core's
+/// entry.
 extern "C" __attribute__((naked, section(".vectors"), used)) void verp_entry() {
   __asm__ volatile(
       ".rept 8\n ldr pc, [pc, #24]\n .endr\n"
@@ -30,7 +30,7 @@ extern "C" __attribute__((naked, section(".vectors"), used)) void verp_entry() {
   );
 }
 
-/// System mode, interrupts off; everything except fault handlers runs in it.
+/// System mode, interrupts off, except in fault handlers.
 extern "C" __attribute__((naked, used)) void verp_start() {
   __asm__ volatile(
       "cpsid if, #0x1F\n"
@@ -39,8 +39,8 @@ extern "C" __attribute__((naked, used)) void verp_start() {
       ".ltorg\n");
 }
 
-/// All faults enter here, in their own mode with the stack at the top, because the program's stack
-/// may be broken. lr is 8 past the instruction after a data abort, otherwise 4.
+/// All faults enter here, in their own mode, with the stack at the top because it may be broken. lr
+/// is 8 past the instruction after a data abort, otherwise 4.
 extern "C" __attribute__((naked, used)) void verp_undefined_entry() {
   __asm__ volatile(
       "mov r2, #0\n"
@@ -69,14 +69,14 @@ extern "C" __attribute__((naked, used)) void verp_fault_entry() {
       "stmia sp, {sp, lr}^\n"  // the program's sp and lr
       "nop\n"
       "ldr r1, [sp, #4]\n"
-      "b verp_fault_capture\n"  // the program's sp is on the stack as the fifth argument
+      "b verp_fault_capture\n"  // the program's sp: fifth argument
       ".ltorg\n");
 }
 
 namespace verp::boot {
 namespace {
 
-/// Copies the vectors to address 0 (tightly coupled memory), where this core expects them.
+/// To address 0 (tightly coupled memory).
 void place_vectors() {
   __asm__ volatile(
       "ldr r0, =verp_entry\n"
@@ -89,7 +89,7 @@ void place_vectors() {
           : "r0", "r1", "r2", "cc", "memory");
 }
 
-/// CPACR (B6.1.15): full access to CP10 and CP11; FPEXC (B6.1.39): on.
+/// CPACR (B6.1.15): CP10 and CP11; FPEXC (B6.1.39): on.
 void enable_fpu() {
   std::uint32_t access;
   __asm__ volatile("mrc p15, 0, %0, c1, c0, 2" : "=r"(access));
@@ -98,11 +98,11 @@ void enable_fpu() {
 }
 
 constexpr std::uint32_t kNoAccess = 0;
-/// DRACR (B6.1.26): privileged code may only read; normal memory, written back.
+/// DRACR (B6.1.26): privileged read only; normal memory, written back.
 constexpr std::uint32_t kReadOnly = 5u << 8 | 1u << 3 | 3u;
 constexpr std::uint32_t kGuardBytes = 32;
 
-/// Sets one MPU region (B6.1.86, .27, .28, .26): a power of two of at least 32 bytes.
+/// One region (B6.1.86, .27, .28, .26): a power of two of at least 32 bytes.
 void set_region(std::uint32_t number, std::uint32_t begin, std::uint32_t bytes,
                 std::uint32_t access) {
   const auto size = static_cast<std::uint32_t>(__builtin_ctz(bytes)) - 1;
@@ -122,8 +122,8 @@ void enable_core() {
   enable_fpu();
 }
 
-/// The highest overlapping region wins; the default map covers the rest. Code is read-only, so a
-/// stack that jumped over its guard faults there.
+/// The highest overlapping region wins; the default map covers the rest. A stack that jumps over
+/// its guard faults in the read-only code.
 bool guard_stack() {
   set_region(0, reinterpret_cast<std::uintptr_t>(verp_code_begin),
              reinterpret_cast<std::uintptr_t>(verp_code_bytes), kReadOnly);

@@ -6,15 +6,15 @@
 #include "firmware/boot/fault_capture.hpp"
 #include "firmware/boot/stack.hpp"
 
-/// RISC-V in machine mode; "The RISC-V Instruction Set Manual, Volume II: Privileged Architecture":
-/// traps (3.1), physical memory protection (3.7).
+/// RISC-V in machine mode; "The RISC-V Instruction Set Manual, Volume II": traps (3.1), physical
+/// memory protection (3.7).
 extern "C" {
 extern std::uint32_t verp_stack_guard[];
 extern std::uint32_t verp_code_begin[];
-extern std::uint32_t verp_code_bytes[];  ///< the address is the value
+extern std::uint32_t verp_code_bytes[];  ///< the address
 }
 
-/// The core's entry, at the lowest code address. The C library's errno needs `tp`.
+/// At the lowest code address. The C library's errno needs `tp`.
 extern "C" __attribute__((naked, section(".vectors"), used)) void verp_entry() {
   __asm__ volatile(
       ".option push\n .option arch, +zicsr\n"
@@ -26,8 +26,8 @@ extern "C" __attribute__((naked, section(".vectors"), used)) void verp_entry() {
       "tail verp_reset\n");
 }
 
-/// All traps enter here, with the stack at the top because it may be broken. Interrupts are never
-/// taken: a board that waits for one polls the pending bits.
+/// All traps enter here, with the stack at the top because it may be broken. Interrupts are polled,
+/// never taken.
 extern "C" __attribute__((naked, aligned(4), used)) void verp_fault_entry() {
   __asm__ volatile(
       ".option push\n .option arch, +zicsr\n"
@@ -44,10 +44,10 @@ extern "C" __attribute__((naked, aligned(4), used)) void verp_fault_entry() {
 namespace verp::boot {
 namespace {
 
-// pmpcfg0 holds the settings of four entries, a byte each.
+// pmpcfg0: four entries, a byte each.
 constexpr std::uint32_t kRead = 1, kExecute = 4, kPowerOfTwo = 3u << 3, kLocked = 1u << 7;
 
-/// pmpaddr of a naturally aligned power-of-two region of at least 8 bytes.
+/// A naturally aligned power of two of at least 8 bytes.
 constexpr std::uint32_t region(std::uint32_t begin, std::uint32_t bytes) {
   return begin >> 2 | (bytes / 8 - 1);
 }
@@ -57,8 +57,8 @@ constexpr std::uint32_t kGuardBytes = 32;
 
 void enable_core() {}
 
-/// A locked entry binds machine mode too; memory without an entry stays accessible. Code is
-/// read-only, so a stack that jumped over its guard faults there.
+/// A locked entry binds machine mode too. A stack that jumps over its guard faults in the read-only
+/// code.
 bool guard_stack() {
   const std::uint32_t guard =
       region(reinterpret_cast<std::uintptr_t>(verp_stack_guard), kGuardBytes);

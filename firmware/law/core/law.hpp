@@ -4,7 +4,6 @@
 namespace verp::app {
 using Law = Core;
 
-/// The controller for a robot with these actions.
 inline Law law_with(const action::Library& actions) {
   return {actions};
 }

@@ -5,7 +5,7 @@
 namespace verp::app {
 using Law = OwnLaw<::Controller>;
 
-/// A user's controller does not use the core's actions.
+/// A user's controller ignores the actions.
 inline Law law_with(const action::Library&) {
   return {};
 }
