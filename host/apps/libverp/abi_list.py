@@ -74,7 +74,7 @@ def abi(header: str) -> dict:
     ffi = cffi.FFI()
     ffi.cdef(text)
     numbers = "".join(f"typedef int {name};" for name in _NUMBERS)  # one line, so that line numbers stay
-    known = ffi.dlopen(None)  # gives the values of enumerators
+    known = ffi.dlopen(None)  # values of enumerators
     out = {"abi": 0, "library": "libverp.so.0", "constants": [], "enums": [], "handles": [], "structs": [],
            "callbacks": [], "functions": []}
     for node in c_parser.CParser().parse(numbers + text).ext[len(_NUMBERS) :]:

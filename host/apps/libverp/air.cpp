@@ -45,7 +45,7 @@ void Air::ticked(Run& run, std::uint32_t robot) {
     places.push_back({at.x(), at.y(), at.z()});
   }
   radio_.advance(run.session.now_us(), places);
-  radio_.take_outcomes();  // unused here, and they would accumulate
+  radio_.take_outcomes();  // they would accumulate
   std::deque<radio::ReceivedMessage>& heard = heard_[robot];
   for (radio::ReceivedMessage& each : radio_.take(static_cast<int>(robot))) {
     run.seat(robot).note_radio({.event = "heard",

@@ -11,15 +11,14 @@ namespace verp::abi {
 
 struct Run;
 
-/// The radios of a session's robots, and each robot's queue of received messages.
+/// Radios of a session's robots, with queues of received messages.
 class Air {
  public:
-  /// Throws Failure that names an invalid number.
+  /// Throws Failure with the invalid number.
   explicit Air(const verp_radio& what);
 
-  /// Before the first tick, with all robots present.
+  /// Call before the first tick, with all robots.
   void begin(std::size_t robots);
-  /// Advances the radios after a tick of that robot.
   void ticked(Run& run, std::uint32_t robot);
   int send(Run& run, std::uint32_t robot, std::int32_t to, std::string data);
   int take(std::uint32_t robot, void* data, std::uint64_t room, std::uint64_t* size,

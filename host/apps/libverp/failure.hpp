@@ -8,7 +8,7 @@
 
 namespace verp::abi {
 
-/// A call's status other than VERP_OK, and the reason.
+/// A status other than VERP_OK.
 class Failure : public std::runtime_error {
  public:
   Failure(verp_status status, const std::string& why) : std::runtime_error(why), status_(status) {}
@@ -18,11 +18,10 @@ class Failure : public std::runtime_error {
   verp_status status_;
 };
 
-/// Stores the current exception as this thread's last error and returns its status.
+/// This thread's last error is the current exception; returns its status.
 int fail(const char* function) noexcept;
 
-/// Runs the body of an ABI function: no exception leaves it. A body without a result returns
-/// VERP_OK.
+/// No exception leaves an ABI function's body. Without a result: VERP_OK.
 template <std::invocable Body>
 int call(const char* function, Body body) noexcept {
   try {
@@ -40,7 +39,6 @@ int call(const char* function, Body body) noexcept {
 /// Throw Failure for a null argument, an empty text, or a struct of another size.
 void need(const void* argument, const char* name);
 void need_text(const char* text, const char* name);
-/// Null is valid; an empty text is an error.
 void need_text_or_null(const char* text, const char* name);
 template <class Struct>
 void need_struct(const Struct* argument, const char* name) {
@@ -51,9 +49,7 @@ void need_struct(const Struct* argument, const char* name) {
                     std::to_string(sizeof(Struct)) +
                     "; set it to sizeof, and compile against this library's verp.h");
 }
-/// Throws Failure unless the size is that of the whole struct.
 void need_size(std::uint64_t size, std::uint64_t wanted, const char* name);
-/// Throws Failure unless the number is finite.
 double finite(double value, const char* name);
 
 }  // namespace verp::abi

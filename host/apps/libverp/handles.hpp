@@ -11,20 +11,19 @@
 
 namespace verp::abi {
 
-/// Number of forks between the process that loaded the library and this one.
+/// Forks since the library was loaded.
 unsigned forks();
 
-/// The objects behind one kind of handle. Handles are never reused, so a closed one is recognised.
-/// One call at a time uses an object. A forked process must not use or destroy its copies of the
-/// parent's objects, whose files and programs belong to the parent.
+/// Objects of one kind of handle. Handles are never reused: a closed one is recognised. One call at
+/// a time uses an object. A forked process must not use or destroy the parent's objects, whose
+/// files and programs belong to the parent.
 template <class Object>
 class Handles {
  public:
-  /// `what` is the kind in words; `kind` separates its handles from other kinds'.
+  /// `what`: the kind in words; `kind`: separates its handles from others'.
   Handles(const char* what, std::uint64_t kind) : what_(what), next_(kind) { forks(); }
   ~Handles() {
-    // Objects of the parent are never destroyed here. This list keeps them reachable, so that no
-    // leak is reported.
+    // Never destroyed here, but reachable, so that no leak is reported.
     static auto& of_parent = *new std::vector<std::shared_ptr<Object>>;
     for (auto& [id, place] : places_) {
       if (place.forks != forks()) of_parent.push_back(std::move(place.object));
@@ -67,7 +66,7 @@ class Handles {
     return Use(*this, id, place.object);
   }
 
-  /// Removes the object, so that no later call finds it.
+  /// No later call finds it.
   template <class Handle>
   std::shared_ptr<Object> take(Handle handle) {
     const auto id = reinterpret_cast<std::uint64_t>(handle);

@@ -9,7 +9,7 @@
 namespace verp::abi {
 namespace {
 
-/// The moments that run now, on any thread.
+/// Those that run now, on any thread.
 struct Moments {
   std::mutex mutex;
   std::map<std::uint64_t, Moment*> running;
@@ -70,7 +70,7 @@ int verp_decide(std::uint64_t token) {
       const std::lock_guard lock(moments().mutex);
       const auto found = moments().running.find(token);
       if (found != moments().running.end()) moment = found->second;
-      // On another thread the moment could end before it has decided.
+      // On another thread the moment could end first.
       if (moment != nullptr && moment->thread() != std::this_thread::get_id()) {
         throw Failure(VERP_BUSY,
                       "that moment is in the hands of a controller in another thread; "

@@ -8,7 +8,7 @@
 
 namespace verp::abi {
 
-/// One tick, passed to a user's controller. While it runs, verp_decide() finds it by its token.
+/// One tick, passed to a user's controller. verp_decide() finds it by its token.
 class Moment {
  public:
   Moment(const Params& params, State& state, const Inputs& inputs, Outputs& outputs);
@@ -16,12 +16,12 @@ class Moment {
   Moment(const Moment&) = delete;
   Moment& operator=(const Moment&) = delete;
 
-  /// Runs the controller and returns its status. Throws Failure if the controller throws.
+  /// Returns the controller's status. Throws Failure if the controller throws.
   int run(verp_controller controller, void* user, std::uint32_t robot);
-  /// Runs the core's own controller, once.
+  /// The core's own controller, once.
   void decide();
   bool decided() const { return decided_; }
-  /// The thread on which the controller runs; the moment ends with it.
+  /// The controller's thread.
   std::thread::id thread() const { return thread_; }
 
  private:

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint64_t kMostBytes = 65'536;  // limit under any conditions
 
-/// A caller sends and takes messages between ticks, or inside a controller.
+/// Between ticks, or inside a controller.
 template <class Act>
 int with(verp_session session, Act&& act) {
   if (Run* run = Ticking::find(session)) return act(*run);
@@ -18,7 +18,6 @@ int with(verp_session session, Act&& act) {
   return act(*run);
 }
 
-/// The radios of a session that has begun.
 Air& air_of(Run& run) {
   if (!run.air)
     throw Failure(VERP_BAD_ARGUMENT, "no robot has a radio; call verp_session_radio() before");
@@ -69,7 +68,7 @@ int verp_session_send(verp_session session, uint32_t robot, int32_t to, const vo
     return with(session, [&](Run& run) {
       run.seat(robot);
       Air& air = air_of(run);
-      // No radio takes more; refusing it here avoids a copy of an invalid size.
+      // Avoids a copy of an invalid size.
       if (size > kMostBytes) {
         throw Failure(VERP_BAD_ARGUMENT,
                       "data is of " + std::to_string(size) + " bytes: no message has so many");

@@ -46,7 +46,7 @@ int tuning_id_of(const std::string& name) {
 }
 
 float tuning_value_for(int id, const std::string& name, double value) {
-  // Ranges are float32: 0.03 is inside a range that ends at 0.03F, even if the double is larger.
+  // Ranges are float32: 0.03 is inside one that ends at 0.03F.
   const auto number = static_cast<float>(value);
   if (in_range(id, number)) return number;
   throw Failure(VERP_BAD_ARGUMENT,

@@ -7,19 +7,18 @@
 
 namespace verp::abi {
 
-/// A robot for the twin and for the controller. Any thread may load one.
+/// For the twin and the controller; any thread may load it.
 struct Loaded {
   model::Entity entity;
   Params params;
 };
-/// `bus` and `tuning` may be null. Throws LoadError, and Failure for invalid tuning.
+/// `bus` and `tuning` may be null. Throws LoadError and Failure.
 Loaded load(const char* model, const char* bus, const char* tuning);
 
-/// The same in two steps.
 scenario::Robot robot_of(const char* model, const char* bus, const char* tuning);
 model::Entity load(const scenario::Robot& robot);
 
-/// Throw Failure for an unknown tuning name and for a value out of range.
+/// Throw Failure for an unknown name and a value out of range.
 int tuning_id_of(const std::string& name);
 float tuning_value_for(int id, const std::string& name, double value);
 

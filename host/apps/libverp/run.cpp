@@ -62,7 +62,7 @@ RobotInstance::RobotInstance(const verp_robot& what, std::uint32_t index) : inde
   if (what.walk_s < 0) throw Failure(VERP_BAD_ARGUMENT, "walk_s is negative");
   plan_ = scenario::plan_of(robot, within(what.walk_s, kMostWalk_s, "walk_s"), load(robot));
   plan_.number = static_cast<int>(index);
-  plan_.twin.cameras = true;  // some poses at each look; what is seen is drawn when it is asked for
+  plan_.twin.cameras = true;  // for pictures on request
   if ((what.flags & ~std::uint32_t{VERP_OPEN_END}) != 0)
     throw Failure(VERP_BAD_ARGUMENT, "what->flags has more than VERP_OPEN_END");
   own_orders_ = what.walk_s == 0;
@@ -107,7 +107,7 @@ void RobotInstance::decide(const Params& params, State& state, const Inputs& inp
   }
   deciding_.reset();
   if (moment.decided()) return;
-  // The core did not run in this tick, so its digest does not cover it.
+  // The core did not run in this tick.
   record::Digest32 digest(0);
   digest.add_struct(inputs);
   digest.add_struct(outputs);
@@ -172,7 +172,7 @@ void RobotInstance::write_view(const session::Tick& tick) {
 const session::WalkResult& RobotInstance::finish(session::Session& session) {
   if (result_) return *result_;
   result_ = session.result(index_);
-  // Reports a controller failure that the caller has not read yet.
+  // A controller's failure that the caller has not read.
   if (deciding_)
     result_->failure =
         fmt::format("the controller of robot {} failed at tick {}", index_, *deciding_);

@@ -16,7 +16,7 @@
 /// State behind a verp_session.
 namespace verp::abi {
 
-/// One robot of the session and its user's settings. The session's hooks refer to it.
+/// A robot of the session. The session's hooks refer to it.
 class RobotInstance {
  public:
   RobotInstance(const verp_robot& what, std::uint32_t index);
@@ -30,17 +30,17 @@ class RobotInstance {
     user_ = user;
   }
   session::LiveOrders& orders() { return orders_; }
-  /// Only the library's user orders this robot.
+  /// Orders come only from the library's user.
   bool own_orders() const { return own_orders_; }
   const Tuning& tuning() const {
     return state_.admit.started != 0 ? state_.tuning : plan_.params.tuning;
   }
   const State& state() const { return state_; }
   std::uint64_t digest() const { return state_.digest.chain; }
-  /// Appends to the trace, at the time of the last tick.
+  /// At the time of the last tick.
   void note_radio(record::ros::Radio radio);
 
-  /// Ends the run: computes its result and closes its trace. Later calls return the same result.
+  /// Computes the result and closes the trace, once.
   const session::WalkResult& finish(session::Session& session);
 
  private:
@@ -59,8 +59,8 @@ class RobotInstance {
   verp_tick* view_ = nullptr;
   State state_;
   std::uint32_t tick_ = 0;
-  std::optional<std::uint32_t> deciding_;  ///< the tick whose controller is running or has failed
-  std::string radio_failure_;              ///< why the trace accepts no further messages
+  std::optional<std::uint32_t> deciding_;  ///< its controller runs or has failed
+  std::string radio_failure_;              ///< the trace takes no more messages
   std::optional<session::WalkResult> result_;
 };
 
@@ -68,14 +68,12 @@ struct Run {
   explicit Run(const session::Options& options) : session(options), sight(options.world) {}
   RobotInstance& seat(std::uint32_t index);
 
-  std::deque<std::unique_ptr<RobotInstance>>
-      seats;  ///< outlive the session, whose hooks refer to them
+  std::deque<std::unique_ptr<RobotInstance>> seats;  ///< outlive the session
   session::Session session;
   Sight sight;
-  std::optional<Air> air;  ///< nullopt: no robot has a radio
+  std::optional<Air> air;  ///< nullopt: no radio
   bool begun = false, ended = false;
 
-  /// Finishes the runs of all robots.
   void finish();
 };
 

@@ -25,7 +25,7 @@ sim::WorldOptions world_of(const verp_world* what) {
   return scenario::world_of(world);
 }
 
-/// If the physics diverges, the runs of all robots end, and their results say so.
+/// If the physics diverges, all robots' results say so.
 const session::Robot* tick_of(Run& run) {
   const session::Robot* ticked = run.session.tick();
   if (ticked == nullptr && !run.session.diverged().empty())

@@ -6,8 +6,7 @@ namespace verp::abi {
 
 Handles<Run>& sessions();
 
-/// Marks a session that ticks on this thread. Until it ends, any caller on this thread is a
-/// callback of that session.
+/// A session that ticks on this thread: callers on this thread are its callbacks.
 class Ticking {
  public:
   Ticking(verp_session session, Run& run) : session_(session), run_(run), before_(last()) {
@@ -17,14 +16,14 @@ class Ticking {
   Ticking(const Ticking&) = delete;
   Ticking& operator=(const Ticking&) = delete;
 
-  /// Null: the session does not tick on this thread.
+  /// Null: not on this thread.
   static Run* find(verp_session session);
 
  private:
   static Ticking*& last();
   const verp_session session_;
   Run& run_;
-  Ticking* const before_;  ///< nested: a callback of one session may tick another
+  Ticking* const before_;  ///< a callback may tick another session
 };
 
 }  // namespace verp::abi

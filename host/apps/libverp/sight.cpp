@@ -13,8 +13,7 @@ std::vector<std::vector<model::Transform>> links_of_all(session::Session& sessio
   return all;
 }
 
-/// Makes the path absolute, because the drawing program reads the file later, when the user may
-/// have changed directory.
+/// The drawing program reads it later, when the directory may have changed.
 std::string wherever_we_are(const std::string& file) {
   return file.empty() ? "" : std::filesystem::absolute(file).string();
 }
@@ -28,7 +27,7 @@ Sight::Sight(const sim::WorldOptions& world) {
 void Sight::add(const session::WalkPlan& plan) {
   stage_.robots.push_back({wherever_we_are(plan.entity.file), plan.twin.seed});
   last_.emplace_back(plan.entity.cameras.size());
-  painter_.reset();  // it knows only the earlier robots
+  painter_.reset();  // it knows earlier robots only
 }
 
 void Sight::looked(session::Session& session, std::uint32_t robot) {

@@ -8,21 +8,17 @@
 
 namespace verp::abi {
 
-/// Camera pictures and renderings of a session. Keeps each camera's last time and the poses at that
-/// time, and draws a picture on request.
+/// Keeps each camera's last time and poses, and draws on request.
 class Sight {
  public:
   explicit Sight(const sim::WorldOptions& world);
 
   void add(const session::WalkPlan& plan);
-  /// Notes the cameras that took a picture in the robot's tick.
   void looked(session::Session& session, std::uint32_t robot);
 
-  /// The camera's last picture in that encoding (camera::Picture); null: none taken yet. Throws
-  /// CameraError.
+  /// In that encoding (camera::Picture); null: none taken yet. Throws CameraError.
   const camera::Picture* picture(std::uint32_t robot, std::uint32_t camera, const char* encoding);
-  /// Draws the world as it is now. Throws CameraError, and std::invalid_argument for an unknown
-  /// view.
+  /// The world now. Throws CameraError, and std::invalid_argument for an unknown view.
   camera::Picture render(session::Session& session, std::uint32_t robot,
                          const camera::Outside& from);
 
@@ -34,8 +30,8 @@ class Sight {
   camera::Painter& painter();
 
   camera::Stage stage_;
-  std::vector<std::vector<Look>> last_;       ///< by robot, then by camera
-  std::unique_ptr<camera::Painter> painter_;  ///< created by the first request
+  std::vector<std::vector<Look>> last_;       ///< by robot, by camera
+  std::unique_ptr<camera::Painter> painter_;  ///< by the first request
 };
 
 }  // namespace verp::abi

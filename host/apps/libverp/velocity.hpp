@@ -3,7 +3,7 @@
 
 namespace verp::abi {
 
-/// Converts to the wire's units. Throws Failure for values beyond the wire's or a robot's range.
+/// In the wire's units. Throws Failure beyond the wire's or a robot's range.
 Command velocity_of(double vx_m_s, double vy_m_s, double wz_rad_s);
 
 }  // namespace verp::abi

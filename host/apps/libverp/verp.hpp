@@ -18,11 +18,9 @@
 
 namespace verp_lib {
 
-/// A failed call: its status, and the reason in what().
 class Error : public std::runtime_error {
  public:
   explicit Error(int given) : std::runtime_error(verp_last_error()), status(given) {}
-  /// For errors found before the library is called.
   Error(int given, const std::string& why) : std::runtime_error(why), status(given) {}
   int status;
 };
@@ -31,7 +29,7 @@ inline int checked(int status) {
   return status < 0 ? throw Error(status) : status;
 }
 
-/// Converts to a C string. Throws if the text contains a zero character.
+/// Throws for a text with a zero character.
 inline const char* c_text(const std::string& text, const char* what) {
   if (text.find('\0') == std::string::npos) return text.c_str();
   throw Error(VERP_BAD_ARGUMENT, std::string(what) + " has a zero character in it");
@@ -118,7 +116,6 @@ class Moment {
   std::uint32_t robot() const { return moment_.robot; }
   const verp_inputs& inputs() const { return *moment_.inputs; }
   verp_outputs& outputs() const { return *moment_.outputs; }
-  /// Runs the robot's own controller.
   void decide() const { checked(verp_decide(moment_.token)); }
 
  private:
@@ -163,7 +160,7 @@ class Session {
   /// Runs at most `count` ticks. False: the run has ended.
   bool tick(std::uint32_t count = 1) {
     const int status = verp_session_tick(handle(), count, nullptr, nullptr);
-    // With another status, the exception may belong to another thread's call.
+    // Else the exception may be another thread's.
     if (status == VERP_CALLBACK_FAILED && *thrown_)
       std::rethrow_exception(std::exchange(*thrown_, nullptr));
     return checked(status) == VERP_OK;
@@ -233,13 +230,13 @@ class Session {
                                                std::uint32_t robot = 0) const {
     return picture<std::uint16_t>(VERP_LABELS, camera, robot);
   }
-  /// Draws the world as it is now; time_s stays 0.
+  /// time_s stays 0.
   Picture<std::uint8_t> render(verp_view view) const {
     view.size = sizeof view;
     Picture<std::uint8_t> out{view.width, view.height, 0, {}};
     if (std::max(view.width, view.height) <= VERP_MOST_PIXELS)
       out.pixels.resize(std::size_t{3} * view.width * view.height);
-    if (out.pixels.empty()) out.pixels.resize(1);  // for the library to refuse
+    if (out.pixels.empty()) out.pixels.resize(1);  // the library refuses it
     checked(verp_session_render(handle(), &view, out.pixels.data(), out.pixels.size()));
     return out;
   }
@@ -257,7 +254,6 @@ class Session {
     checked(verp_radio_defaults(&radio));
     return radio;
   }
-  /// Gives each robot a radio, before the first tick.
   void radio(const verp_radio& what) { checked(verp_session_radio(handle(), &what)); }
   /// False: too many messages wait to be sent.
   bool send(std::uint32_t robot, const std::string& data, std::int32_t to = VERP_EVERYBODY) {
@@ -277,7 +273,7 @@ class Session {
     message.data.resize(size);
     return status == VERP_NO_MESSAGE ? std::nullopt : std::optional(std::move(message));
   }
-  /// Replaces the robot's own controller; an empty function restores it.
+  /// An empty function restores the robot's own controller.
   void control(Controller controller, std::uint32_t robot = 0) {
     if (!controller) {
       checked(verp_session_control(handle(), robot, nullptr, nullptr));
@@ -325,7 +321,7 @@ class Session {
   std::unique_ptr<std::exception_ptr> thrown_ = std::make_unique<std::exception_ptr>();
   std::map<std::uint32_t, std::unique_ptr<Attached>> controllers_;
   std::vector<std::unique_ptr<verp_tick>> ticks_;
-  std::unique_ptr<verp_session, Close> session_;  ///< destroyed before the memory that it uses
+  std::unique_ptr<verp_session, Close> session_;  ///< before the memory that it uses
 };
 
 /// Tick count and digest of a trace that replays bit for bit; throws Error if it does not.

@@ -3,7 +3,7 @@
 
 namespace verp::pictures {
 
-/// In the upper left corner; a dot is `scale` pixels.
+/// Upper left corner; a dot is `scale` pixels.
 void write_number(render::Image& image, int number, int scale);
 
 }  // namespace verp::pictures

@@ -8,16 +8,16 @@
 
 namespace verp::pictures {
 
-/// Feeds an ffmpeg process. The file appears when it is complete.
+/// An ffmpeg process. The file appears when it is complete.
 class Encoder {
  public:
-  /// .mp4, .gif or .webp. Throws ToolError if there is no ffmpeg.
+  /// .mp4, .gif or .webp. Throws ToolError without ffmpeg.
   Encoder(const std::string& file, render::Size size, int frames_per_s);
   ~Encoder();
   Encoder(const Encoder&) = delete;
   Encoder& operator=(const Encoder&) = delete;
 
-  /// Throws ToolError with ffmpeg's last line if it has ended.
+  /// Throws ToolError with ffmpeg's last line.
   void add(const render::Image& image);
   void finish();
 

@@ -18,7 +18,6 @@ namespace {
 
 constexpr double kSlack_s = 1e-6;
 
-/// Passes instants at least every_s apart.
 class Shutter {
  public:
   Shutter(double from_s, double every_s) : next_s_(from_s), every_s_(every_s) {}
@@ -39,9 +38,7 @@ class WalkFilm final : public Film {
     for (const session::WalkPlan& plan : run_.plans) scene::add_robot(scene_, plan.entity);
   }
 
-  double end_s() const override {
-    return run_.plans.front().walk_s + 3;
-  }  // the robot stands up first
+  double end_s() const override { return run_.plans.front().walk_s + 3; }  // the robot stands up
 
   void play(double from_s, double every_s, const Show& show) override {
     Shutter shutter(from_s, every_s);
@@ -67,7 +64,7 @@ class WalkFilm final : public Film {
     }
   }
 
-  /// The stance in which the twin starts.
+  /// The twin's first stance.
   scene::Snapshot start() const override {
     const sim::World world(run_.world);
     scene::Snapshot now;

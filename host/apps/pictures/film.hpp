@@ -7,20 +7,19 @@
 
 namespace verp::pictures {
 
-/// Receives the instants in order; false stops.
 using Show = std::function<bool(scene::Snapshot&&)>;
 
-/// A robot's walk in the twin, or a trace.
+/// A walk in the twin, or a trace.
 class Film {
  public:
   virtual ~Film() = default;
   const scene::Scene& scene() const { return scene_; }
   const model::Entity& entity() const { return *scene_.robots.front().entity; }
-  /// One line for the user; may be empty.
+  /// For the user; may be empty.
   const std::string& note() const { return note_; }
   virtual double end_s() const = 0;  ///< an estimate
   virtual scene::Snapshot start() const = 0;
-  /// From from_s on, every_s apart (0: each tick), until the end or until `show` stops it. Call it
+  /// From from_s on, every_s apart (0: each tick), to the end or until `show` returns false. Call
   /// once.
   virtual void play(double from_s, double every_s, const Show& show) = 0;
 
@@ -29,15 +28,14 @@ class Film {
   std::string note_;
 };
 
-/// A trace if the options' MODEL ends in .mcap, else a walk. Throws ToolError, LoadError and
-/// TraceError.
+/// A trace if MODEL ends in .mcap, else a walk. Throws ToolError, LoadError and TraceError.
 std::unique_ptr<Film> open_film(const tool::WalkOptions& options);
 
 void declare_film(CLI::App& app, tool::WalkOptions& options);
 
 bool is_trace(const tool::WalkOptions& options);
 
-/// Throws ToolError for a walk option with a trace.
+/// Walk options do not fit a trace. Throws ToolError.
 void refuse_walk_of_trace(const CLI::App& app, const tool::WalkOptions& options);
 
 }  // namespace verp::pictures

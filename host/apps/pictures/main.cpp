@@ -7,7 +7,7 @@
 
 namespace {
 
-/// Reports a RenderError as bad input: an oversized or unwritable picture is not a bug.
+/// A RenderError is bad input: an oversized or unwritable picture is not a bug.
 verp::cli::Subcommand told(verp::cli::Subcommand command) {
   command.run = [run = std::move(command.run)] {
     try {

@@ -9,7 +9,6 @@ class App;
 
 namespace verp::pictures {
 
-/// Options of both shot and video.
 struct PictureOptions {
   std::string file;
   std::string camera = "three-quarter";
@@ -20,17 +19,17 @@ struct PictureOptions {
 
 void declare_picture(CLI::App& app, PictureOptions& options, const std::string& file_help);
 
-/// Width and height of --size. Throws ToolError.
+/// --size. Throws ToolError.
 render::Size size_of(const std::string& command, const PictureOptions& options);
 
 /// Includes --marks.
 render::Effects effects_of(const PictureOptions& options);
 
-/// The view that --camera names. Throws ToolError that lists the views.
+/// --camera. Throws ToolError with the known views.
 scene::Camera camera_of(const std::string& command, const PictureOptions& options,
                         const scene::Scene& scene, const scene::Snapshot& now, render::Size size);
 
-/// Throws ToolError unless the folder exists and the name has one of these endings.
+/// The folder must exist, and the name have one of these endings.
 void require_place(const std::string& command, const std::string& file,
                    const std::vector<std::string>& endings);
 

@@ -33,7 +33,6 @@ struct ShotOptions {
   bool depth = false, segmentation = false, states = false, json = false;
 };
 
-/// A standing robot, or a moment of its walk or of a trace.
 scene::Snapshot instant(const ShotOptions& options, Film& film, cli::Progress& progress) {
   scene::Snapshot found;
   if (!options.at_s && !is_trace(options.walk)) return film.start();
@@ -58,7 +57,7 @@ scene::Snapshot instant(const ShotOptions& options, Film& film, cli::Progress& p
                                          kShot, at_s));
 }
 
-/// One snapshot per state of a cycle in the middle of a walk.
+/// One per state of a cycle in mid-walk.
 std::vector<scene::Snapshot> cycle(Film& film, cli::Progress& progress) {
   constexpr std::uint8_t kTransition = 2;
   std::vector<scene::Snapshot> states;

@@ -38,7 +38,7 @@ struct RunResult {
   int stiff_servos = 0;   ///< at the end, with torque
 };
 
-/// Of a read. Throws ToolError with the remedy if a tick cannot fit.
+/// The link's delay of a read. Throws ToolError with the remedy if a tick cannot fit.
 bus::LinkFit check_latency(link::Link& link, const RunPlan& plan);
 
 void check_imu(link::Link& link, const RunPlan& plan);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int32_t kMoved = 60;  // 5 degrees: above tremor
 
-/// Of the right hand, for a positive turn. Robots face x; y is their left, z up.
+/// Direction of the right thumb for a positive turn. Robots face x; y is their left, z up.
 std::string thumb(const JointParams& joint) {
   constexpr const char* kWords[] = {"ahead", "to its left", "up", "back", "to its right", "down"};
   const auto kind = static_cast<std::size_t>(joint.axis_kind);

@@ -21,7 +21,7 @@ namespace {
 std::function<std::string()> save_before_the_end;
 bool showing = false, heard = false;
 
-/// Discards what drivers print, because libGL cannot be silenced: users get our one line.
+/// libGL cannot be silenced: users get our one line instead.
 int real_stderr = -1;
 
 void silence_drivers() {
@@ -53,13 +53,13 @@ void at_exit() {
   ::_exit(cli::kNoDevice);
 }
 
-/// Xlib calls this before it prints its own lines and ends the program.
+/// Called before Xlib prints its own lines and ends the program.
 int hear_xlib(void*) {
   at_exit();
   return 0;
 }
 
-/// Needs no Xlib headers; works only if Qt has loaded Xlib.
+/// Without Xlib headers; only if Qt has loaded Xlib.
 void listen_to_xlib() {
   using Handler = int (*)(void*);
   void* found = ::dlsym(RTLD_DEFAULT, "XSetIOErrorHandler");
@@ -69,7 +69,7 @@ void listen_to_xlib() {
 void hear_qt(QtMsgType type, const QMessageLogContext&, const QString& text) {
   if (type == QtFatalMsg) {
     hear_drivers();
-    // No window yet: no platform plugin could start.
+    // No platform plugin could start.
     cli::complain("verp view: the display " +
                   std::string(std::getenv("DISPLAY") ? std::getenv("DISPLAY") : "") +
                   " cannot be opened; is DISPLAY right? Without one, try `verp shot` or "
@@ -82,7 +82,7 @@ void hear_qt(QtMsgType type, const QMessageLogContext&, const QString& text) {
 }  // namespace
 
 std::string no_display() {
-  ::setenv("EGL_LOG_LEVEL", "fatal", 0);  // our message replaces libEGL's lines
+  ::setenv("EGL_LOG_LEVEL", "fatal", 0);  // our message instead
   qInstallMessageHandler(hear_qt);
   if (is_set("QT_QPA_PLATFORM") || is_set("DISPLAY") || is_set("WAYLAND_DISPLAY")) return "";
   return "verp view: no display here (neither DISPLAY nor WAYLAND_DISPLAY is set); log in to a "

@@ -12,7 +12,6 @@
 #include "host/author/edit/names.hpp"
 #include "host/author/edit/parts.hpp"
 
-/// Buttons, and the line that adds parts.
 namespace verp::view {
 
 QWidget* EditorPanel::make_adder() {

@@ -24,9 +24,8 @@
 namespace verp::view {
 namespace {
 
-constexpr int kTyping_ms = 250;  // a check takes some 10 ms: wait for a pause
+constexpr int kTyping_ms = 250;  // a check takes some 10 ms
 
-/// Reports each letter typed into a cell.
 class Typing final : public QStyledItemDelegate {
  public:
   Typing(std::function<void(int, const QString&)> typed, QObject* parent)
@@ -157,7 +156,6 @@ void EditorPanel::select(const std::string& path) {
   tree_->scrollTo(index);
 }
 
-/// The undo stack applies the edit.
 void EditorPanel::change(const Make& make) {
   if (!document_) return;
   try {
@@ -207,7 +205,7 @@ void EditorPanel::preview(int row, const QString& text) {
   soon_->start();
 }
 
-/// Checks the document with the text that is being typed.
+/// With the text being typed.
 void EditorPanel::look() {
   if (!document_) return;
   soon_->stop();
@@ -215,11 +213,11 @@ void EditorPanel::look() {
   try {
     if (!typed_path_.empty()) seen.apply(edit::set(seen, typed_path_, typed_));
   } catch (const model::LoadError&) {
-    return;  // reported when the text is entered
+    return;  // reported on entry
   }
   const auto complaint = edit::check(seen);
   tell(complaint);
-  const bool shown_already = undo_.count() == 0;  // unchanged since it was opened
+  const bool shown_already = undo_.count() == 0;  // unchanged
   if (!complaint && !seen.is_urdf() && typed_path_.empty() && edited && !shown_already) {
     edited(model::load_robot_text(seen.file().string(), seen.text()));
   }

@@ -21,18 +21,18 @@ namespace verp::view {
 class EditorTable;
 class EditorTree;
 
-/// Editor of a robot's file: parts, values with units, and the result of `verp check` during
-/// typing. Each change is the smallest edit of the text and goes on the undo stack.
+/// Editor of a robot's file, with `verp check` during typing. A change is the smallest edit of the
+/// text, and goes on the undo stack.
 class EditorPanel final : public QWidget {
  public:
   explicit EditorPanel(QUndoStack& undo, QWidget* parent = nullptr);
   ~EditorPanel() override;
 
-  /// Returns empty or the reason. Refuses while there are unsaved changes.
+  /// These return empty or the reason. Refuses with unsaved changes.
   std::string open(const std::string& file, bool may_be_new = false);
-  /// Returns empty, or the reason and where the text was put.
+  /// Also returns where the text was put.
   std::string save();
-  /// Writes unsaved text beside the file; returns a note that says where.
+  /// Writes unsaved text beside the file; returns its place.
   std::string put_aside() const { return document_ ? document_->put_aside() : ""; }
   bool changed() const { return document_ && document_->changed(); }
   const edit::Document* document() const { return document_ ? &*document_ : nullptr; }
@@ -40,8 +40,8 @@ class EditorPanel final : public QWidget {
   std::string selected() const;  ///< path; may be empty
 
   std::function<void(const std::string& text)> said;
-  std::function<void(const model::Entity& robot)> edited;  ///< a sound robot, after each change
-  std::function<void(const std::string& link)> chosen;     ///< the link of the selected part
+  std::function<void(const model::Entity& robot)> edited;  ///< sound, after each change
+  std::function<void(const std::string& link)> chosen;     ///< of the selected part
   std::function<void(const std::string& file, const std::string& text)> walk;
 
  private:

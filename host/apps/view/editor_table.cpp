@@ -43,7 +43,7 @@ void EditorTable::add(const edit::Document& document, int element, const std::st
 
 void EditorTable::mark(const std::string& path) {
   marked_ = path;
-  // Marks only: new values would reset a cell during typing.
+  // New values would reset a cell during typing.
   if (!rows_.empty()) emit dataChanged(index(0, 0), index(rowCount() - 1, 0));
 }
 
@@ -75,7 +75,7 @@ bool EditorTable::setData(const QModelIndex& index, const QVariant& value, int r
   if (!index.isValid() || role != Qt::EditRole || index.column() != 1) return false;
   const Row row = rows_[std::size_t(index.row())];
   const std::string text = value.toString().toStdString();
-  // Wait until the cell is closed: the change rebuilds all rows.
+  // The change rebuilds all rows: wait until the cell is closed.
   if (text != row.value) {
     QTimer::singleShot(0, this, [this, path = row.path, text] {
       if (wanted) wanted(path, text);

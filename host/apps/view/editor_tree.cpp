@@ -10,7 +10,7 @@
 namespace verp::view {
 namespace {
 
-// Nested parts; other children are values.
+// Other children are values.
 constexpr std::array kInner = {"sensor", "collision", "visual", "verp:servo", "verp:joint"};
 
 }  // namespace

@@ -6,19 +6,18 @@
 
 namespace verp::view {
 
-/// Links, joints, frames, sensors, and buses with their servos. An index holds its element's
-/// number.
+/// An index holds its element's number.
 class EditorTree final : public QAbstractItemModel {
  public:
   using QAbstractItemModel::QAbstractItemModel;
 
-  /// Keeps the pointer until the next call; may be null.
+  /// Kept until the next call; may be null.
   void set_document(const edit::Document* document);
   int element(const QModelIndex& index) const {
     return index.isValid() ? int(index.internalId()) : -1;
   }
   QModelIndex index_of(int element) const;
-  /// The part that `verp check` complains about.
+  /// Marks the part that `verp check` refuses.
   void mark(const std::string& path);
 
   QModelIndex index(int row, int column, const QModelIndex& parent = {}) const override;

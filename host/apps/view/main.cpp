@@ -33,7 +33,7 @@ int show(MainWindow& window) {
   QObject::connect(&interrupts, &QTimer::timeout, [&] {
     if (!cli::interrupted() && !window.isHidden()) return;
     window.close();
-    QApplication::quit();  // close() does not end the program before the window is shown
+    QApplication::quit();  // close() needs a shown window
   });
   interrupts.start(kInterrupt_ms);
   window.show();
@@ -52,7 +52,7 @@ int run_view(const tool::ViewOptions& asked) {
   tool::read_robot_words(options);
   cli::catch_interrupts();
   const bool trace = options.model.ends_with(".mcap");
-  std::optional<RunSetup> setup;  // report mistakes before a window opens
+  std::optional<RunSetup> setup;  // mistakes are reported first
   if (trace) record::read_trace(options.model);
   if (!trace) setup = run_of(options);
   if (!asked.link.empty()) link::parse_endpoint(asked.link);
@@ -92,7 +92,7 @@ int run_view(const tool::ViewOptions& asked) {
   return show(window);
 }
 
-/// Lets the caller report an error from before the window closes, not as a lost display.
+/// An earlier error must not look like a lost display.
 int run_view_and_leave(const tool::ViewOptions& asked) {
   try {
     return run_view(asked);

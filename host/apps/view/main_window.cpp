@@ -28,9 +28,9 @@
 namespace verp::view {
 namespace {
 
-constexpr int kNumbersEvery = 4;                          // frames; users cannot read faster
-constexpr scene::Colour kLinked{0.16F, 0.47F, 0.86F, 1};  // of the robot at the link
-constexpr int kLayout = 1;                                // version of the saved layout
+constexpr int kNumbersEvery = 4;                          // frames; faster is illegible
+constexpr scene::Colour kLinked{0.16F, 0.47F, 0.86F, 1};  // the robot at the link
+constexpr int kLayout = 1;                                // of the saved layout
 
 double wall_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -58,7 +58,7 @@ MainWindow::MainWindow(QSettings& settings, MakeRun make_run)
       transport_(new Transport(this)),
       timer_(new QTimer(this)) {
   setWindowTitle("verp view");
-  resize(1280, 740);  // fits a screen of 800 lines with a desktop's bars
+  resize(1280, 740);  // 800 lines minus a desktop's bars
   setCentralWidget(scene_);
   make_editor();
   addToolBar(Qt::BottomToolBarArea, transport_);
@@ -204,7 +204,6 @@ void MainWindow::show_film(const QString& name) {
   setWindowTitle(name + " – verp view");
 }
 
-/// In the order of the snapshots' robots.
 scene::Scene MainWindow::scene_of_all() {
   const LiveRun* run = live();
   scene::Scene scene = scene::surroundings(run != nullptr ? run->setup().run.world.scenery.get()
@@ -223,7 +222,7 @@ void MainWindow::open(const QString& file) {
     if (file.endsWith(".mcap")) return watch(std::filesystem::path(file.toStdString()));
     watch(make_run_(file.toStdString()));
   } catch (const std::exception& error) {
-    // Open it anyway: the user can repair a robot that is not sound.
+    // The user can repair an unsound robot.
     if (!file.endsWith(".mcap")) editor_->open(file.toStdString());
     say(QString::fromUtf8(error.what()));
   }

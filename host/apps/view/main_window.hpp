@@ -35,11 +35,11 @@ class StatePanel;
 class Transport;
 class TuningPanel;
 
-/// The main window: one robot in the twin or in a trace. It only connects Player, which holds what
-/// it shows, and LiveRun, which acts on the robot.
+/// One robot in the twin or in a trace. Connects Player, which holds what it shows, and LiveRun,
+/// which acts on the robot.
 class MainWindow final : public QMainWindow {
  public:
-  /// Makes the run of a robot by name or file; throws an exception with one line of text.
+  /// Throws an exception with one line of text.
   using MakeRun = std::function<RunSetup(const std::string& model)>;
   MainWindow(QSettings& settings, MakeRun make_run);
   ~MainWindow() override;
@@ -47,12 +47,11 @@ class MainWindow final : public QMainWindow {
   void watch(RunSetup setup);
   /// Throws record::TraceError.
   void watch(const std::filesystem::path& trace);
-  /// Shows the controller at that link beside each robot opened from now on. Throws
-  /// link::EndpointError.
+  /// Shows the controller at that link beside each robot opened later. Throws link::EndpointError.
   void link_to(const std::string& link);
-  /// Steers by that joystick whenever it is plugged in.
+  /// Whenever it is plugged in.
   void steer_by(const std::string& gamepad);
-  /// Opens a robot's file or a trace; the window shows failures.
+  /// The window shows failures.
   void open(const QString& file);
 
   Player* player() { return player_.get(); }
@@ -61,9 +60,9 @@ class MainWindow final : public QMainWindow {
   PosePanel& pose() { return *pose_; }
   EditorPanel& editor() { return *editor_; }
 
-  /// Why the window closed by itself, or empty.
+  /// Why it closed by itself, or empty.
   const std::string& failure() const { return failure_; }
-  /// Ends the run and its record. Returns what was lost, or empty.
+  /// Completes the run's record; returns the loss, or empty.
   std::string finish();
 
  protected:
@@ -113,12 +112,12 @@ class MainWindow final : public QMainWindow {
   std::unique_ptr<Gamepad> gamepad_;
   std::unique_ptr<Player> player_;
   std::shared_ptr<const TraceFilm> trace_;     ///< null in a run
-  std::unique_ptr<StepOn> shadow_;             ///< continues from a tick of the trace
-  std::size_t state_index_ = ~std::size_t{0};  ///< tick that the panel shows
+  std::unique_ptr<StepOn> shadow_;             ///< from a tick of the trace
+  std::size_t state_index_ = ~std::size_t{0};  ///< shown in the panel
   std::shared_ptr<const Film> film_;
   std::shared_ptr<const scene::Entity> entity_;
   std::unique_ptr<Steering> steering_;
-  std::shared_ptr<const scene::Entity> edited_;  ///< shown until time goes on
+  std::shared_ptr<const scene::Entity> edited_;  ///< until time goes on
   std::string chosen_link_;                      ///< in the editor
   QUndoStack* undo_;
   QUndoGroup* undos_;
@@ -140,8 +139,8 @@ class MainWindow final : public QMainWindow {
   QByteArray first_layout_;
   std::string failure_, said_, happened_;
   std::set<std::string> told_;              ///< notes already reported
-  std::optional<scene::Vec3> grip_link_m_;  ///< on a link other than a foot, in its frame
-  std::optional<scene::Vec3> foot_from_m_;  ///< start of the dragged foot
+  std::optional<scene::Vec3> grip_link_m_;  ///< not a foot; link frame
+  std::optional<scene::Vec3> foot_from_m_;  ///< where the drag began
   int frames_ = 0;
 };
 

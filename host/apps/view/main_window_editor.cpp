@@ -15,7 +15,7 @@ namespace {
 
 constexpr scene::Colour kChosen{0.95F, 0.55F, 0.12F, 1};
 
-/// A temporary file beside the robot's, so that relative includes work.
+/// A temporary file beside the robot's, for relative includes.
 class Beside {
  public:
   Beside(const std::filesystem::path& file, const std::string& text)
@@ -45,8 +45,7 @@ void MainWindow::make_editor() {
   undos_->addStack(undo_);
   undos_->addStack(stack);
   undos_->setActiveStack(undo_);
-  // Undo takes back the latest change in either stack. The stacks outlive the window and end with
-  // count() 0.
+  // Undo takes back the latest change of both stacks. The stacks outlive the window.
   connect(stack, &QUndoStack::indexChanged, this, [this, stack] {
     if (stack->count() > 0) undos_->setActiveStack(stack);
   });
@@ -106,7 +105,6 @@ void MainWindow::show_scene() {
   scene_->set_scene(std::move(scene));
 }
 
-/// Saves unsaved edits beside the file.
 std::string MainWindow::finish() {
   const std::string lost =
       player_ && player_->live() != nullptr ? player_->live()->finish() : std::string();

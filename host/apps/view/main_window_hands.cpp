@@ -37,7 +37,7 @@ void MainWindow::stop(bool pressed) {
   stop_->setText(pressed ? "Release stop" : "Emergency stop");
 }
 
-/// The robot obeys only the window and stands once it is up.
+/// The robot obeys only the window, and stands once up.
 void MainWindow::get_up() {
   if (live() == nullptr || !steering_ || !get_up_->isEnabled()) return;
   steering_->stop();
@@ -48,7 +48,7 @@ void MainWindow::get_up() {
   if (!player_->playing()) player_->play();
 }
 
-/// Enabled for a fallen robot without torque that has actions.
+/// For a fallen robot without torque that has actions.
 void MainWindow::show_get_up(const scene::RobotView& robot) {
   const bool can = live() != nullptr && !live()->setup().plan().actions.empty();
   const bool limp = !safety::has_torque(static_cast<safety::Mode>(robot.mode));
@@ -105,7 +105,7 @@ session::Intervention MainWindow::push_of(const SceneView::Hold& at) const {
   session::Intervention push{.kind = session::Intervention::Kind::kPush, .name = {}};
   push.name = entity_->nodes[static_cast<std::size_t>(at.node)].name;
   push.force_world_n = kPush_n_m * (at.to_world_m - at.at_world_m);
-  // Round as a user would type it.
+  // As a user would type it.
   for (double& axis : push.force_world_n) axis = std::round(10 * axis) / 10;
   push.for_s = kPush_s;
   return push;

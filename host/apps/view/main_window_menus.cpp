@@ -139,7 +139,7 @@ void MainWindow::make_run_menu() {
   make_corner();
 }
 
-/// Buttons for urgent actions in the menu bar, always visible.
+/// Buttons for urgent actions, always visible.
 void MainWindow::make_corner() {
   const auto button = [this](const char* text, const char* name) {
     auto* made = new QPushButton(text);

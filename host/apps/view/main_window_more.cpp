@@ -9,7 +9,7 @@
 #include "host/run/session/fault_names.hpp"
 #include "host/show/scene/plan_marks.hpp"
 
-// A controller at a link, a gamepad, a trace's State.
+// Links, gamepads, and a trace's State.
 namespace verp::view {
 
 void MainWindow::link_to(const std::string& link) {
@@ -61,7 +61,7 @@ void MainWindow::show_state() {
   }
   const scene::TracePlayer& player = trace_->player();
   std::size_t index = player.index_at(player_->shown_s());
-  if (shadow_ && index != shadow_->index()) step_on(0);  // the user moved to another tick
+  if (shadow_ && index != shadow_->index()) step_on(0);  // the user moved
   if (index == state_index_) return;
   state_index_ = index;
   StatePanel::Tick recorded;
@@ -99,7 +99,7 @@ void MainWindow::step_on(int ticks) {
   player_->seek((shadow_->inputs().tick + 0.5) * player.trace().period_s());
 }
 
-/// The recorded robot with the continuing controller's goals.
+/// With the continuing controller's goals.
 Picture MainWindow::with_shadow(Picture now) const {
   if (!shadow_ || !now || now->robots.empty()) return now;
   auto picture = std::make_shared<scene::Snapshot>(*now);

@@ -97,7 +97,7 @@ int PlotPanel::points_of(int signal) const {
   return 0;
 }
 
-/// Left axis: the first curve's unit; right axis: all others.
+/// The first curve's unit is left; all others are right.
 void PlotPanel::lay_out() {
   QStringList left, right;
   for (std::size_t i = 0; i < curves_.size(); ++i) {

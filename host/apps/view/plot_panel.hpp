@@ -14,7 +14,7 @@ class QLabel;
 
 namespace verp::view {
 
-/// Curves over time. Wheel and drag zoom and move; a click shows that instant in 3D.
+/// Wheel and drag zoom and move; a click shows the instant in 3D.
 class PlotPanel final : public QWidget {
  public:
   explicit PlotPanel(QWidget* parent = nullptr);
@@ -23,7 +23,6 @@ class PlotPanel final : public QWidget {
   void set_shown(int signal, bool shown);
   std::vector<int> shown() const;
   void clear();
-  /// Adds new points and moves the line to the shown instant.
   void refresh(double shown_s, bool follows);
   void fit();
   void restyle();
@@ -50,7 +49,7 @@ class PlotPanel final : public QWidget {
   QCustomPlot* plot_;
   QCPItemStraightLine* cursor_;
   QLabel* empty_;
-  bool moved_ = false;  ///< the user moved the view: no following until fit()
+  bool moved_ = false;  ///< by the user: no following until fit()
   QPointF pressed_;
 };
 

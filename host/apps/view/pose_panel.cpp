@@ -12,7 +12,7 @@
 namespace verp::view {
 namespace {
 
-constexpr double kSteps_rad = 1000;  // positions of a slider per radian
+constexpr double kSteps_rad = 1000;  // slider steps per radian
 constexpr double kDegrees = 180 / 3.14159265358979323846;
 
 }  // namespace

@@ -15,8 +15,7 @@ class QSlider;
 
 namespace verp::view {
 
-/// Joint sliders for the robot held in the air, and the result of a dragged foot's inverse
-/// kinematics.
+/// For a robot held in the air: joint sliders, and the reach of a dragged foot.
 class PosePanel final : public QWidget {
  public:
   explicit PosePanel(QWidget* parent = nullptr);
@@ -31,7 +30,7 @@ class PosePanel final : public QWidget {
   scene::Vec3 in_link_m(int node, const scene::Vec3& at_world_m) const;
   Picture picture() const;
 
-  std::function<void()> changed;  ///< the pose, or whether the robot is held
+  std::function<void()> changed;  ///< pose or hold
 
  private:
   void show_hand();
@@ -41,7 +40,7 @@ class PosePanel final : public QWidget {
   std::unique_ptr<PoseHand> hand_;
   QCheckBox* posing_;
   QLabel* legs_;
-  std::string link_;  ///< dragged last; may be empty
+  std::string link_;  ///< dragged last
   QWidget* joints_ = nullptr;
   QGridLayout* grid_ = nullptr;
   std::vector<QSlider*> sliders_;

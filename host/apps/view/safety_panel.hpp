@@ -10,7 +10,7 @@ class QListWidget;
 
 namespace verp::view {
 
-/// The safety table's modes and faults, with a log of changes.
+/// Modes, faults, and a log of changes.
 class SafetyPanel final : public QWidget {
  public:
   explicit SafetyPanel(QWidget* parent = nullptr);

@@ -8,7 +8,7 @@ namespace verp::view {
 namespace {
 
 constexpr double kTurn_rad_px = 0.008;
-constexpr double kZoomStep = 0.9;  // per notch of the wheel
+constexpr double kZoomStep = 0.9;  // wheel notch
 constexpr double kNotch = 120;
 
 scene::Orbit orbit_of(const scene::Camera& camera) {
@@ -81,7 +81,7 @@ void SceneView::say(const QString& text) {
   overlay_->move(12, 12);
 }
 
-/// A robot's camera moves with its link; other views stay.
+/// A robot's camera moves with its link.
 scene::Camera SceneView::camera() const {
   for (const scene::Mount& mount : scene_.cameras) {
     if (view_ != "head" && view_ != mount.name) continue;
@@ -106,7 +106,7 @@ void SceneView::initializeGL() {
   try {
     renderer_ = std::make_unique<render::Renderer>();
     scene_changed_ = true;
-    if (renderer_->on_processor()) {  // the twin needs the processor too
+    if (renderer_->on_processor()) {  // the twin needs it too
       effects_.quick = true;
       effects_.antialias = false;
     }
@@ -149,7 +149,7 @@ std::optional<SceneView::Hold> SceneView::take_hold(const QPointF& at) {
   return Hold{item.robot, item.node, hit.point_world_m, hit.point_world_m};
 }
 
-/// The point under the mouse, `ahead_m` from the camera's plane.
+/// `ahead_m` from the camera's plane.
 scene::Vec3 SceneView::under_mouse(const QPointF& at, double ahead_m) const {
   const scene::Camera from = camera();
   const scene::Vec3 ahead = (from.target_m - from.eye_m).normalized();

@@ -13,8 +13,7 @@ class QLabel;
 
 namespace verp::view {
 
-/// The 3D scene and its mouse control. Left drag turns, middle or right drag moves, the wheel
-/// zooms; a drag with Shift grips what is under the mouse.
+/// Left drag turns, middle or right drag moves, the wheel zooms; Shift grips.
 class SceneView final : public QOpenGLWidget {
  public:
   explicit SceneView(QWidget* parent = nullptr);
@@ -22,7 +21,7 @@ class SceneView final : public QOpenGLWidget {
 
   void set_scene(scene::Scene scene);
   void show_picture(Picture now);
-  /// One of scene::view_names(); false for another.
+  /// False: not one of scene::view_names().
   bool set_view(const std::string& name);
   const std::string& view() const { return view_; }
   void set_follow(bool follow) { follow_ = follow; }
@@ -30,17 +29,17 @@ class SceneView final : public QOpenGLWidget {
   const scene::Orbit& orbit() const { return orbit_; }
   render::Effects& effects() { return effects_; }
 
-  void say(const QString& text);  ///< in the corner; may be empty
+  void say(const QString& text);  ///< in the corner
 
   struct Hold {
     int robot = 0, node = 0;
     scene::Vec3 at_world_m = scene::Vec3::Zero();  ///< where the grip began
-    scene::Vec3 to_world_m = scene::Vec3::Zero();  ///< the mouse, at the same distance from the eye
+    scene::Vec3 to_world_m = scene::Vec3::Zero();  ///< at the same distance from the eye
   };
   std::function<void(const Hold&)> held, let_go;
-  std::function<void(const Hold&)> taken;              ///< double click on a robot
+  std::function<void(const Hold&)> taken;              ///< double click
   std::function<void(const std::string& why)> failed;  ///< the view cannot draw
-  std::function<void(const std::string& what)> noted;  ///< an item that the view cannot draw
+  std::function<void(const std::string& what)> noted;  ///< cannot be drawn
 
   std::uint64_t drawn() const { return drawn_; }
 

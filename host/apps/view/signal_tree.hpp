@@ -9,7 +9,7 @@ class QLineEdit;
 
 namespace verp::view {
 
-/// Signals in groups, with a check box and the current value.
+/// With a check box and the current value.
 class SignalTree final : public QWidget {
  public:
   explicit SignalTree(QWidget* parent = nullptr);

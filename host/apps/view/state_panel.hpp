@@ -14,8 +14,8 @@ class QTreeWidgetItem;
 
 namespace verp::view {
 
-/// All fields of State, Inputs and Outputs at a trace's tick. While a controller continues from
-/// there, also the recorded values.
+/// All fields of State, Inputs and Outputs at a tick. A continuing controller's stand beside the
+/// recorded ones.
 class StatePanel final : public QWidget {
  public:
   explicit StatePanel(QWidget* parent = nullptr);
@@ -25,17 +25,17 @@ class StatePanel final : public QWidget {
     Inputs inputs;
     Outputs outputs;
   };
-  /// `recorded` is null for the record itself.
+  /// null: the record itself.
   void show_tick(const Tick& now, const Tick* recorded);
   void show_none(const QString& why);
-  /// Compares the continuing controller with the record; may be empty.
+  /// The comparison in words; may be empty.
   void say(const QString& how);
 
-  /// Called with the ticks to continue; 0: back to the record.
+  /// Ticks to continue; 0: back to the record.
   std::function<void(int ticks)> stepped;
 
   int different() const { return different_; }
-  /// Text of a field by its path ("state.gait.phase"); empty if there is no such field.
+  /// By path ("state.gait.phase"); empty: unknown.
   QString value(const QString& path) const;
 
  private:

@@ -5,7 +5,7 @@
 class QApplication;
 class QCustomPlot;
 
-/// The same colours as the report's.
+/// The report's colours.
 namespace verp::view {
 
 struct Theme {

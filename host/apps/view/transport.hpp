@@ -10,7 +10,6 @@ namespace verp::view {
 
 class Player;
 
-/// Reset, play, one tick back and forth, speed, and a slider over the whole time.
 class Transport final : public QToolBar {
  public:
   explicit Transport(QWidget* parent = nullptr);

@@ -17,7 +17,7 @@
 namespace verp::view {
 namespace {
 
-/// Drags of one box merge into one step.
+/// Drags of one box are one step.
 class Change final : public QUndoCommand {
  public:
   Change(int id, float from, float to, std::function<void(int, float)> apply)
@@ -119,7 +119,7 @@ void TuningPanel::set_box(int id, float value) {
   mark(id);
 }
 
-/// Ignores numbers unchanged since the last call: a requested change takes effect later.
+/// Only numbers that changed: a requested change takes effect later.
 void TuningPanel::show_tuning(const Tuning& tuning) {
   for (int id = 0; id < kTuningCount; ++id) {
     const float value = tuning_value(tuning, id);

@@ -11,12 +11,12 @@ class QLabel;
 
 namespace verp::view {
 
-/// Gait, balance and safety numbers with their ranges. Changes go on the undo stack.
+/// Changes go on the undo stack.
 class TuningPanel final : public QWidget {
  public:
   TuningPanel(QUndoStack& undo, QWidget* parent = nullptr);
 
-  /// `live`: the numbers can be changed.
+  /// `live`: can be changed.
   void set_robot(const Tuning& own, bool live);
   /// Numbers in effect.
   void show_tuning(const Tuning& tuning);
@@ -31,7 +31,7 @@ class TuningPanel final : public QWidget {
   QUndoStack& undo_;
   QLabel* hint_;
   std::vector<QDoubleSpinBox*> boxes_;
-  Tuning own_, asked_, seen_;  ///< seen_: in effect at the last look
+  Tuning own_, asked_, seen_;  ///< seen_: in effect
 };
 
 }  // namespace verp::view

@@ -12,7 +12,6 @@ namespace Verp {
 
     protected override int CloseNow() { return Native.verp_core_close(handle); }
 
-    /// <summary>Returns to the state at power-on.</summary>
     public void Reset() { Checked(Native.verp_core_reset(handle)); }
     public void Step(ref verp_inputs inputs, ref verp_outputs outputs) {
       fixed (verp_inputs* seen = &inputs)
@@ -40,7 +39,6 @@ namespace Verp {
       }
       return names;
     }
-    /// <summary>Servo count for a joint angle.</summary>
     public int Count(uint joint, float angle_rad) {
       int count;
       Checked(Native.verp_core_count(handle, joint, angle_rad, &count));
@@ -60,7 +58,6 @@ namespace Verp {
         Checked(Native.verp_core_forward(handle, angles, Length(angle_rad), to));
       return poses;
     }
-    /// <summary>Centre of mass, m, body frame.</summary>
     public float[] Com(float[] angle_rad) {
       var com_m = new float[3];
       fixed (float* angles = angle_rad, to = com_m) Checked(Native.verp_core_com(handle, angles, Length(angle_rad), to));

@@ -3,7 +3,7 @@ using System.Runtime.InteropServices;
 using System.Text;
 
 namespace Verp {
-  /// <summary>A call failed; Message names it and gives the reason. If a controller threw, InnerException is its
+  /// <summary>A call failed; Message gives the reason. If a controller threw, InnerException is its
   /// exception.</summary>
   public sealed class VerpException : Exception {
     public VerpException(verp_status status, string message, Exception inner = null) : base(message, inner) {
@@ -23,7 +23,6 @@ namespace Verp {
 
   /// <summary>C strings: UTF-8 with a final zero.</summary>
   static class Texts {
-    /// <summary>`what` names the call and its argument.</summary>
     public static byte[] ToC(string text, string what) {
       if (text == null) return null;
       if (text.IndexOf('\0') >= 0) throw VerpException.Wrong(what + " has a zero character in it");
@@ -48,7 +47,6 @@ namespace Verp {
     public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
 
     protected abstract int CloseNow();
-    /// <summary>Releases the memory that the library used.</summary>
     protected virtual void LetGo() {}
 
     /// <summary>Throws if a callback or another thread uses the handle, which then stays open, and if a trace cannot be

@@ -4,7 +4,6 @@ namespace Verp {
   /// <summary>Rows from the top. Colour: red, green, blue per pixel. Depth: mm, 0 where there is nothing.</summary>
   public sealed class Picture<Pixel> {
     public uint Width, Height;
-    /// <summary>Simulated time of a camera's picture.</summary>
     public double Time_s;
     public Pixel[] Pixels;
   }
@@ -26,7 +25,7 @@ namespace Verp {
     }
     /// <summary>Distance along the camera's axis.</summary>
     public Picture<ushort> Depth(uint camera = 0, uint robot = 0) { return Words(robot, camera, Native.VERP_DEPTH); }
-    /// <summary>A number per link, then one per object of the world; 0: the floor, or nothing.</summary>
+    /// <summary>One number per link, then per object; 0: the floor, or nothing.</summary>
     public Picture<ushort> Labels(uint camera = 0, uint robot = 0) { return Words(robot, camera, Native.VERP_LABELS); }
 
     /// <summary>The world as it is now. `view`: front, side, three-quarter, back, top, follow or head of a robot, or a

@@ -59,7 +59,7 @@ namespace Verp {
         what.name = name;
         what.tuning = tuning;
         what.record = record;
-        lock (ticks) {  // keeps the list in the library's order
+        lock (ticks) {  // the library's order
           Checked(Native.verp_session_add(handle, &what, &index));
           View(index);
         }
@@ -104,7 +104,7 @@ namespace Verp {
       return digest;
     }
 
-    /// <summary>The controller's State after the last tick; verp_layout("state") lists its fields.</summary>
+    /// <summary>After the last tick; verp_layout("state") lists its fields.</summary>
     public void State(byte[] state, uint robot = 0) {
       fixed (byte* to = state) Checked(Native.verp_session_state(handle, robot, to, state == null ? 0 : (ulong)state.Length));
     }
@@ -136,8 +136,7 @@ namespace Verp {
       fixed (byte* from = data)
         return Checked(Native.verp_session_send(handle, robot, to, from, (ulong)data.Length)) == (int)verp_status.VERP_OK;
     }
-    /// <summary>The next message that the robot received up to its last tick, and its sender; null: there is
-    /// none.</summary>
+    /// <summary>The next message and its sender; null: there is none.</summary>
     public byte[] Take(out uint from, uint robot = 0) {
       var room = new byte[65536];
       ulong size;
@@ -161,7 +160,6 @@ namespace Verp {
     public void Tune(string name, double value, uint robot = 0) {
       fixed (byte* text = Texts.ToC(name, "verp_session_tune: name")) Checked(Native.verp_session_tune(handle, robot, text, value));
     }
-    /// <summary>The tuning value in force.</summary>
     public double Tuning(string name, uint robot = 0) {
       double value;
       fixed (byte* text = Texts.ToC(name, "verp_session_tuning: name")) Checked(Native.verp_session_tuning(handle, robot, text, &value));
@@ -184,7 +182,7 @@ namespace Verp {
       fixed (byte* text = Texts.ToC(quantity, "verp_session_read: quantity")) Checked(Native.verp_session_read(handle, text, &value));
       return value;
     }
-    /// <summary>Sets a quantity from the next physics step on.</summary>
+    /// <summary>From the next physics step on.</summary>
     public void Set(string quantity, double value) {
       fixed (byte* text = Texts.ToC(quantity, "verp_session_set: quantity")) Checked(Native.verp_session_set(handle, text, value));
     }
@@ -196,9 +194,9 @@ namespace Verp {
     /// <summary>Replaces the robot's own controller from the next tick on; null restores it.</summary>
     public void Control(Controller controller, uint robot = 0) {
       verp_controller callback = controller == null ? (verp_controller)null : Callback(controller);
-      lock (controllers) {  // keeps the controller in force, not another thread's
+      lock (controllers) {  // the one in force
         Checked(Native.verp_session_control(handle, robot, callback, null));
-        controllers[robot] = callback;  // protects it from the garbage collector; replaces the last one, no longer needed
+        controllers[robot] = callback;  // for the garbage collector
       }
     }
 

@@ -7,8 +7,8 @@
 namespace verp::view {
 namespace {
 
-constexpr double kPictures_s = 120;  // of a run that the user can rewind to; about 5 kB a tick
-constexpr double kValues_s = 1800;   // of a run that can be plotted; about 0.5 kB a tick
+constexpr double kPictures_s = 120;  // for rewinding; about 5 kB a tick
+constexpr double kValues_s = 1800;   // for plots; about 0.5 kB a tick
 
 }  // namespace
 
@@ -45,7 +45,7 @@ double LiveFilm::end_s() const {
   return instants_.empty() ? 0 : instants_.back().t_s;
 }
 
-/// The last instant with a picture at or before t_s.
+/// Last with a picture at or before t_s.
 std::size_t LiveFilm::index_at(double t_s) const {
   const auto first = instants_.end() - static_cast<std::ptrdiff_t>(pictures_);
   const auto later = std::upper_bound(

@@ -16,28 +16,28 @@ struct Point {
   double t_s = 0, value = 0;
 };
 
-/// One robot over time: a live run or a trace.
+/// A live run or a trace.
 class Film {
  public:
   virtual ~Film() = default;
   virtual const scene::Entity& entity() const = 0;
   virtual std::vector<Signal> all_signals() const { return signals_of(entity()); }
-  /// Null for a level floor or a live run.
+  /// Null: level floor, or live run.
   virtual const model::World* world() const { return nullptr; }
   virtual double period_s() const = 0;
   virtual bool empty() const = 0;
   virtual double begin_s() const = 0;
   virtual double end_s() const = 0;
-  /// At t_s or just before; null if the film is empty.
+  /// At or just before t_s; null: empty film.
   virtual Picture at(double t_s) const = 0;
   /// Appends the points after `after_s`.
   virtual void points(int signal, double after_s, std::vector<Point>& out) const = 0;
 };
 
-/// The last minutes of a run. One thread adds, any thread reads.
+/// A run's last minutes. One thread adds, any thread reads.
 class LiveFilm final : public Film {
  public:
-  /// `beside`: each snapshot has a second robot like the first, for comparison.
+  /// `beside`: each snapshot has a second robot for comparison.
   LiveFilm(std::shared_ptr<const scene::Entity> entity, double period_s, bool beside = false);
 
   void add(scene::Snapshot now);
@@ -54,7 +54,7 @@ class LiveFilm final : public Film {
 
  private:
   struct Instant {
-    Picture picture;  ///< null: too old, only the values are kept
+    Picture picture;  ///< null: too old
     double t_s;
     std::vector<float> values;
   };
@@ -65,7 +65,7 @@ class LiveFilm final : public Film {
   const bool beside_;
   mutable std::mutex mutex_;
   std::deque<Instant> instants_;
-  std::size_t pictures_ = 0;  ///< newest instants with a picture
+  std::size_t pictures_ = 0;  ///< with a picture
 };
 
 }  // namespace verp::view

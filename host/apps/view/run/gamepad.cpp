@@ -12,9 +12,9 @@ namespace verp::view {
 namespace {
 
 constexpr double kMost = 32767;
-constexpr double kDead = 0.15;  // of the range: worn sticks do not return to the middle
+constexpr double kDead = 0.15;  // worn sticks do not return to the middle
 constexpr int kLookAgain = 30;  // polls
-// From the kernel's drivers for common gamepads.
+// The kernel's drivers for common gamepads.
 constexpr int kLeftX = 0, kLeftY = 1, kRightX = 3;
 constexpr int kStand = 0, kStop = 1;
 
@@ -55,7 +55,7 @@ Gamepad::News Gamepad::poll() {
     } else if (count < 0 && errno == EINTR) {
       continue;
     } else {
-      if (count >= 0 || errno != EAGAIN) close(news);  // end of file, or ENODEV: unplugged
+      if (count >= 0 || errno != EAGAIN) close(news);  // end of file, or ENODEV
       break;
     }
   }
@@ -63,7 +63,7 @@ Gamepad::News Gamepad::poll() {
 }
 
 void Gamepad::take(int type, int number, int value, News& news) {
-  const bool began = (type & JS_EVENT_INIT) != 0;  // the state at opening, not a press
+  const bool began = (type & JS_EVENT_INIT) != 0;  // not a press
   type &= ~JS_EVENT_INIT;
   if (type == JS_EVENT_BUTTON && value != 0 && !began) {
     news.stand = news.stand || number == kStand;

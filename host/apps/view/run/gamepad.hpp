@@ -3,17 +3,17 @@
 
 namespace verp::view {
 
-/// From -1 to 1; 0 near the middle.
+/// From -1 to 1.
 struct Sticks {
   double ahead = 0, left = 0, turn = 0;
   bool operator==(const Sticks&) const = default;
 };
 
-/// A gamepad at the kernel's joystick interface (/dev/input/js0). Left stick: walk; right stick:
-/// turn; first button: stand; second: emergency stop. Unplugging it releases all sticks.
+/// Kernel joystick (/dev/input/js0). Left stick: walk; right stick: turn; first button: stand;
+/// second: emergency stop. Unplugging releases all sticks.
 class Gamepad {
  public:
-  /// Opens it as soon as it is there.
+  /// Opens the device once it exists.
   explicit Gamepad(std::string device) : device_(std::move(device)) {}
   ~Gamepad();
   Gamepad(const Gamepad&) = delete;
@@ -36,7 +36,7 @@ class Gamepad {
 
   const std::string device_;
   int descriptor_ = -1;
-  int wait_ = 0;  ///< polls until the next attempt
+  int wait_ = 0;  ///< polls
   bool present_ = false;
   Sticks sticks_;
 };

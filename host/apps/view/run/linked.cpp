@@ -22,15 +22,15 @@ using namespace std::chrono_literals;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint32_t kTimeout_us = 50'000;
-constexpr auto kPause = 25ms;       // as often as a picture is drawn
-constexpr auto kLostPause = 500ms;  // before the next poll of a silent link
+constexpr auto kPause = 25ms;       // a picture's
+constexpr auto kLostPause = 500ms;  // for a silent link
 constexpr double kApart_m = 0.45;
 constexpr double kTiltCount_rad = 1e-4;
 
 template <class Number>
 Number number_at(const Bytes& bytes, std::size_t offset = 0) {
   Number value{};
-  std::memcpy(&value, bytes.data() + offset, sizeof value);  // little-endian, as on a PC
+  std::memcpy(&value, bytes.data() + offset, sizeof value);  // little-endian
   return value;
 }
 
@@ -42,7 +42,7 @@ const bus::NamedRegister& find(const char* name) {
 
 }  // namespace
 
-/// Reads a register's first `count` elements. Throws bus::DeviceError.
+/// The first `count` elements. Throws bus::DeviceError.
 class Linked::Registers {
  public:
   virtual ~Registers() = default;
@@ -119,7 +119,7 @@ void Linked::loop() {
       now = look();
     } catch (const std::exception& error) {
       trouble = error.what();
-      known_ = false;  // the next answer may come from another controller
+      known_ = false;  // the controller may change
     }
     lock.lock();
     if (trouble.empty()) {

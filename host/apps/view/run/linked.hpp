@@ -11,8 +11,8 @@
 
 namespace verp::view {
 
-/// Reads a controller's registers at its operator's port or as a CAN node; writes nothing. Its own
-/// thread polls until the controller answers, so a dead link delays no one else.
+/// Reads a controller's registers by its operator's port or CAN node; writes nothing. Its own
+/// thread polls, so a dead link delays no one else.
 class Linked {
  public:
   /// Throws link::EndpointError, link::LinkError.
@@ -23,17 +23,17 @@ class Linked {
   Linked& operator=(const Linked&) = delete;
 
   struct Told {
-    bool lost = false;    ///< answered once, but not now
-    std::string trouble;  ///< why there is no answer now, or empty
+    bool lost = false;    ///< answered once
+    std::string trouble;  ///< no answer now; or empty
     std::uint64_t looks = 0, digest = 0;
     std::uint32_t tick = 0;
     double roll_rad = 0, pitch_rad = 0;
-    scene::RobotView robot;  ///< without poses; no joints before the first answer
+    scene::RobotView robot;  ///< without poses; no joints before an answer
   };
   Told told() const;
 
-  /// That robot on its feet to the left of `own`, with its heading. Without links, and so not
-  /// drawn, before the first answer.
+  /// On its feet to the left of `own`, with its heading. Without links, so not drawn, before an
+  /// answer.
   scene::RobotView beside(const scene::RobotView& own) const;
 
  private:
@@ -48,7 +48,7 @@ class Linked {
   const std::shared_ptr<const scene::Entity> entity_;
   const Params params_;
   std::unique_ptr<Registers> registers_;
-  bool known_ = false;  ///< the controller is of such a robot; thread only
+  bool known_ = false;  ///< a robot like ours; thread only
   mutable std::mutex mutex_;
   std::condition_variable woken_;
   Told told_;

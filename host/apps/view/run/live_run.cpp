@@ -192,7 +192,7 @@ void LiveRun::loop() {
   }
 }
 
-/// Does one thing or waits for the clock. False: nothing to do.
+/// Does one thing or waits for the clock; false: nothing to do.
 bool LiveRun::work(std::unique_lock<std::mutex>& lock) {
   if (!touches_.empty()) {
     const auto touch = std::move(touches_.front());
@@ -250,7 +250,7 @@ void LiveRun::tick(std::unique_lock<std::mutex>& lock) {
   status_.late_s = pace_.late_s();
 }
 
-/// In the run's thread, without the lock.
+/// Run's thread, without the lock.
 void LiveRun::ticked(const session::Tick& tick) {
   if (tick.record == nullptr) return;
   going_->record.add(tick);

@@ -20,18 +20,18 @@
 namespace verp::view {
 
 struct RunSetup {
-  scenario::Expanded run = {};  ///< its first robot is steered, the others are only watched
-  /// A robot drawn beside ours that is not in the world. Called in the run's thread after each tick
-  /// with our robot's view.
+  scenario::Expanded run = {};  ///< only its first robot is steered
+  /// A robot that is drawn beside ours but not in the world. Called in the run's thread after each
+  /// tick.
   std::function<scene::RobotView(const scene::RobotView&)> beside = {};
-  std::string record_file = {};  ///< records the run; may be empty
+  std::string record_file = {};  ///< may be empty
   record::mcap::StringMap metadata = {};
 
   const session::WalkPlan& plan() const { return run.plans.front(); }
 };
 
-/// A session in its own thread for a window. User actions reach it only between two ticks, so the
-/// window's speed changes no bit of the run.
+/// A session in its own thread for a window. User actions reach it between two ticks: the window's
+/// speed changes no bit of the run.
 class LiveRun {
  public:
   /// Starts paused.
@@ -43,29 +43,29 @@ class LiveRun {
   void play();
   void pause();
   void tick_once();
-  /// 1: real time; 0: as fast as it can.
+  /// 1: real time; 0: unpaced.
   void set_speed(double factor);
-  /// Restarts the run and its record, played or paused as before.
+  /// Played or paused as before.
   void reset();
 
-  /// Handles for the user's actions between two ticks.
+  /// For actions between two ticks.
   struct Hands {
     session::Session& session;
     session::Robot& robot;
     session::LiveOrders& orders;
   };
-  /// Runs in the run's thread before the next tick. Its exception becomes Status::complaint.
+  /// In the run's thread before the next tick. An exception becomes Status::complaint.
   void touch(std::function<void(Hands&)> what);
 
-  /// A push or a set quantity, as in `verp walk`: recorded with its tick.
+  /// As in `verp walk`: recorded with its tick.
   void intervene(session::Intervention what);
 
-  /// Lets the robot get up after each fall, if it has actions for it.
+  /// After each fall, if the robot has actions for it.
   void let_get_up(bool by_itself);
 
-  /// Writes the run so far as a trace. Returns empty or the reason.
+  /// As a trace. These return empty or the reason.
   std::string save(const std::filesystem::path& file);
-  /// Ends the run and completes its record. Returns empty or the reason.
+  /// Completes the record.
   std::string finish();
 
   struct Status {
@@ -75,9 +75,9 @@ class LiveRun {
     double late_s = 0;  ///< behind the clock
     std::uint64_t ticks = 0, digest = 0;
     std::optional<Tuning> tuning = {};  ///< in effect
-    std::string failure = {};           ///< why the run is over
-    std::string complaint = {};         ///< of the last touch that failed
-    std::string happened = {};          ///< last event of a fallen robot, in words
+    std::string failure = {};           ///< end of the run
+    std::string complaint = {};         ///< last failed touch
+    std::string happened = {};          ///< last event after a fall
     int runs = 0;
   };
   Status status() const;

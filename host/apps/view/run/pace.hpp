@@ -4,23 +4,23 @@
 
 namespace verp::view {
 
-/// Paces simulated time against wall time. The caller passes both; Pace reads no clock.
+/// Paces simulated time by wall time. The caller passes both: Pace reads no clock.
 class Pace {
  public:
-  /// 1: real time; 0: as fast as it can.
+  /// 1: real time; 0: unpaced.
   void set_speed(double factor, double simulated_s, double wall_s);
   double speed() const { return speed_; }
-  /// Restarts here: earlier delay is not made up.
+  /// Earlier delay is not made up.
   void begin(double simulated_s, double wall_s);
 
-  /// Wait before a tick at that simulated time. A delay above kMostLate_s is not made up: a busy PC
-  /// slows a run and never makes it hurry.
+  /// Wait before a tick. A delay above kMostLate_s is not made up: a busy PC never makes a run
+  /// hurry.
   double wait_s(double simulated_s, double wall_s);
 
-  /// Delay of the last paced tick, even if not made up.
+  /// Also if not made up.
   double late_s() const { return late_s_; }
 
-  /// Real-time factor over the last second.
+  /// Over the last second.
   double factor() const;
   void ticked(double simulated_s, double wall_s);
 
@@ -33,8 +33,7 @@ class Pace {
   std::deque<std::pair<double, double>> last_;
 };
 
-/// Time to the window's next picture. The twin comes first on the shared cores, so a late run gets
-/// fewer pictures.
+/// To the next picture. The twin comes first: a late run gets fewer pictures.
 int frame_ms(double late_s);
 
 }  // namespace verp::view

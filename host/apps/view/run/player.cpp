@@ -6,7 +6,7 @@
 namespace verp::view {
 namespace {
 
-constexpr double kUnpaced = 50;  // as fast as an eye can follow
+constexpr double kUnpaced = 50;  // an eye can follow
 
 }  // namespace
 
@@ -48,8 +48,8 @@ void Player::step(int ticks) {
     follows_ = true;
     return live_->tick_once();
   }
-  // Half a tick more: at() finds the instant at or before a time, and instants are a period apart
-  // to within a physics step.
+  // at() finds the instant at or before a time; instants are a period apart to within a physics
+  // step.
   const double from_s = follows_ ? film->end_s() : shown_s_;
   seek(from_s + (ticks + 0.5) * film->period_s());
 }

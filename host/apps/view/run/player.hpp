@@ -6,8 +6,7 @@
 
 namespace verp::view {
 
-/// Plays a run or a trace at the shown instant. A rewound run is paused; play() continues it at its
-/// newest instant.
+/// A rewound run is paused; play() continues it at its newest instant.
 class Player {
  public:
   explicit Player(RunSetup setup);
@@ -20,7 +19,7 @@ class Player {
   void play();
   void pause();
   bool playing() const;
-  /// Moves by ticks; a run at its newest instant runs one tick.
+  /// A run at its newest instant runs one tick.
   void step(int ticks);
   void seek(double t_s);
   void set_speed(double factor);
@@ -28,10 +27,10 @@ class Player {
   /// Restarts a run; rewinds a trace.
   void reset();
 
-  /// True while a run's newest instant is shown.
+  /// At a run's newest instant.
   bool follows() const { return follows_; }
   double shown_s() const { return shown_s_; }
-  /// The picture to show, or null. Call it once a frame with the wall time.
+  /// Null: nothing to show. Call once a frame with the wall time.
   Picture now(double wall_s);
 
  private:

@@ -79,7 +79,7 @@ bool PoseHand::step_to(const std::vector<std::size_t>& joints, int node,
                        const scene::Vec3& point_link_m, const scene::Vec3& to_body_m) {
   const auto poses = sim::link_poses(entity_, scene::Transform::Identity(), joint_rad_);
   const scene::Vec3 at = poses[static_cast<std::size_t>(node)] * point_link_m, off = to_body_m - at;
-  Eigen::Matrix3Xd turn(3, joints.size());  // the point's motion by each joint, m/rad
+  Eigen::Matrix3Xd turn(3, joints.size());  // motion by each joint, m/rad
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const model::Joint& joint = entity_.joints[joints[i]];
     const scene::Transform& link = poses[joints[i] + 1];
@@ -89,7 +89,7 @@ bool PoseHand::step_to(const std::vector<std::size_t>& joints, int node,
     const bool stuck = wish > 0 ? angle_rad >= joint.upper_rad : angle_rad <= joint.lower_rad;
     if (stuck) turn.col(column).setZero();
   }
-  // Damping by the remaining error (Sugihara 2011): stable far from a solution, fast near one.
+  // Damped by the remaining error (Sugihara 2011): stable far away, fast near a solution.
   const double damping = 1e-7 + 0.1 * off.squaredNorm();
   const Eigen::Matrix3d square = turn * turn.transpose() + damping * Eigen::Matrix3d::Identity();
   const Eigen::VectorXd change = turn.transpose() * square.ldlt().solve(off);

@@ -8,9 +8,8 @@
 
 namespace verp::view {
 
-/// A robot held in the air by its body; the user moves joints and links, without physics. Feet use
-/// the controller's inverse kinematics; other links use damped least squares over the joints to the
-/// body.
+/// A robot held in the air; joints and links move without physics. Feet use the controller's
+/// inverse kinematics; other links damped least squares over the joints to the body.
 class PoseHand {
  public:
   PoseHand(const scene::Entity& entity, const Params& params);
@@ -19,31 +18,31 @@ class PoseHand {
   const std::vector<double>& joint_rad() const { return joint_rad_; }
   void stand();
 
-  /// Moves the sole (0 left, 1 right) as near as the leg reaches and keeps its orientation.
+  /// Sole 0 left, 1 right, as near as the leg reaches; it keeps its orientation.
   void move_foot(int side, const scene::Vec3& sole_body_m);
   scene::Vec3 sole_body_m(int side) const;
-  /// The foot of the node, or -1.
+  /// -1: the node is no foot.
   int foot_of(int node) const;
   bool has_leg(int side) const;
 
-  /// Moves a link's point as near as its joints reach; does nothing for the body itself.
+  /// As near as the joints reach; does nothing for the body.
   void move_link(int node, const scene::Vec3& point_link_m, const scene::Vec3& to_body_m);
   scene::Vec3 point_body_m(int node, const scene::Vec3& point_link_m) const;
-  /// Result of the last move_link() in words; "" if none since stand().
+  /// "" before the first move_link() since stand().
   const std::string& link_reach() const { return link_reach_; }
 
-  /// Result of the last move in words, such as "within reach".
+  /// Last move in words, such as "within reach".
   std::string reach(int side) const;
   std::string solver(int side) const;
 
   scene::Snapshot snapshot() const;
-  static constexpr double kAir_m = 0.1;  ///< of the lowest sole above the floor, standing
+  static constexpr double kAir_m = 0.1;  ///< lowest sole above the floor
 
  private:
   kinematics::LegChain chain(int side) const;
-  /// Joints between the body and that link that have their own motors.
+  /// With motors of their own.
   std::vector<std::size_t> joints_to(int node) const;
-  /// One step of move_link(); false if nothing moved.
+  /// False: nothing moved.
   bool step_to(const std::vector<std::size_t>& joints, int node, const scene::Vec3& point_link_m,
                const scene::Vec3& to_body_m);
 

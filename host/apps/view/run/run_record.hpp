@@ -11,16 +11,14 @@
 
 namespace verp::view {
 
-/// A run in memory: each tick's inputs, body pose and joint efforts. save() computes State again
-/// from these.
+/// Each tick's inputs, body pose and joint efforts; save() computes State again.
 class RunRecord {
  public:
   void add(const session::Tick& tick);
-  /// An action on the twin after the last tick.
   void note(const std::string& what);
   std::size_t ticks() const { return ticks_.size(); }
 
-  /// `actions`: image of the controller's library. Throws record::TraceError.
+  /// `actions`: the controller's library. Throws record::TraceError.
   void save(const std::filesystem::path& file, const Params& params,
             const record::mcap::StringMap& metadata,
             const std::vector<std::uint32_t>& actions = {}) const;

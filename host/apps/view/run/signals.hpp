@@ -6,7 +6,6 @@
 
 namespace verp::view {
 
-/// A number of one robot to plot over time.
 struct Signal {
   std::string group;  ///< "Joints/l_knee", "Centre of mass"
   std::string name;   ///< "goal"
@@ -15,15 +14,14 @@ struct Signal {
   std::string label() const { return group + " " + name; }
 };
 
-/// All signals, group by group; a signal's number is its index. `beside` adds a second robot,
-/// compared joint by joint.
+/// A signal's number is its index. `beside` adds a second robot and compares the joints.
 std::vector<Signal> signals_of(const scene::Entity& entity, bool beside = false);
 
-/// Values of all signals at one instant; unknown values are NaN.
+/// NaN: unknown.
 std::vector<float> values_of(const scene::RobotView& robot, const scene::Entity& entity,
                              const scene::RobotView* beside = nullptr);
 
-/// -1: no signal has that label.
+/// -1: no such label.
 int signal_number(const std::vector<Signal>& all, const std::string& label);
 
 }  // namespace verp::view

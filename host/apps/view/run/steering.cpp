@@ -10,7 +10,7 @@ constexpr double kQuarters = 4;
 
 }  // namespace
 
-// Only one of a cycle's two steps goes sideways or turns.
+// Only one of a cycle's steps goes sideways or turns.
 Steering::Steering(const Params& params)
     : ahead_m_s_(2.0 * static_cast<double>(params.tuning.gait.max_step_m) /
                  static_cast<double>(params.tuning.gait.cycle_s) / kQuarters),

@@ -4,15 +4,14 @@
 
 namespace verp::view {
 
-/// Turns keys into a walk. Each press adds a quarter of the robot's limit in that direction, until
-/// stop().
+/// Each press adds a quarter of the robot's limit, until stop().
 class Steering {
  public:
   explicit Steering(const Params& params);
 
-  /// Quarters ahead, to the left, and of a turn to the left.
+  /// Quarters; turn to the left.
   void nudge(int ahead, int left, int turn);
-  /// The same by sticks, from -1 to 1; all 0: stand.
+  /// Sticks, -1 to 1; all 0: stand.
   void lean(double ahead, double left, double turn);
   void stop();
   void relax();
@@ -21,7 +20,7 @@ class Steering {
  private:
   void ask();
 
-  double ahead_m_s_, left_m_s_, turn_rad_s_;  ///< a quarter of the limit
+  double ahead_m_s_, left_m_s_, turn_rad_s_;  ///< quarter of the limit
   double ahead_ = 0, left_ = 0, turn_ = 0;    ///< quarters
   Command command_;
 };

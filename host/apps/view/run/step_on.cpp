@@ -14,7 +14,7 @@ StepOn::StepOn(const scene::TracePlayer& player, std::size_t index)
 void StepOn::on(int ticks) {
   for (int i = 0; i < ticks && !ended(); ++i) {
     Inputs seen = player_.trace().ticks[++index_].inputs;
-    // A tick carries one write, and recorded writes come first.
+    // Recorded writes come first, one a tick.
     if (!writes_.empty() && (seen.flags & kParameterWrite) == 0) {
       seen.flags |= kParameterWrite;
       seen.parameter_id = static_cast<std::uint16_t>(writes_.front().first);

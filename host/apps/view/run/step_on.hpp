@@ -8,16 +8,16 @@
 
 namespace verp::view {
 
-/// A controller that continues from a tick of a trace over the recorded Inputs. Until a change it
-/// repeats the record. Then State and Outputs show the change's effect on what the robot measured.
+/// A controller that continues from a trace's tick over the recorded Inputs. It repeats the record
+/// until a change; then State and Outputs show the change's effect.
 class StepOn {
  public:
-  /// After that tick. `player` must outlive it.
+  /// `player` must outlive it.
   StepOn(const scene::TracePlayer& player, std::size_t index);
 
-  /// Runs so many ticks; stops at the trace's end.
+  /// Stops at the trace's end.
   void on(int ticks);
-  /// Writes a number as an operator would: one a tick, from the next tick on.
+  /// As an operator would: one a tick, from the next tick on.
   void write(int id, float value) { writes_.emplace_back(id, value); }
 
   std::size_t index() const { return index_; }
@@ -25,7 +25,7 @@ class StepOn {
   const Inputs& inputs() const { return player_.trace().ticks[index_].inputs; }
   const State& state() const { return state_; }
   const Outputs& outputs() const { return outputs_; }
-  /// True if the run so far has the recorded digest.
+  /// The recorded digest so far.
   bool same_bits() const;
 
  private:

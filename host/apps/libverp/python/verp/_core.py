@@ -28,7 +28,7 @@ def _angles(angle_rad: Any, call: str) -> NDArray[np.float32]:
 
 
 def _single(array: NDArray[np.float64]) -> NDArray[np.float32]:
-    with np.errstate(over="ignore"):  # to what is infinite, the library says so
+    with np.errstate(over="ignore"):  # the library refuses the infinite
         return np.ascontiguousarray(array, np.float32)
 
 
@@ -147,7 +147,7 @@ class Core(Handle):
     def plan(self, vx_m_s: float, vy_m_s: float, wz_rad_s: float, ticks: int, stop: int = 0) -> np.ndarray:
         """What the gait plans, tick by tick: records with body, sole, zmp_m, carry, leg_rad, phase, state, swing. The last
         `stop` ticks are after it was asked to stop."""
-        ticks = whole(ticks, "verp_core_plan: ticks", 0, lib.VERP_MOST_PLANNED)  # before there is memory for them
+        ticks = whole(ticks, "verp_core_plan: ticks", 0, lib.VERP_MOST_PLANNED)  # before memory is allocated
         plan = np.zeros(ticks, PLAN)
         calls.core_plan(self._core, vx_m_s, vy_m_s, wz_rad_s, pointer(plan, "verp_plan *"), ticks, stop)
         return plan

@@ -107,7 +107,7 @@ def check(status: int) -> int:
     return status
 
 
-# Converts a user's arguments to C. `what` names the call and its argument, for errors.
+# Arguments to C; `what` names the call and argument in errors.
 
 
 def _short(value: Any) -> str:
@@ -164,7 +164,7 @@ def reals(value: Any, what: str, shape: tuple[int, ...] | None = None) -> NDArra
 def _reader(ctype: cffi.FFI.CType, what: str) -> Callable[[Any], object] | None:
     """How to read what a user gives for an argument or field of that type; none: it is this package's own."""
     if ctype.kind == "pointer" and ctype.item.cname == "char":
-        return lambda value: value if isinstance(value, ffi.CData) else text(value, what)  # a buffer for the library to fill
+        return lambda value: value if isinstance(value, ffi.CData) else text(value, what)  # for the library to fill
     if ctype.kind != "primitive":
         return None
     if ctype.cname in _SCALARS:

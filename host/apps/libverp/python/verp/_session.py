@@ -92,11 +92,11 @@ class Session(Sight):
         what, where = ffi.new("verp_world *", {"size": ffi.sizeof("verp_world")}), ffi.new("verp_session *")
         kept = fill(what, "verp_session_open", {"physics_step_us": physics_step_us, "file": world})
         calls.session_open(what, where)
-        del kept  # keeps the texts alive during the call
+        del kept  # keeps the texts alive
         super().__init__(where[0], lib.verp_session_close)
         self._ticks: dict[int, np.ndarray] = {}
-        self._kept: dict[int, tuple[object, ...]] = {}  # callbacks that the library may call
-        self._setting = threading.RLock()  # keeps self._kept equal to the library's callbacks
+        self._kept: dict[int, tuple[object, ...]] = {}  # callbacks in use
+        self._setting = threading.RLock()  # keeps self._kept equal to them
         self._thrown: BaseException | None = None
 
     def add(
@@ -122,10 +122,10 @@ class Session(Sight):
         what.flags = lib.VERP_OPEN_END if open_end else 0
         robot = ffi.new("uint32_t *")
         calls.session_add(self._session, what, robot)
-        del kept  # keeps the texts alive during the call
+        del kept  # keeps the texts alive
         tick, seen = memory("verp_tick", TICK)
         tick.size = TICK.itemsize
-        self._ticks[robot[0]] = seen  # before the library writes there, even if interrupted
+        self._ticks[robot[0]] = seen  # even if interrupted
         calls.session_view(self._session, robot[0], tick)
         return robot[0]
 
@@ -250,7 +250,7 @@ class Session(Sight):
         """A message of the robot's to another one, or to everybody. False: too many wait for the air already. Nothing
         acknowledges it; it stands in the traces of who says and who hears it."""
         try:
-            given = bytes(memoryview(data))  # refuses text, which has no bytes until it is encoded
+            given = bytes(memoryview(data))  # refuses text
         except TypeError:
             raise TypeError(f"verp_session_send: data is bytes, not {data!r}") from None
         whom = lib.VERP_EVERYBODY if to is None else to

@@ -104,7 +104,7 @@ class Sight(Handle):
         index = names.index(camera) if isinstance(camera, str) else whole(camera, f"{call}: camera", 0, 2**32 - 1)
         if not isinstance(what, str) or what not in _WHAT:
             raise ValueError(f"{call}: there is no {what!r}: a camera gives {', '.join(_WHAT)}")
-        by = cameras[index] if index < len(cameras) else None  # if missing, the library raises the error
+        by = cameras[index] if index < len(cameras) else None  # the library raises the error
         shape = (by.height, by.width) if by else (1, 1)
         pixels = _pixels(shape, what, out, call)
         time_s = ffi.new("double *")
@@ -135,8 +135,8 @@ class Sight(Handle):
         if eye_m is not None:
             what.eye_m = reals(eye_m, f"{call}: eye_m", (3,)).tolist()
             what.target_m = reals(target_m, f"{call}: target_m", (3,)).tolist()
-        drawn = max(what.width, what.height) <= lib.VERP_MOST_PIXELS  # if too large, the library raises the error
+        drawn = max(what.width, what.height) <= lib.VERP_MOST_PIXELS  # the library raises the error
         pixels = _pixels((what.height, what.width) if drawn else (1, 1), "colour", out, call)
         calls.session_render(self._session, what, pointer(pixels, "void *"), pixels.nbytes)
-        del kept  # keeps the texts alive during the call
+        del kept  # keeps the texts alive
         return pixels

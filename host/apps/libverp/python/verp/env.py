@@ -110,7 +110,7 @@ class Env:
         seed = whole(seed, "Env.reset: seed", 0, 2**64 - 1)
         try:
             self._begin(seed, asked)
-        except BaseException:  # step() must not find half a session
+        except BaseException:  # no half session remains
             self._end()
             raise
         self._seed = seed
@@ -205,7 +205,7 @@ class Env:
 
 
 def _serve(pipe: Connection, options: Info) -> None:
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches all processes of a terminal; the parent decides
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches all processes; the parent decides
     env = Env(**options)
     while (asked := _asked(pipe)) is not None:
         number, what, value = asked
@@ -214,7 +214,7 @@ def _serve(pipe: Connection, options: Info) -> None:
                 answer: Any = env.reset(seed=value)
             else:
                 answer = env.step(value)
-                if answer[2] or answer[3]:  # starts the next episode; info holds the end of this one
+                if answer[2] or answer[3]:  # next episode; info holds the end of this one
                     last, first = answer, env.reset()
                     answer = (first[0], *last[1:4], last[4] | {"final_observation": last[0]})
             pipe.send((number, None, answer))
@@ -278,7 +278,7 @@ class VectorEnv:
             try:
                 pipe.send(None)
             except OSError:
-                pass  # the process has ended already
+                pass  # ended already
             process.join(timeout=10)
             if process.is_alive():
                 process.kill()
@@ -298,11 +298,11 @@ class VectorEnv:
             try:
                 pipe.send((self._number, what, value))
             except OSError:
-                pass  # the process has ended: its answer will be missing
+                pass  # its answer will be missing
         answers, failed = [], ""
         for n, pipe in enumerate(self._pipes):
             number = 0
-            while number != self._number:  # skips the unread answer of a call that Ctrl-C interrupted
+            while number != self._number:  # skips an answer that Ctrl-C left unread
                 try:
                     number, error, answer = pipe.recv()
                 except (EOFError, OSError):
