@@ -6,25 +6,24 @@
 
 namespace verp::app {
 
-/// How an answer counts.
 enum class Answer : std::uint8_t {
-  kFresh,  ///< belongs to this tick
-  kOld,    ///< may belong to the previous tick; ignored
-  kAgain,  ///< the source already has a fresh one in this tick; if the two differ, one is old
+  kFresh,  ///< of this tick
+  kOld,    ///< maybe of the previous tick; ignored
+  kAgain,  ///< a second one in this tick; if they differ, one is old
 };
 
-/// Decides which answers to a tick's SYNCs are still due, and which received answers are fresh. A
+/// Decides which answers to a tick's SYNCs are still due and which received ones are fresh. A
 /// source is a node, or the IMU's second frame.
 ///
 /// A node that missed a SYNC or received one twice answers another SYNC ever after, because it
-/// counts SYNCs (CiA 301). An answer later than planned is fresh if the source was fresh in the
-/// previous tick; otherwise it may be that tick's answer. An earlier one may be late from the
-/// previous tick. A shift that repeats for some ticks becomes the source's new place.
+/// counts SYNCs (CiA 301). A late answer is fresh if the source was fresh in the previous tick;
+/// otherwise it may be that tick's. An early one may be late from the previous tick. A shift that
+/// repeats for some ticks becomes the source's new place.
 ///
 /// A missing answer may still come when the next one is due: a drive could not get onto the bus, or
 /// a gateway is slow. Every later answer is then a tick late. So a source that owes an answer does
-/// not count until prompt() shows that nothing waits for the bus, usually in the next tick; one
-/// tick later where answers came late, as from a gateway.
+/// not count until prompt() shows that nothing waits for the bus; where answers came late, one tick
+/// longer.
 class AnswerWatch {
  public:
   static constexpr int kImuSecond = kCanNodes;
@@ -35,7 +34,7 @@ class AnswerWatch {
     planned_ |= node_bit(source);
     source_[source] = {group, group, 0, 0, 0};
   }
-  /// Sources that answer another SYNC than planned. Over time too many would answer the same one.
+  /// Sources that answer another SYNC than planned.
   NodeMask astray() const {
     NodeMask mask = 0;
     for (int i = 0; i < kSources; ++i) {
@@ -59,12 +58,12 @@ class AnswerWatch {
     answered_ = fresh_ = spoilt_ = 0;
   }
   /// Call when a drive's SDO answer, requested at the end of the last tick, was there when this
-  /// tick began. Every PDO that was ready would have preceded it on the wire.
+  /// tick began: a ready PDO would have preceded it on the wire.
   void prompt() {
     owing_ = 0;
     if (prompt_times_ < kKnown) ++prompt_times_;
   }
-  /// True if no source counts: the whole bus may be late.
+  /// The whole bus may be late.
   bool all_owe() const { return planned_ != 0 && (owing_ | owing_since_) == planned_; }
 
   /// Rates an answer that came after SYNC `window`.
@@ -83,21 +82,19 @@ class AnswerWatch {
     fresh_ |= bit;
     return Answer::kFresh;
   }
-  /// Two answers of this source in this tick differ: neither counts.
+  /// Two answers of this tick differ: neither counts.
   void spoil(int source) {
     tardy_ticks_ = kTardyTicks;
     fresh_ &= ~node_bit(source);
     spoilt_ |= node_bit(source);
   }
-  /// Notes an answer that came after the tick. It does not count, but may show that the node now
-  /// answers the last SYNC.
+  /// An answer after the tick does not count, but may show that the node now answers the last SYNC.
   void take_late(int source, std::uint8_t last_window) {
     Source& each = source_[source];
     if (each.group != last_window) move(each, last_window);
   }
 
-  /// Sources that should answer this SYNC and have not, or that answered it instead of their own in
-  /// the last tick. Excludes `given_up`.
+  /// Sources that should answer this SYNC, or did in the last tick, and have not yet.
   NodeMask due(std::uint8_t window, NodeMask given_up) const {
     NodeMask mask = 0;
     for (int i = 0; i < kSources; ++i) {
@@ -107,8 +104,8 @@ class AnswerWatch {
     }
     return mask & planned_ & ~answered_ & ~given_up;
   }
-  /// The group most of whose nodes answered SYNC `window` first in this tick, while most nodes
-  /// planned for it did not; 0: none. A single node proves nothing.
+  /// The group most of whose nodes answered SYNC `window` first, while most planned for it did not;
+  /// 0: none. A single node proves nothing.
   std::uint8_t group_in(std::uint8_t window) const {
     int meant = 0, came = 0;
     for (const Source& each : source_) {
@@ -119,14 +116,14 @@ class AnswerWatch {
     if (came * 2 > meant) return 0;
     return most(2, [&](int i) { return source_[i].came == window; });
   }
-  /// Whether most nodes planned for SYNC `window` were silent in this tick after answering in the
-  /// previous one. Two lost answers may be coincidence.
+  /// Most nodes planned for SYNC `window` answered in the previous tick, not in this. Two lost
+  /// answers may be coincidence.
   bool fell_silent(std::uint8_t window) const {
     return most(3, [&](int i) {
              return ((before_ & ~answered_) >> i & 1) != 0 && source_[i].planned == window;
            }) == window;
   }
-  /// All nodes answer their planned SYNCs from now on.
+  /// All nodes answer as planned from now on.
   void realign() {
     for (Source& each : source_) {
       each.group = each.planned;
@@ -137,19 +134,19 @@ class AnswerWatch {
   NodeMask answered() const { return answered_; }
 
  private:
-  /// Two, since the source's own place was empty meanwhile; three while the whole bus may be late.
+  /// Ticks until a shift counts; three while the whole bus may be late.
   static constexpr std::uint8_t kTicks = 2;
   static constexpr std::uint8_t kTicksUnknown = 3;
-  /// After this many prompt ticks the bus is expected to stay prompt. Some drives never are.
+  /// Prompt ticks after which the bus is expected to stay prompt.
   static constexpr std::uint8_t kKnown = 16;
-  /// Ticks for which a late answer is remembered.
+  /// A late answer is remembered this long.
   static constexpr std::uint16_t kTardyTicks = 1000;
   struct Source {
     std::uint8_t planned = 0;
     std::uint8_t group = 0;  ///< where its answer is expected
-    std::uint8_t heard = 0;  ///< the last window that was not `group`
+    std::uint8_t heard = 0;  ///< last window other than `group`
     std::uint8_t times = 0;  ///< ticks in a row in `heard`
-    std::uint8_t came = 0;   ///< window of this tick's first undoubted answer; 0: none
+    std::uint8_t came = 0;   ///< window of the first undoubted answer; 0: none
   };
   /// The group in which `holds` is true for most nodes, at least `least`; 0: none.
   template <class Holds>
@@ -166,7 +163,7 @@ class AnswerWatch {
     }
     return found;
   }
-  /// True if the source's answer is expected in `window` from now on.
+  /// True: the answer is expected in `window` from now on.
   bool move(Source& each, std::uint8_t window) const {
     each.times = each.heard == window ? static_cast<std::uint8_t>(each.times + 1) : std::uint8_t{1};
     each.heard = window;
@@ -182,7 +179,7 @@ class AnswerWatch {
   NodeMask before_ = 0;
   NodeMask spoilt_ = 0;
   NodeMask owing_ = 0;        ///< owe an answer that may still come
-  NodeMask owing_since_ = 0;  ///< the same since the last tick, whatever other frames show
+  NodeMask owing_since_ = 0;  ///< the same since the last tick
   std::uint16_t tardy_ticks_ = 0;
   std::uint8_t prompt_times_ = 0;
 };

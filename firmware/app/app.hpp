@@ -7,10 +7,9 @@
 #include "firmware/app/servos_on.hpp"
 #include "hal/contract/imu.hpp"
 
-/// The control loop. One template drives real servos, virtual servos and those of an emulated
-/// microcontroller, over every bus in servos_on.hpp. Call bring_up() once, then tick() once a
-/// period. The loop waits for no clock: in lockstep the tick's first frame advances the bus to the
-/// next period; a board with a timer waits before it calls tick().
+/// The control loop, for real, virtual and emulated servos, over every bus in servos_on.hpp. Call
+/// bring_up() once, then tick() once a period. The loop waits for no clock: in lockstep the tick's
+/// first frame advances the bus to the next period; a board with a timer waits before tick().
 namespace verp::app {
 
 /// For a robot whose IMU is on the servo bus.
@@ -19,9 +18,9 @@ struct NoImu {
   std::uint32_t faults() const { return 0; }
 };
 
-/// The core as the controller of a tick. A PC user may substitute another (host/run/session).
+/// A PC user may substitute another (host/run/session).
 struct Core {
-  action::Library actions;  ///< available actions
+  action::Library actions;
   void operator()(const Params& params, State& state, const Inputs& inputs, Outputs& outputs) {
     step(params, actions, state, inputs, outputs);
   }
@@ -33,8 +32,8 @@ class App {
   using Servos = typename ServosOn<Bus>::Type;
   static_assert(ServoBinding<Servos>);
 
-  /// `chip` is the board's own IMU, or null. Each tick reads it if Params names no IMU on the bus
-  /// or use_chip() selected it.
+  /// `chip` is the board's own IMU, or null. It is read if Params names no IMU on the bus or
+  /// use_chip() selected it.
   App(const Params& params, Bus& bus, Operator& operator_link, Sink& sink, Chip* chip = nullptr,
       Law law = {})
       : params_(params),
@@ -44,9 +43,9 @@ class App {
         chip_(chip),
         law_(law) {}
 
-  /// Torque is off afterwards. Do not tick a robot whose bring-up failed.
+  /// Torque is off afterwards. Do not tick after a failure.
   BringUpReport bring_up() { return servos_.bring_up(); }
-  /// Limits every servo's strength from the next tick on, for a robot's first steps: 1 to 100 %.
+  /// Every servo's strength from the next tick on, for first steps: 1 to 100 %.
   void limit_torque(std::uint8_t percent) { servos_.limit_torque(percent); }
 
   void tick(const Beat& beat = {}) {
@@ -63,8 +62,8 @@ class App {
     sink_.record(TickRecord{state_.digest, inputs_}, state_, outputs_);
   }
 
-  /// Selects whose counts become Inputs from the next tick on: the chip's or the bus device's
-  /// (still read). Ignored while any servo holds torque or if one is missing.
+  /// Whose counts become Inputs from the next tick on: the chip's or the bus device's. Ignored
+  /// while any servo holds torque or if one is missing.
   void use_chip(bool yes) {
     if (chip_ != nullptr && params_.imu.device_id != 0 && outputs_.torque_enable == 0)
       from_chip_ = yes;
@@ -79,8 +78,7 @@ class App {
   const JointEffort* efforts() const { return servos_.efforts(); }
 
  private:
-  // Counts ticks on the pacing clock, else on bus time, at the end of the first read. Missed
-  // periods are skipped, not made up.
+  // On the pacing clock, else on bus time at the end of the first read. Missed periods are skipped.
   void count_tick(const Beat& beat) {
     const std::uint64_t now_us = servos_.now_us();
     if (ticking_) {

@@ -6,7 +6,7 @@
 #include "common/model/image.hpp"
 #include "common/protocol/controller_table.hpp"
 
-/// Images behind the registers window_...: the operator reads and replaces them block by block.
+/// Images behind the registers window_..., block by block.
 namespace verp::app {
 
 enum class ImageKind : std::uint8_t {
@@ -17,25 +17,25 @@ enum class ImageKind : std::uint8_t {
   kTicks = 4,  ///< read only
 };
 
-/// Why an image was refused; numbered above ImageFault and KeptFault.
+/// Numbered above ImageFault and KeptFault.
 inline constexpr std::uint8_t kWrongWindowCrc = 255;
 inline constexpr std::uint8_t kBlockNotKept = 254;
 
 enum class Taken : std::uint8_t {
   kYes = 0,
-  kNotYet = 1,  ///< the memory is being prepared: write the block again
-  kNo = 2,      ///< the memory failed: start the image again
+  kNotYet = 1,  ///< write the block again
+  kNo = 2,      ///< start the image again
 };
 
-/// Images: what can be read and replaced. Call between ticks; no call waits.
-///  - size(kind): bytes of the active image; 0: none of that kind.
-///  - room(kind): largest size of a new image; 0: none accepted.
-///  - read(kind, offset, to, count): copies from the active image; `offset` + `count` is at most
-///    its size.
-///  - begin(kind): discards what was written of a new image.
-///  - write(kind, offset, from, count): stores a block of the new image, in any order, within its
-///    room. Actions need torque off, because they are written to flash.
-///  - commit(kind, crc): call only with torque off. 0: the CRC-32 fits and the image is valid; the
+/// Call between ticks; no call waits.
+///  - size(kind): of the active image, bytes; 0: none of that kind.
+///  - room(kind): for a new image; 0: none accepted.
+///  - read(kind, offset, to, count): copies from the active image, `offset` + `count` at most its
+///    size.
+///  - begin(kind): discards a new image.
+///  - write(kind, offset, from, count): a block of the new image, in any order. Actions need torque
+///    off, because they are written to flash.
+///  - commit(kind, crc): only with torque off. 0: the CRC-32 fits and the image is valid; the
 ///    controller starts with it next time. Otherwise the fault, and nothing changed.
 template <class Store>
 concept Images = requires(Store& store, const Store& seen, ImageKind kind, std::size_t offset,
@@ -49,7 +49,7 @@ concept Images = requires(Store& store, const Store& seen, ImageKind kind, std::
   { store.commit(kind, crc) } -> std::same_as<std::uint8_t>;
 };
 
-/// No images: the window refuses every access.
+/// The window refuses every access.
 struct NoImages {
   static std::size_t size(ImageKind) { return 0; }
   static std::size_t room(ImageKind) { return 0; }
@@ -62,12 +62,12 @@ struct NoImages {
 };
 inline constinit NoImages no_images;
 
-/// The robot's Params image. Keeps a new one in RAM; the board starts with it and stores it.
+/// The robot's Params image. A new one stays in RAM; the board stores it and starts with it.
 class ParamsImages {
  public:
   explicit ParamsImages(const ParamsImage& in_force) : in_force_(in_force) {}
 
-  /// The committed new image, or nullptr.
+  /// Committed, or nullptr.
   const ParamsImage* accepted() const { return accepted_ ? &staged_ : nullptr; }
 
   // Images

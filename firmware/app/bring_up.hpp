@@ -8,7 +8,7 @@
 #include "firmware/app/servo_ram.hpp"
 
 /// Finds every device of the robot on the bus and writes its settings from Params, torque off.
-/// Writes EEPROM only where it differs, because EEPROM wears out, and reads everything back.
+/// Writes EEPROM only where it differs, because it wears out; reads everything back.
 namespace verp::app {
 
 template <hal::FrameBus Bus>
@@ -31,9 +31,8 @@ class BringUp {
   static constexpr int kAttempts = 3;
   static constexpr std::size_t kMostBytes = 36;
 
-  // Releases torque before any request, and again if a device does not answer: one missing servo
-  // must not leave the others stiff after a controller reset. Sent three times, since the write has
-  // no reply.
+  // Before any request, and again if a device does not answer: one missing servo must not leave the
+  // others stiff. Sent three times: the write has no reply.
   void release_all() {
     for (int times = 0; times < 3; ++times) {
       dxl::Encoder encoder(master_.frame(), master_.capacity());
@@ -55,7 +54,7 @@ class BringUp {
     return false;
   }
 
-  /// One request to one device, repeated without an answer; copies exactly `size` reply bytes.
+  /// Repeats an unanswered request; copies exactly `size` reply bytes.
   bool transact(std::size_t frame, std::uint8_t id, std::uint16_t address, std::uint8_t* data,
                 std::size_t size) {
     const std::uint32_t timeout =
@@ -98,7 +97,7 @@ class BringUp {
     return transact(frame, id, address, nullptr, 0);
   }
 
-  /// Makes `size` registers hold `data`; writes only if they differ.
+  /// Writes registers only if they differ.
   bool establish(std::uint8_t id, std::uint16_t address, const std::uint8_t* data,
                  std::size_t size) {
     std::uint8_t found[kMostBytes];
@@ -133,7 +132,7 @@ class BringUp {
            learn_strength(j, id) && is_well(id);
   }
 
-  // The last reply's alert bit means that Hardware Error Status is not zero.
+  // The alert bit means that Hardware Error Status is not zero.
   bool is_well(std::uint8_t id) {
     if (!alert_) return true;
     std::uint8_t errors = 0;
@@ -157,7 +156,7 @@ class BringUp {
   const Params& params_;
   BusMaster<Bus>& master_;
   BringUpReport report_;
-  bool alert_ = false;  ///< of the last reply
+  bool alert_ = false;  ///< last reply's
 };
 
 }  // namespace verp::app

@@ -11,20 +11,19 @@ enum class BringUpStatus : std::uint8_t {
   kWrongModel,
   kRefused,
   kNotVerified,
-  kHardwareError,  ///< its torque may be off; it stays limp until rebooted
-  kOccupied,       ///< another controller commands nodes on this bus; nothing was sent
-  kNotReset,       ///< it answers but sent no boot-up message after the reset
+  kHardwareError,  ///< torque may be off; limp until rebooted
+  kOccupied,       ///< another controller commands nodes; nothing was sent
+  kNotReset,       ///< no boot-up message after the reset
 };
 
-/// The first device that stopped the bring-up, and why.
+/// The first device that stopped the bring-up.
 struct BringUpReport {
   BringUpStatus status = BringUpStatus::kReady;
   std::uint8_t device_id = 0;
-  std::uint16_t address = 0;   ///< failed register or object index; kOccupied: identifier heard
-  std::uint16_t expected = 0;  ///< model number, for kWrongModel
-  std::uint16_t found = 0;     ///< model number, or dxl::HardwareError bits for kHardwareError
-  /// Full strength of each joint: a servo's PWM Limit or a drive's max torque (6072h). The owner
-  /// may have set less than the hardware maximum.
+  std::uint16_t address = 0;   ///< register or object index; kOccupied: identifier heard
+  std::uint16_t expected = 0;  ///< for kWrongModel
+  std::uint16_t found = 0;     ///< model number; kHardwareError: dxl::HardwareError bits
+  /// A servo's PWM Limit or a drive's max torque (6072h), which the owner may have reduced.
   std::uint16_t full_strength[kMaxJoints] = {};
   /// Bit j: joint j's drive has another maker's vendor id (1018h:1).
   std::uint32_t foreign_drives = 0;

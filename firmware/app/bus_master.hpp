@@ -12,7 +12,7 @@
 /// spare_bytes().
 namespace verp::app {
 
-/// A reply handler's verdict on a packet.
+/// A handler's verdict on a packet.
 enum class Take { kStray, kMore, kDone };
 
 template <hal::FrameBus Bus>
@@ -20,33 +20,32 @@ class BusMaster {
  public:
   explicit BusMaster(Bus& bus) : bus_(bus) {}
 
-  std::uint8_t* frame() { return tx_; }  ///< build the next request here
+  std::uint8_t* frame() { return tx_; }  ///< build requests here
   static constexpr std::size_t capacity() { return sizeof tx_; }
   std::uint64_t now_us() { return bus_.now_us(); }
   const BusCounters& counters() const { return counters_; }
   std::uint32_t crc_errors() const { return parser_.crc_errors(); }
-  /// Bytes outside packets, those of damaged packets included.
+  /// Outside packets, or in damaged ones.
   std::uint32_t noise_bytes() const { return parser_.noise_bytes(); }
 
   /// Bytes to read in front of the wanted ones in a read that repeats every tick: a reply does not
   /// name its request, so its length must. 0 after an answered request, since bytes keep their
-  /// order. Otherwise different from the last two reads, whose replies may still arrive. Call for
-  /// at most two reads a tick, so that a number repeats only after three ticks.
+  /// order. Otherwise different from the last two reads, whose replies may still arrive. At most
+  /// two reads a tick.
   std::uint8_t spare_bytes() {
     if (missed_) spare_ = spare_ < kMostSpare ? static_cast<std::uint8_t>(spare_ + 1) : 0;
     missed_ = false;
     return spare_;
   }
 
-  /// Sends `size` bytes of frame(), for frames without a reply.
+  /// Sends frame(), for frames without a reply.
   bool send(std::size_t size) {
     if (size != 0 && bus_.send(tx_, size)) return true;
     ++counters_.refused;
     return false;
   }
 
-  /// Sends a request and passes each status packet to `take` until it returns kDone or time is
-  /// over.
+  /// Passes each status packet to `take` until it returns kDone or time is over.
   template <class Handler>
   bool request(std::size_t size, std::uint32_t timeout, Handler&& take) {
     if (unsettled_) settle();
@@ -69,9 +68,9 @@ class BusMaster {
   }
 
  private:
-  /// Drops late bytes of an unanswered request; whole packets count as strays.
+  /// Drops late bytes; whole packets count as strays.
   void settle() {
-    constexpr int kMostPieces = 8;  // a flooded bus must not block the loop
+    constexpr int kMostPieces = 8;  // a flooded bus must not block
     const auto stray = [](const dxl::Packet&) { return Take::kStray; };
     for (int i = 0; i < kMostPieces; ++i) {
       const std::size_t count = bus_.poll(rx_, sizeof rx_, 0);
@@ -87,7 +86,7 @@ class BusMaster {
     for (std::size_t i = 0; i < count; ++i) {
       for (bool found = parser_.push(rx_[i]); found; found = parser_.next()) {
         const dxl::Packet& packet = parser_.packet();
-        if (!packet.is_status()) continue;  // our own request, echoed on a one-wire bus
+        if (!packet.is_status()) continue;  // our own request, echoed on one wire
         const Take verdict = done ? Take::kStray : take(packet);
         if (verdict == Take::kStray) ++counters_.strays;
         if (!packet.is_fast_reply() && (packet.error & ~dxl::kAlert) != 0) ++counters_.errors;
@@ -107,7 +106,7 @@ class BusMaster {
   std::uint8_t rx_[hal::kMaxFrame];
 };
 
-/// The devices of one Sync Read in reply order. A silent device may silence those behind it, so the
+/// One Sync Read's devices in reply order. A silent device may silence those behind it, so the
 /// first device missed moves to the end.
 template <int kCapacity>
 class ReadChain {
@@ -124,7 +123,7 @@ class ReadChain {
   }
 
   void begin() { next_ = 0, missed_ = -1; }
-  /// The slot of this reply; -1 if no device still due has this id.
+  /// -1: no device due has this id.
   int match(std::uint8_t id) {
     for (int i = next_; i < count_; ++i) {
       if (id_[i] != id) continue;
@@ -135,7 +134,7 @@ class ReadChain {
     return -1;
   }
   bool ended() const { return next_ == count_; }
-  /// Call after the read. True if all answered; otherwise moves the first device missed to the end.
+  /// Call after the read. True: all answered.
   bool complete() {
     if (next_ < count_) note_missed();
     if (missed_ < 0) return true;

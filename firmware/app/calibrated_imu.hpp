@@ -8,18 +8,17 @@
 
 namespace verp::app {
 
-inline constexpr std::uint16_t kImuCalibrationKey = 2;  ///< key in the board's Store
+inline constexpr std::uint16_t kImuCalibrationKey = 2;  ///< in the board's Store
 
-/// An Imu that corrects samples with the calibration in the board's Store, and can measure a new
-/// one from the samples that pass.
+/// Corrects samples with the calibration in the board's Store, and can measure a new one.
 template <hal::Imu Chip, hal::Store Memory>
 class CalibratedImu {
  public:
   CalibratedImu(Chip& chip, Memory& memory, const ImuParams& imu)
       : chip_(chip), memory_(memory), basis_(basis_of(imu)), calibrator_(imu) {}
 
-  /// Loads the stored calibration at start. One for another scale or mounting is ignored but stays
-  /// stored until replaced, as that robot may return.
+  /// At start. One for another scale or mounting is ignored but stays stored, as that robot may
+  /// return.
   void load() {
     std::uint8_t bytes[ImuCalibration::kBytes];
     const std::size_t size = memory_.get(kImuCalibrationKey, bytes, sizeof bytes);
@@ -39,12 +38,10 @@ class CalibratedImu {
   std::uint32_t faults() const { return chip_.faults(); }
 
   /// Twice the time of all samples at the longest period, 20 ms. Samples come only with read(): a
-  /// silent chip, or a loop that does not read it (lockstep with a twin), must not measure for
-  /// ever.
+  /// silent chip, or a loop that does not read it, must not measure for ever.
   static constexpr std::uint64_t kMost_us = 2 * ImuCalibrator::kSamples * std::uint64_t{20'000};
 
-  /// Starts a measurement; the robot must stand upright and still, torque off. The old calibration
-  /// applies until it ends.
+  /// The robot must stand upright and still, torque off. The old calibration applies until the end.
   void measure(std::uint64_t now_us) {
     calibrator_.begin();
     state_ = State::kMeasuring;
@@ -68,7 +65,7 @@ class CalibratedImu {
     state_ = State::kNone;
     unkept_ = Unkept::kRemoval;
   }
-  /// Call regularly: passes a change to the Store, whose work() another caller runs.
+  /// Call regularly: passes a change to the Store, whose work() runs elsewhere.
   void keep() {
     if (unkept_ == Unkept::kNothing) return;
     std::uint8_t bytes[ImuCalibration::kBytes];

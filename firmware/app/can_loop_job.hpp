@@ -8,8 +8,8 @@
 
 namespace verp::app {
 
-/// The job of an image without its own operator: this header, then Params, the robot's actions, and
-/// one OperatorOrder a tick. Both ends must be of one build; the sizes check that.
+/// For an image without its own operator: this header, Params, the actions, and one OperatorOrder a
+/// tick. Both ends must be of one build.
 struct CanLoopJob {
   static constexpr std::uint32_t kMagic = 0x4A4E4143;  // "CANJ"
 

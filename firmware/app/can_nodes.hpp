@@ -6,7 +6,7 @@
 
 namespace verp::app {
 
-/// Slots of a robot's nodes: joints by index, then IMU and feet. A set of slots is a mask.
+/// Slots of a robot's nodes: joints, then IMU and feet. A set is a mask.
 inline constexpr int kImuNode = kMaxJoints;
 inline constexpr int kFootNode = kImuNode + 1;
 inline constexpr int kCanNodes = kFootNode + kFeet;
@@ -18,7 +18,7 @@ constexpr NodeMask node_bit(int slot) {
 constexpr bool is_joint(int slot) {
   return slot < kMaxJoints;
 }
-/// 0: the robot has no such node.
+/// 0: no such node.
 constexpr std::uint8_t node_id(const Params& params, int slot) {
   if (is_joint(slot)) return slot < params.servo_count() ? params.joint[slot].servo_id : 0;
   return slot == kImuNode ? params.imu.device_id : params.feet.device_id[slot - kFootNode];
@@ -33,7 +33,7 @@ class CanNodes {
       if (canopen::is_node(id)) slot_[id] = static_cast<std::uint8_t>(slot);
     }
   }
-  /// -1: not a node of the robot.
+  /// -1: not the robot's.
   int slot_of(std::uint8_t node) const {
     const std::uint8_t slot = canopen::is_node(node) ? slot_[node] : kNone;
     return slot == kNone ? -1 : slot;

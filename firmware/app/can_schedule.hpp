@@ -5,16 +5,15 @@
 #include "common/protocol/canopen/bus_load.hpp"
 #include "common/protocol/canopen/robot_plan.hpp"
 
-/// Time of one tick on a CAN bus at worst stuffing; the source of the loop's timeouts.
+/// Time of one tick at worst stuffing; the source of the loop's timeouts.
 namespace verp::app {
 
-/// From SYNC until a drive's answer is ready: an allowance, not a measurement. A slower drive
-/// counts as silent.
+/// From SYNC to a drive's answer: an allowance, not a measurement. A slower drive counts as silent.
 inline constexpr std::uint32_t kReactionUs = 300;
-/// Other frames that may precede the last answer to a SYNC: one under way, an SDO answer, an EMCY.
+/// Before the last answer to a SYNC: one under way, an SDO answer, an EMCY.
 inline constexpr std::uint32_t kForeignFrames = 3;
 
-/// Time of classic frames of `bytes` bytes. Without a baud rate: the maximum.
+/// Classic frames. Without a baud rate: the maximum.
 constexpr std::uint32_t can_frames_us(std::uint8_t bytes, std::uint32_t frames,
                                       std::uint32_t baud) {
   if (baud == 0) return 0xFFFFFFFFu;
@@ -22,7 +21,7 @@ constexpr std::uint32_t can_frames_us(std::uint8_t bytes, std::uint32_t frames,
   return static_cast<std::uint32_t>((std::uint64_t{bits.all()} * 1'000'000u + baud - 1) / baud);
 }
 
-/// From a SYNC until its group has answered. Drives may extend their answers to eight bytes.
+/// Until the SYNC's group has answered. Drives may extend answers to eight bytes.
 constexpr std::uint32_t window_us(const Params& params, std::uint8_t group) {
   std::uint32_t answers = group == canopen::plan::sync_groups(params)
                               ? static_cast<std::uint32_t>(canopen::plan::sensor_answers(params))
@@ -34,8 +33,8 @@ constexpr std::uint32_t window_us(const Params& params, std::uint8_t group) {
          can_frames_us(kMaxCanData, answers + kForeignFrames, params.baud);
 }
 
-/// Most frames that the controller sends at the end of a tick: all goals, controlwords and
-/// strengths, two SDO requests, a heartbeat or a third one, and an NMT command.
+/// Frames of the controller at a tick's end: all goals, controlwords and strengths, two SDO
+/// requests, a heartbeat or a third one, and an NMT command.
 constexpr std::uint32_t most_sent(int joints) {
   Params params;
   params.joint_count = static_cast<std::uint8_t>(joints);

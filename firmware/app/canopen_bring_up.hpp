@@ -15,7 +15,7 @@
 
 namespace verp::app {
 
-/// The dxl::HardwareError nearest to a CiA 402 error code; the core uses these.
+/// The dxl::HardwareError nearest to a CiA 402 error code, for the core.
 constexpr std::uint8_t hardware_error_of(std::uint16_t code) {
   if (code == 0) return 0;
   if (code >> 8 == 0x31 || code >> 8 == 0x32) return dxl::kInputVoltageError;
@@ -25,9 +25,9 @@ constexpr std::uint8_t hardware_error_of(std::uint16_t code) {
   return dxl::kOverloadError;
 }
 
-/// Finds every node of the robot, sets it up and starts it, torque off. It listens first, because
-/// resetting nodes would drop a robot that another controller runs. It then resets all nodes: none
-/// stays stiff from an earlier run, and unwritten settings have their stored values.
+/// Finds every node of the robot, sets it up and starts it, torque off. It listens first: resetting
+/// nodes would drop a robot that another controller runs. It then resets all nodes, so none stays
+/// stiff and unwritten settings have their stored values.
 template <hal::CanBus Bus>
 class CanopenBringUp {
  public:
@@ -51,10 +51,10 @@ class CanopenBringUp {
 
  private:
   static constexpr int kAttempts = 3;
-  /// Time for a drive to boot and to leave a fault: an allowance, not a measurement.
+  /// A drive boots and leaves a fault: an allowance, not a measurement.
   static constexpr std::uint32_t kBootUs = 2'000'000;
-  static constexpr int kResets = 2;   ///< for nodes that send no boot-up message
-  static constexpr int kRepeats = 3;  ///< of unacknowledged commands
+  static constexpr int kResets = 2;   ///< of nodes without a boot-up message
+  static constexpr int kRepeats = 3;  ///< of unconfirmed commands
 
   bool ready() const { return report_.status == BringUpStatus::kReady; }
   bool fail(BringUpStatus status, std::uint8_t id, canopen::Address at) {
@@ -111,7 +111,7 @@ class CanopenBringUp {
     }
   }
 
-  /// The nodes of `missing` that did not boot in time.
+  /// Returns the nodes that did not boot in time.
   NodeMask await_boot(NodeMask missing) {
     CanFrame frame;
     const std::uint64_t end_us = master_.now_us() + kBootUs;
@@ -159,7 +159,7 @@ class CanopenBringUp {
 
   bool set_up(int slot, bool booted) {
     if (!identify(slot)) return false;
-    // Without a reset it may keep settings of an earlier controller.
+    // Without a reset it may keep an earlier controller's settings.
     if (!booted) return fail(BringUpStatus::kNotReset, node_id(params_, slot), {});
     return write_all(slot) && read_back(slot) &&
            (!is_joint(slot) || (learn_strength(slot) && is_well(slot)));
@@ -222,7 +222,7 @@ class CanopenBringUp {
     report_.full_strength[joint] = static_cast<std::uint16_t>(full);
     return true;
   }
-  // The settings end with a fault reset; a remaining fault still has its cause.
+  // After a fault reset a remaining fault still has its cause.
   bool is_well(int joint) {
     using canopen::cia402::State;
     namespace object = canopen::cia402::object;

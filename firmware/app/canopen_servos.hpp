@@ -19,8 +19,8 @@
 #include "firmware/app/sync_repair.hpp"
 #include "firmware/app/sync_round.hpp"
 
-/// The ServoBinding (contracts.hpp) for CANopen and CiA 402: a robot's drives, IMU and feet on one
-/// CanBus, as common/protocol/canopen/robot_plan.hpp plans it.
+/// The ServoBinding (contracts.hpp) for CANopen and CiA 402: drives, IMU and feet on one CanBus
+/// (common/protocol/canopen/robot_plan.hpp).
 namespace verp::app {
 
 template <hal::CanBus Bus>
@@ -48,7 +48,7 @@ class CanopenServos {
   }
   void limit_torque(std::uint8_t percent) { writer_.limit_torque(percent); }
 
-  /// Runs all SYNCs of the tick; keeps the sensors' answers for read_sensors().
+  /// Runs all SYNCs of the tick; keeps the sensors' answers.
   void read_positions(Inputs& inputs) {
     answers_.begin();
     if (params_.servo_count() == 0) answers_.prompt();  // no drive could show it
@@ -77,17 +77,17 @@ class CanopenServos {
   void send(const Outputs& outputs) {
     writer_.send(master_, outputs, doubts_.all(), doubts_.limp());
     torque_ = outputs.torque_enable != 0;
-    const bool stopped = renewal_.stop_one(master_);  // takes the place of a telemetry request
+    const bool stopped = renewal_.stop_one(master_);  // instead of a telemetry request
     renew();
     CanFrame frame;
     bool missed = false;
     NodeMask busy = renewal_.slot() < 0 ? 0 : node_bit(renewal_.slot());
     if (busy == 0) repair_.run(master_, astray());
     if (repair_.slot() >= 0) busy |= node_bit(repair_.slot());
-    if (!answers_.all_owe()) busy |= doubts_.silent();  // otherwise any node's answer is useful
+    if (!answers_.all_owe()) busy |= doubts_.silent();  // else any node's answer is useful
     if (!stopped && telemetry_.next(frame, busy, missed)) master_.send(frame);
     if (missed) ++master_.counters.timeouts;
-    // At most one of heartbeat and effort request, so that a tick's frames find room.
+    // One of heartbeat and effort request, so that a tick's frames find room.
     const bool beat = heartbeat_.next(master_.now_us(), canopen::NmtState::kOperational, frame);
     if (beat || efforts_.next(frame, busy | telemetry_.asked())) master_.send(frame);
   }
@@ -101,16 +101,16 @@ class CanopenServos {
   const JointEffort* efforts() const { return efforts_.efforts(); }
 
  private:
-  static constexpr int kMostWaiting = 64;   ///< frames read before a tick; bounds a flooded bus
-  static constexpr int kMostInWindow = 64;  ///< the same after each SYNC
-  /// SDO requests within a tick; each may extend a window for a silent node.
+  static constexpr int kMostWaiting = 64;   ///< frames before a tick; bounds a flooded bus
+  static constexpr int kMostInWindow = 64;  ///< after each SYNC
+  /// SDO requests in a tick; each may extend a window for a silent node.
   static constexpr std::uint8_t kHurries = 3;
   static constexpr std::uint8_t kProbeTicks = 8;       ///< ticks between waits for silent nodes
   static constexpr std::uint16_t kLongSilence = 5000;  ///< ticks; the count stops here
   static_assert(most_sent(kMaxJoints) <= hal::kCanQueue);
 
-  // Drops frames that came after the last tick; their answers are too old. Waiting frames cost no
-  // time; frames that arrive while ours still wait for the wire do.
+  // Frames after the last tick are too old. Waiting frames cost no time; those that arrive while
+  // ours wait for the wire do.
   void forget_stale(Inputs& inputs) {
     window_ = 0;
     CanFrame frame;
@@ -123,8 +123,8 @@ class CanopenServos {
     }
   }
 
-  // A flooded bus delays the SYNC and so its timeout. Frames received in this tick may use up the
-  // time of all SYNCs, no more. True if no more came although there was room.
+  // A flooded bus delays the SYNC and so its timeout: frames of this tick may use up the time of
+  // all SYNCs, no more. True if none came although there was room.
   bool listen(Inputs& inputs) {
     const std::uint32_t timeout = window_us(params_, window_);
     const std::uint32_t over_us = heard_us_ + timeout;
@@ -163,7 +163,7 @@ class CanopenServos {
     if (!wanted) ++master_.counters.strays;
   }
 
-  // False: not an answer of a known node to this tick's SYNCs.
+  // False: not an answer to this tick's SYNCs.
   bool take_answer(const CanFrame& frame, int slot, unsigned number, Inputs& inputs) {
     const bool second = slot == kImuNode && number == 2;
     if (number != 1 && !second) return false;
@@ -196,7 +196,6 @@ class CanopenServos {
     inputs.position_count[joint] = position;
     inputs.fresh |= 1u << joint;
   }
-  // False: nothing was requested.
   bool take_response(const CanFrame& frame, int slot) {
     if (slot == repair_.slot()) {
       if (!repair_.receive(master_, frame)) return true;
@@ -209,7 +208,7 @@ class CanopenServos {
       renewal_.proceed(master_);
     } else {
       if (!is_joint(slot)) return false;
-      if (efforts_.receive(slot, frame)) return true;  // may be ticks old: no proof
+      if (efforts_.receive(slot, frame)) return true;  // may be ticks old
       if (!telemetry_.receive(slot, frame)) return false;
       if (window_ <= 1) answers_.prompt();
     }
@@ -230,7 +229,7 @@ class CanopenServos {
     repair_.cancel(slot);
     doubts_.rebooted(slot);
   }
-  /// Undoubted nodes whose answers come at another SYNC.
+  /// Undoubted nodes that answer another SYNC.
   NodeMask astray() const {
     NodeMask mask = answers_.astray() & answers_.answered();
     if ((mask & node_bit(AnswerWatch::kImuSecond)) != 0) mask |= node_bit(kImuNode);
@@ -239,8 +238,8 @@ class CanopenServos {
 
   void renew() {
     const int renewed = renewal_.run(master_, doubts_.to_renew(torque_, present_));
-    repair_.cancel(renewal_.slot());  // its answers now belong to the renewal
-    if (renewal_.slot() >= 0) doubts_.rebooted(renewal_.slot());  // a partial renewal is not enough
+    repair_.cancel(renewal_.slot());                              // answers belong to the renewal
+    if (renewal_.slot() >= 0) doubts_.rebooted(renewal_.slot());  // a partial renewal does not do
     if (renewed < 0) return;
     doubts_.renewed(renewed);
     silent_ticks_[renewed] = 0;
@@ -290,7 +289,7 @@ class CanopenServos {
   std::uint64_t began_us_ = 0;
   std::uint32_t heard_us_ = 0;
   std::uint32_t patience_us_ = 0;  ///< limit for all SYNCs of a tick
-  std::uint8_t window_ = 0;        ///< the last SYNC sent; 0: none in this tick
+  std::uint8_t window_ = 0;        ///< last SYNC sent; 0: none
   std::uint8_t probe_ = 0;
   std::uint8_t hurries_ = 0;
   bool torque_ = false;

@@ -12,8 +12,8 @@
 
 namespace verp::app {
 
-/// The controller as a CANopen node: its PDOs, watched nodes and identity. It has no device profile
-/// and no CiA vendor id. The binding sends its heartbeat, which the drives watch.
+/// The controller as a CANopen node, without device profile and CiA vendor id. The binding sends
+/// its heartbeat.
 inline constexpr canopen::DeviceSize kControllerSize{
     .rpdos = 2,
     .tpdos = 4,
@@ -25,13 +25,13 @@ constexpr canopen::Identity controller_identity() {
   return {.name = "VERP controller", .product = table::kModel, .revision = table::kTableVersion};
 }
 
-/// Objects of whole images: one DOMAIN for each ImageKind.
+/// One DOMAIN for each ImageKind.
 inline constexpr std::uint16_t kImageIndex = 0x5000;
 
 consteval canopen::Address object(const char* name) {
   return {table::find(name)->object_index(), 0};
 }
-/// Default mapping of the controller's TPDO `number`.
+/// Default mapping of TPDO `number`.
 constexpr canopen::PdoMapping<> controller_tpdo(unsigned number) {
   namespace published = canopen::published;
   canopen::PdoMapping<> mapping;
@@ -44,7 +44,7 @@ constexpr canopen::PdoMapping<> controller_tpdo(unsigned number) {
   if (number == published::kPartPdo) mapping.add({object("inputs_part"), 64});
   return mapping;
 }
-/// Sets these TPDOs up in the controller's communication objects, on or off.
+/// Switches these TPDOs on or off.
 template <class Objects>
 void publish_ticks(Objects& objects, std::uint8_t node, bool on) {
   for (unsigned number = canopen::published::kDigestPdo; number <= canopen::published::kPartPdo;
@@ -56,15 +56,15 @@ void publish_ticks(Objects& objects, std::uint8_t node, bool on) {
   }
 }
 
-/// The controller's registers as objects of a CANopen node (canopen::Application), beside a
-/// Dynamixel device on the same registers. Index 2000h + address; array elements have subindices
-/// from 1; a text is one object. The registers decide the effect of a write.
+/// The controller's registers as objects of a CANopen node (canopen::Application). Index 2000h +
+/// address; array elements have subindices from 1; a text is one object. The registers decide the
+/// effect of a write.
 ///
 /// 5001h is the Params image, 5002h the actions. A downloaded image takes effect at the next start.
-/// It is refused while any servo holds torque; actions also while their memory is being prepared:
-/// retry a little later. 5003h and 5004h are the last tick and earlier ones (tick_log.hpp),
-/// readable while register tick_hold is 1. TPDOs 2 to 4 report each tick
-/// (canopen/published_tick.hpp) after publish_ticks().
+/// It is refused while any servo holds torque; actions also while their memory is being prepared.
+/// 5003h and 5004h are the last tick and earlier ones (tick_log.hpp), readable while register
+/// tick_hold is 1. TPDOs 2 to 4 report each tick (canopen/published_tick.hpp) after
+/// publish_ticks().
 template <Images Store>
 class ControllerObjects {
  public:

@@ -10,8 +10,8 @@
 
 namespace verp::app {
 
-/// Maintains the device arrays of the register table: state, rate, age and errors of each servo,
-/// sensor and bus, from what the loop saw in each tick.
+/// The register table's device arrays: state, rate, age and errors of each servo, sensor and bus,
+/// by tick.
 class DeviceWatch {
  public:
   DeviceWatch(const Params& params, RegisterImage& image) : params_(params), image_(image) {
@@ -30,7 +30,7 @@ class DeviceWatch {
   }
 
   void heard() { ++packets_; }
-  /// Error totals of the servo bus and of the operator's link.
+  /// Totals of the servo bus and the operator's link.
   void bus_errors(std::uint32_t sum) { errors(table::kDeviceBus, sum); }
   void link_errors(std::uint32_t sum) { errors(table::kDeviceLink, sum); }
 
@@ -89,13 +89,13 @@ class DeviceWatch {
     watch(row, fresh ? 1 : 0, faulty, limits);
   }
 
-  /// Whether a servo repeats one position although its goal has left it: the encoder or a gateway
-  /// repeats an old value, or the joint is stuck.
+  /// True if a servo repeats one position although its goal has left it: an old value is repeated,
+  /// or the joint is stuck.
   bool stands_still(int j, const Inputs& inputs, const Outputs& outputs) {
-    // Ticks that the goal must be away: servo lag and start from rest. Measured: a knee at rest was
-    // told to step 3.7 degrees in 3 ticks and moved one tick later.
+    // Servo lag and start from rest, ticks. Measured: a knee that was to step 3.7 degrees in 3
+    // ticks moved one tick later.
     constexpr std::uint8_t kPatience = 4;
-    constexpr float kAway_rad = 0.0614F;  // 3.5 degrees: more than any sag or backlash
+    constexpr float kAway_rad = 0.0614F;  // 3.5 degrees: more than sag and backlash
     Still& still = still_[j];
     const bool holds = (outputs.torque_enable >> j & 1u) != 0;
     if (!holds || inputs.position_count[j] != still.position_count) {
@@ -152,13 +152,13 @@ class DeviceWatch {
   struct Still {
     std::int32_t position_count = 0;
     std::int32_t goal_count = 0;
-    std::uint8_t ticks = 0;  ///< ticks that the goal was away, up to kPatience
+    std::uint8_t ticks = 0;  ///< ticks with the goal away, up to kPatience
   };
 
   const Params& params_;
   RegisterImage& image_;
   Still still_[kMaxJoints];
-  std::uint16_t reports_[table::kDevices] = {};  ///< since the window began
+  std::uint16_t reports_[table::kDevices] = {};  ///< in the window
   std::uint32_t window_us_ = 0;
   std::uint32_t tick_ = 0;
   std::uint16_t elapsed_ = 1;

@@ -12,9 +12,9 @@ namespace verp::app {
 ///
 /// A drive is doubted after long silence or a boot-up message. It gets no more torque than it has,
 /// and its position does not count, so the core holds and lowers the robot. If its statusword shows
-/// that it holds torque as commanded and follows its target, it lost nothing and counts again.
-/// Otherwise (fault, reboot, another mode of operation) it is set up again once the robot was
-/// released, and then counts. Sensors are set up again at once.
+/// that it holds torque as commanded and follows its target, it counts again. Otherwise (fault,
+/// reboot, another mode of operation) it is set up again once the robot was released. Sensors are
+/// set up again at once.
 class DoubtedDrives {
  public:
   explicit DoubtedDrives(const Params& params) : patience_us_(doubt_us(params)) {}
@@ -35,7 +35,7 @@ class DoubtedDrives {
   }
   NodeMask silent() const { return silent_; }
 
-  /// The node sent a boot-up message, or is only partly set up.
+  /// The node rebooted, or is only partly set up.
   void rebooted(int slot) {
     lost_ |= node_bit(slot);
     if (is_joint(slot)) doubted_ |= 1u << slot;
@@ -47,8 +47,7 @@ class DoubtedDrives {
     if (is_joint(slot)) limp_ &= ~(1u << slot);
   }
 
-  /// Evaluates a drive's statusword. `torque`: it was commanded to have torque and had time to
-  /// obey. True if its position counts.
+  /// `torque`: commanded long enough to be obeyed. True: the drive's position counts.
   bool counts(int joint, std::uint16_t statusword, bool torque) {
     using canopen::cia402::State;
     const State state = canopen::cia402::state_of(statusword);
@@ -68,8 +67,8 @@ class DoubtedDrives {
     return (doubted_ & bit) == 0;
   }
 
-  /// Nodes to set up again in a tick with or without `torque` wanted. A silent node may only have
-  /// missed its start.
+  /// Nodes to set up again, with or without `torque` wanted. A silent node may have missed its
+  /// start.
   NodeMask to_renew(bool torque, NodeMask present) const {
     const NodeMask joints = node_bit(kMaxJoints) - 1;
     return (lost_ | silent_) & present & (torque ? ~joints : ~NodeMask{0});

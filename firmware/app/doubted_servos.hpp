@@ -11,14 +11,13 @@
 
 namespace verp::app {
 
-/// Servos whose torque may differ from the command.
 ///
-/// A servo that was silent for long may have lost power. It then returns limp, with factory gains
-/// and no profile; torque would throw it at its goal. Until its state is known it is sent only
-/// torque off, and its position does not count, so the core holds and lowers the robot. A servo
-/// that kept its torque kept everything and counts again. Any other gets gains and profile once the
-/// robot was released, then counts, and rises from the pose it is found in. A servo that shut its
-/// torque off for a hardware error is treated alike until it is rebooted.
+/// Servos whose torque may differ from the command. A servo that was silent for long may have lost
+/// power: it returns limp, with factory gains and no profile, and torque would throw it at its
+/// goal. Until its state is known it is sent only torque off, and its position does not count, so
+/// the core holds and lowers the robot. A servo that kept its torque counts again. Any other gets
+/// gains and profile once the robot was released, and rises from the pose it is found in. After a
+/// hardware error a servo is treated alike until it is rebooted.
 template <hal::FrameBus Bus>
 class DoubtedServos {
  public:
@@ -32,22 +31,20 @@ class DoubtedServos {
     doubted_ |= 1u << joint;
     here_ &= ~(1u << joint);
   }
-  /// The servo answered, with or without the alert bit of a hardware error. True if its answer
-  /// counts.
+  /// `alert`: the answer's hardware error bit. True: the answer counts.
   bool counts(int joint, bool alert) {
     if (!alert) broken_ &= ~(1u << joint);
     here_ |= doubted_ & ~broken_ & 1u << joint;
     return (doubted_ >> joint & 1) == 0;
   }
-  /// The servo has a hardware error and lacks the commanded torque.
+  /// A hardware error took the servo's torque.
   void shut_down(int joint) {
     doubted_ |= 1u << joint;
     broken_ |= 1u << joint;
     here_ &= ~(1u << joint);
   }
 
-  /// Call in ticks with room on the bus: queries a few servos, or sets them up again. `torque`:
-  /// torque is wanted.
+  /// In ticks with room on the bus: queries a few servos, or sets them up again. `torque`: wanted.
   void resolve(BusMaster<Bus>& master, bool torque) {
     if (!torque) limp_ = 0;
     if (torque) renewals_ = 0;
@@ -61,9 +58,9 @@ class DoubtedServos {
   }
 
  private:
-  static constexpr std::uint8_t kRepeats = 3;  ///< of writes without acknowledgement
+  static constexpr std::uint8_t kRepeats = 3;  ///< of unconfirmed writes
 
-  /// The first few of `joints`.
+  /// The first few.
   std::uint32_t some(std::uint32_t joints) const {
     std::uint32_t chosen = 0;
     std::size_t count = 0;
@@ -132,7 +129,7 @@ class DoubtedServos {
 
   const Params& params_;
   std::uint32_t doubted_ = 0;
-  std::uint32_t here_ = 0;  ///< doubted servos that have answered since
+  std::uint32_t here_ = 0;  ///< doubted servos that have answered
   std::uint32_t broken_ = 0;
   std::uint32_t limp_ = 0;
   std::uint32_t batch_ = 0;

@@ -10,14 +10,13 @@
 namespace verp::app {
 
 /// Velocity (606Ch) and torque (6077h) of each drive, for observers: one SDO upload every
-/// kEffortTicks ticks, first all velocities, then all torques. Spare TPDO bytes would load the bus
-/// beyond 70 % (21 drives at 125 Hz); telemetry's turns are for the temperatures that the core
-/// needs.
+/// kEffortTicks ticks, first all velocities, then all torques. In TPDOs they would load the bus
+/// beyond 70 % (21 drives at 125 Hz).
 class DriveEfforts {
  public:
   explicit DriveEfforts(const Params& params) : params_(params) {}
 
-  /// The request due in this tick; false: none. Skips drives in `busy`.
+  /// The next request; false: none is due. Skips drives in `busy`.
   bool next(CanFrame& frame, NodeMask busy) {
     if (++ticks_ < canopen::plan::kEffortTicks) return false;
     ticks_ = 0;
@@ -29,7 +28,7 @@ class DriveEfforts {
     return true;
   }
 
-  /// Takes a drive's SDO response; false: not to the last request.
+  /// Takes an SDO response; false: not to the last request.
   bool receive(int joint, const CanFrame& frame) {
     namespace sdo = canopen::sdo;
     if (!asked_ || joint != joint_ || frame.size != sdo::kFrameBytes ||

@@ -5,10 +5,9 @@
 
 namespace verp::app {
 
-/// Effect of an emergency stop on servo power, on a board that switches it. The core releases
-/// torque in the tick that sees the stop, and the loop sends that for three ticks. Then the power
-/// goes off, for servos that missed it and whatever the core decides: a category 0 stop of IEC
-/// 60204-1. A standing robot falls.
+/// Effect of an emergency stop on switched servo power. The core releases torque in the tick that
+/// sees the stop, and the loop sends that for three ticks. Then the power goes off, whatever the
+/// core decides: a category 0 stop of IEC 60204-1. A standing robot falls.
 ///
 /// Power returns after two manual actions: release the stop, and ask the robot to relax. The servos
 /// have lost their settings by then, so the loop needs a new bring-up. A stop that cut the power
@@ -21,8 +20,7 @@ class DrivePower {
   /// Ticks in which torque off is sent.
   static constexpr std::uint8_t kTorqueFirst = 3;
 
-  /// Call after each tick. `pressed`: a stop was pressed in it or still blocks the power; `mode`:
-  /// what the core decided.
+  /// `pressed`: a stop was pressed in this tick or still blocks the power; `mode`: the core's.
   Step after_tick(bool pressed, safety::Mode mode) {
     if (step_ == Step::kOn) {
       ticks_ = pressed ? static_cast<std::uint8_t>(ticks_ + 1) : std::uint8_t{0};

@@ -9,9 +9,8 @@
 namespace verp::app {
 
 /// Slow telemetry: at the end of each tick an expedited SDO upload from one drive, whose answer the
-/// next tick takes. A drive without kTelemetry (it aborts, or is another maker's) is asked for
-/// voltage and error code instead and reports no temperature. A drive without those reports
-/// nothing.
+/// next tick takes. A drive without kTelemetry is asked for voltage and error code instead and
+/// reports no temperature.
 class DriveTelemetry {
  public:
   explicit DriveTelemetry(const Params& params) : params_(params) {}
@@ -23,8 +22,8 @@ class DriveTelemetry {
   /// The drive whose answer is due.
   NodeMask asked() const { return asked_ < 0 ? 0 : node_bit(asked_); }
 
-  /// The next request; false if there is none. Skips drives in `busy`: each answer also proves that
-  /// the bus is prompt. `missed`: the last request had no answer.
+  /// False: none. Skips drives in `busy`: each answer also proves that the bus is prompt. `missed`:
+  /// the last request had no answer.
   bool next(CanFrame& frame, NodeMask busy, bool& missed) {
     missed = asked_ >= 0;
     if (missed || !more_ || is_in(busy, joint_)) choose(busy);
@@ -39,7 +38,7 @@ class DriveTelemetry {
     return true;
   }
 
-  /// Takes a drive's SDO response; false: not to the last request.
+  /// Takes an SDO response; false: not to the last request.
   bool receive(int joint, const CanFrame& frame) {
     namespace sdo = canopen::sdo;
     if (joint != asked_ || frame.size != sdo::kFrameBytes || !(sdo::address_of(frame) == at_)) {
@@ -88,7 +87,7 @@ class DriveTelemetry {
     if (part_ == Part::kAll) return canopen::plan::kTelemetry;
     return part_ == Part::kVoltage ? object::kDcLinkVoltage : object::kErrorCode;
   }
-  // A drive that has the object but cannot answer now is asked again in its next turn.
+  // A drive that cannot answer now is asked again in its next turn.
   void take_abort(int joint, canopen::Abort why) {
     asked_ = -1;
     const bool absent = why == canopen::Abort::kNoObject || why == canopen::Abort::kNoSubindex;
@@ -117,7 +116,7 @@ class DriveTelemetry {
   int urgent_ = -1;
   std::uint32_t plain_ = 0;
   Part part_ = Part::kAll;
-  bool more_ = false;  ///< ask the same drive again
+  bool more_ = false;
   bool fresh_ = false;
   canopen::Address at_;
   canopen::plan::Telemetry value_;

@@ -10,10 +10,10 @@
 
 namespace verp::app {
 
-/// The tick's second half on CAN: goals, controlwords and strengths in shared RPDOs. RPDOs have no
-/// reply, so a changed frame is sent in kRepeats ticks, and one other frame in turn each tick.
-/// Controlwords follow each drive's statusword, so a lost one costs a tick. Strength is Max torque,
-/// in thousandths of the rated torque.
+/// Goals, controlwords and strengths in shared RPDOs. RPDOs have no reply, so a changed frame is
+/// sent in kRepeats ticks, and one other frame in turn each tick. Controlwords follow each drive's
+/// statusword, so a lost one costs a tick. Strength is Max torque, in thousandths of the rated
+/// torque.
 template <hal::CanBus Bus>
 class DriveWriter : public JointStrength {
  public:
@@ -30,9 +30,9 @@ class DriveWriter : public JointStrength {
     return ((told_ & (enabled_ | (patience_ == 0 ? ~0u : 0u))) >> joint & 1) != 0;
   }
 
-  /// Sends goals from the first tick that wants torque; torque follows in the third at the
-  /// earliest, for all drives together once all are switched on. `doubted` drives get no more
-  /// torque than they have; `limp` ones are known to have none.
+  /// Goals from the first tick that wants torque; torque from the third at the earliest, for all
+  /// drives together once all are switched on. `doubted` drives get no more torque than they have;
+  /// `limp` ones have none.
   void send(CanMaster<Bus>& master, const Outputs& outputs, std::uint32_t doubted,
             std::uint32_t limp) {
     const std::uint32_t wanted = outputs.torque_enable & all_joints(params_);
@@ -47,9 +47,9 @@ class DriveWriter : public JointStrength {
 
  private:
   static constexpr std::uint8_t kRepeats = 3;
-  /// Ticks that drives wait for each other; then those that are ready go ahead.
+  /// Ticks after which drives that are ready go ahead alone.
   static constexpr std::uint8_t kTogether = 20;
-  /// Time to enable, brake release included: an allowance, not a measurement.
+  /// Time to enable, with brake release: an allowance, not a measurement.
   static constexpr std::uint32_t kEnableUs = 300'000;
   static constexpr int kMostFrames = (kMaxJoints + 3) / 4;
 
@@ -83,7 +83,7 @@ class DriveWriter : public JointStrength {
   std::uint16_t word_for(int joint, bool wanted, bool doubted) const {
     using namespace canopen::cia402;
     if (!wanted) return kWordDisableVoltage;
-    // A drive that lost its power ignores this word without the preceding ones.
+    // A drive that lost its power ignores this word without earlier ones.
     if ((told_ >> joint & 1) != 0) return kWordEnableOperation;
     if (doubted) return kWordDisableVoltage;
     switch (state_[joint]) {
@@ -162,16 +162,16 @@ class DriveWriter : public JointStrength {
   }
 
   State state_[kMaxJoints] = {};
-  std::uint16_t word_[kMaxJoints] = {};      ///< as sent last
-  std::uint16_t strength_[kMaxJoints] = {};  ///< as sent last
+  std::uint16_t word_[kMaxJoints] = {};      ///< last sent
+  std::uint16_t strength_[kMaxJoints] = {};  ///< last sent
   std::uint8_t words_due_[kMostFrames] = {};
   std::uint8_t strengths_due_[kMostFrames] = {};
   std::uint32_t wanted_ = 0;
   std::uint32_t told_ = 0;      ///< commanded to have torque
   std::uint32_t enabled_ = 0;   ///< those that have obeyed
-  std::uint32_t patience_ = 0;  ///< ticks left for the others to obey
-  std::uint8_t early_ = 0;      ///< ticks before any torque is commanded
-  std::uint8_t together_ = 0;   ///< ticks that drives still wait for each other
+  std::uint32_t patience_ = 0;  ///< ticks for the others to obey
+  std::uint8_t early_ = 0;      ///< ticks before torque
+  std::uint8_t together_ = 0;   ///< ticks left to wait for each other
   int turn_ = 0;
 };
 

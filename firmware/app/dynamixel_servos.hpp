@@ -10,8 +10,8 @@
 #include "firmware/app/schedule.hpp"
 #include "firmware/app/servo_writer.hpp"
 
-/// The ServoBinding (contracts.hpp) for Dynamixel Protocol 2.0: a robot's servos, IMU and feet on
-/// one FrameBus.
+/// The ServoBinding (contracts.hpp) for Dynamixel Protocol 2.0: servos, IMU and feet on one
+/// FrameBus.
 namespace verp::app {
 
 template <hal::FrameBus Bus>
@@ -39,8 +39,7 @@ class DynamixelServos {
   void limit_torque(std::uint8_t percent) { servos_.limit_torque(percent); }
 
   // Fast Sync Read returns one packet for all servos, so one missing servo spoils it. After an
-  // incomplete read the loop uses plain Sync Read, with one reply per servo, until all answer
-  // again.
+  // incomplete read the loop uses plain Sync Read until all answer again.
   void read_positions(Inputs& inputs) {
     const auto count = static_cast<std::size_t>(joints_.count());
     const bool fast = all_fast_ && positions_complete_;
@@ -177,8 +176,8 @@ class DynamixelServos {
     }
   }
 
-  // The alert bit means that Hardware Error Status is not zero. Only then a separate read pays. It
-  // includes Torque Enable, a few bytes before: has the servo shut it off?
+  // The alert bit: Hardware Error Status is not zero. Only then a separate read pays; it includes
+  // Torque Enable.
   void read_hardware_error(Inputs& inputs) {
     constexpr std::uint16_t kAddress = dxl::address::kTorqueEnable;
     constexpr std::uint16_t kBytes = kAlertBytes;

@@ -11,16 +11,16 @@
 #include "common/protocol/dynamixel2.hpp"
 #include "hal/contract/imu.hpp"
 
-/// The individual errors of one IMU on one board: gyroscope bias and mounting, measured at rest and
-/// removed from the counts before they become Inputs. So a trace holds what the controller saw, and
-/// one robot's Params fit every board.
+/// Errors of one IMU on one board: gyroscope bias and mounting, measured at rest and removed from
+/// the counts before they become Inputs. So a trace holds what the controller saw, and one robot's
+/// Params fit every board.
 namespace verp::app {
 
 struct ImuCalibration {
   static constexpr std::int32_t kOne = 1 << 14;
 
   std::int16_t gyro_bias_count[3] = {};
-  /// Rotates the chip's vectors to the mounting in Params; row-major, in 1/kOne.
+  /// Chip's vectors to the mounting in Params; row-major, in 1/kOne.
   std::int16_t turn[9] = {kOne, 0, 0, 0, kOne, 0, 0, 0, kOne};
 
   hal::ImuSample corrected(const hal::ImuSample& raw) const {
@@ -38,7 +38,7 @@ struct ImuCalibration {
   }
 
   static constexpr std::size_t kBytes = 1 + 2 * (3 + 9) + 4;
-  static constexpr std::uint8_t kVersion = 2;  ///< 1 did not store its basis
+  static constexpr std::uint8_t kVersion = 2;  ///< 1 stored no basis
   void encode(std::uint8_t (&to)[kBytes], std::uint32_t basis) const {
     to[0] = kVersion;
     dxl::put_u32(to + kBytes - 4, basis);
@@ -58,7 +58,7 @@ struct ImuCalibration {
   }
 
  private:
-  // A sum of three products of up to 2^16 * 2^14 does not fit 32 bits.
+  // Sums of three products of up to 2^16 * 2^14 exceed 32 bits.
   std::int16_t turned(int row, const std::int32_t (&vector)[3]) const {
     std::int64_t sum = kOne / 2;
     for (int i = 0; i < 3; ++i) sum += std::int64_t{turn[3 * row + i]} * vector[i];
@@ -67,14 +67,14 @@ struct ImuCalibration {
   }
 };
 
-/// CRC-32 of scale and mounting, the basis of a calibration: its bias is in counts of that scale,
-/// its rotation refers to that mounting.
+/// A calibration's basis, CRC-32 of scale and mounting: its bias is in counts of that scale, its
+/// rotation refers to that mounting.
 inline std::uint32_t basis_of(const ImuParams& imu) {
   const float scales[2] = {imu.gyro_rad_s_per_count, imu.accel_m_s2_per_count};
   return crc32(imu.body_imu, sizeof imu.body_imu, crc32(scales, sizeof scales));
 }
 
-/// Measures a calibration while the robot stands upright and still for kSamples samples.
+/// Measures while the robot stands upright and still for kSamples samples.
 class ImuCalibrator {
  public:
   using State = dxl::controller::ImuCalibrationState;
@@ -87,7 +87,7 @@ class ImuCalibrator {
     state_ = State::kMeasuring;
   }
   void stop() { state_ = State::kNone; }
-  /// Takes a raw sample. True: it was the last one; state() and result() give the outcome.
+  /// Takes a raw sample. True: it was the last one; see state() and result().
   bool take(const hal::ImuSample& raw) {
     if (state_ != State::kMeasuring) return false;
     for (int axis = 0; axis < 3; ++axis) {
@@ -106,13 +106,13 @@ class ImuCalibrator {
     std::int32_t sum = 0;
     std::int32_t least = 32767, most = -32768;
   };
-  /// At rest a chip's noise is under 0.01 rad/s and 0.1 m/s^2 within its low pass. A hand on the
-  /// robot moves it by more than these limits.
+  /// At rest a chip's noise is under 0.01 rad/s and 0.1 m/s^2. A hand on the robot moves it by more
+  /// than these limits.
   static constexpr float kGyroSpread_rad_s = 0.05F, kAccelSpread_m_s2 = 0.8F;
-  /// Data sheets of the MPU-9250 and ICM-20648: bias of 5 deg/s at 25 C; twice that is a rotation.
+  /// MPU-9250, ICM-20648 data sheets: bias of 5 deg/s at 25 C; twice that is a rotation.
   static constexpr float kMostBias_rad_s = 0.17F;
   static constexpr float kGravity_m_s2 = 9.80665F, kMostOff_m_s2 = 1.0F;
-  /// More than 20 degrees is another mounting or a leaning robot, not a tolerance.
+  /// More than 20 degrees: another mounting or a leaning robot.
   static constexpr float kLeastUpright = 0.93969262F;
 
   static void note(Channel& channel, std::int16_t count) {
@@ -142,8 +142,8 @@ class ImuCalibrator {
     return find_turn(force_m_s2) ? State::kDone : State::kNotUpright;
   }
 
-  // The smallest rotation from the measured upward axis to that of Params, row 2 of body_imu.
-  // Gravity shows no rotation about that axis. Rodrigues' formula for two unit vectors.
+  // The smallest rotation from the measured upward axis to that of Params, row 2 of body_imu
+  // (Rodrigues). Gravity shows no rotation about that axis.
   bool find_turn(const Vec3& force_m_s2) {
     const float length = math::norm(force_m_s2);
     const float off_m_s2 = length - kGravity_m_s2;

@@ -8,13 +8,13 @@
 /// Joint rules common to all servo buses.
 namespace verp::app {
 
-/// One bit per joint of the robot.
+/// A bit per joint.
 constexpr std::uint32_t all_joints(const Params& params) {
   return params.servo_count() >= kMaxJoints ? ~0u : (1u << params.servo_count()) - 1;
 }
 
-/// A servo silent for this long may have lost its power; by then the core holds anyway. A servo's
-/// processor takes longer than kLongest_us to start.
+/// A servo silent for this long may have lost its power: its processor takes longer than
+/// kLongest_us to start.
 inline std::uint32_t doubt_us(const Params& params) {
   constexpr std::uint32_t kLongest_us = 50'000;
   const auto hold_us =
@@ -30,12 +30,12 @@ class JointStrength {
   void set_full(const std::uint16_t (&full)[kMaxJoints]) {
     for (int j = 0; j < kMaxJoints; ++j) full_[j] = full[j];
   }
-  /// Limits that in every mode; 1 to 100.
+  /// Limits strength in every mode; 1 to 100.
   void limit_torque(std::uint8_t percent) { most_percent_ = percent; }
 
  protected:
-  // A rising robot may touch anything, a hand too, and a falling one may strike it. In these modes
-  // servos push no harder than the entity's rise_torque_percent.
+  // A rising robot may touch anything, a hand too, and a falling one may strike it. Then servos
+  // push no harder than the entity's rise_torque_percent.
   std::uint8_t percent_in(std::uint8_t mode) const {
     const auto is = [mode](safety::Mode each) { return mode == static_cast<std::uint8_t>(each); };
     const bool gives_way = is(safety::Mode::kRising) || is(safety::Mode::kFalling);

@@ -14,9 +14,8 @@ concept Clock = requires(const Source& clock) {
   { clock.now_us() } -> std::same_as<std::uint64_t>;
 };
 
-/// A FrameBus over a byte stream to real devices, such as a serial port. Bus time is the clock's
-/// time since construction. While the link is lost nobody answers: polls wait out their timeout for
-/// it to return.
+/// A FrameBus over a byte stream to real devices, such as a serial port. Bus time is the clock's,
+/// from construction. While the link is lost, polls wait out their timeout.
 template <hal::ByteLink Link, Clock Source>
 class LinkBus {
  public:
@@ -44,7 +43,7 @@ class LinkBus {
       push();
       const std::uint64_t time_us = now_us();
       const std::uint64_t wait_us = time_us < deadline_us ? deadline_us - time_us : 0;
-      // Retries every millisecond while part of a frame has no room yet.
+      // Retries while part of a frame has no room yet.
       const std::uint64_t most_us = left_ > 0 ? kPush_us : wait_us;
       const std::size_t count = link_.read(
           buffer, capacity, static_cast<std::uint32_t>(wait_us < most_us ? wait_us : most_us));
@@ -57,7 +56,7 @@ class LinkBus {
  private:
   static constexpr std::uint64_t kPush_us = 1000;
 
-  // Drops the rest of a frame that a loss cut in two: it would be noise.
+  // The rest of a frame that a loss cut in two would be noise.
   void push() {
     if (left_ == 0) return;
     const std::size_t count = link_.write(outbox_ + sent_, left_, 0);
@@ -71,7 +70,7 @@ class LinkBus {
   std::uint32_t held_us_;
   std::uint64_t sent_us_ = 0;
   std::size_t sent_ = 0;
-  std::size_t left_ = 0;  ///< bytes of outbox_ that the link has not taken
+  std::size_t left_ = 0;  ///< bytes of outbox_ not yet taken
   std::uint8_t outbox_[hal::kMaxFrame];
 };
 

@@ -4,13 +4,12 @@
 #include "common/base/fields.hpp"
 #include "firmware/app/contracts.hpp"
 
-/// The FrameBus of an emulated microcontroller: remote calls over two byte streams (FIFOs that the
-/// firmware opens by semihosting). The PC's end is host/twin/bus/bus_server.hpp. All integers are
-/// little-endian, structs as laid out.
+/// The FrameBus of an emulated microcontroller: remote calls over two byte streams (FIFOs by
+/// semihosting). The PC's end is host/twin/bus/bus_server.hpp. Little-endian, structs as laid out.
 ///
-/// Controller to PC: messages of a MessageHeader and `size` payload bytes. Only kHello and kPoll
-/// get a reply. A client buffers everything else and writes it with the next kPoll, because each
-/// semihosting write or read costs an exit of the emulator.
+/// Controller to PC: MessageHeader and `size` payload bytes. Only kHello and kPoll get a reply. A
+/// client buffers everything else until the next kPoll, because each semihosting call costs an exit
+/// of the emulator.
 ///
 ///     one tick:  write [kOutputs][kRecord of the last tick][kSend Fast Sync Read][kPoll]
 ///                read PollReply
@@ -18,23 +17,23 @@
 ///                read PollReply
 ///                [kSend Sync Write][kSend Sync Write]
 ///
-/// PC to controller: one reply to each kHello and kPoll, in one write. A PollReply with its bytes
-/// stays under 4096 bytes, so a FIFO carries it whole and one read of kMaxReply bytes returns it; a
-/// client still loops until `size` bytes are there. A HelloReply is longer: read until complete.
+/// PC to controller: each reply is one write. A PollReply with its bytes stays under 4096 bytes, so
+/// a FIFO carries it whole; a client still loops until `size` bytes are there. A HelloReply is
+/// longer.
 namespace verp::link {
 
 inline constexpr std::uint32_t kVersion = 2;
-inline constexpr std::uint32_t kMaxPollBytes = 1024;  ///< most bytes in one PollReply
+inline constexpr std::uint32_t kMaxPollBytes = 1024;  ///< bytes in one PollReply
 
 enum class Kind : std::uint8_t {
-  kHello = 'H',    ///< Hello; first message, once; reply: HelloReply
-  kSend = 'S',     ///< the bytes of one frame, as FrameBus::send
-  kPoll = 'P',     ///< Poll; reply: PollReply, as FrameBus::poll
-  kOutputs = 'O',  ///< Outputs of the tick that the next kRecord ends
-  kRecord = 'R',   ///< TickRecord of the tick just finished
-  kState = 'X',  ///< State after the tick that the next kRecord ends (every HelloReply::state_every
-                 ///< ticks, and when the fault bits change)
-  kQuit = 'Q',   ///< Quit, then text; the controller ends
+  kHello = 'H',    ///< Hello; first, once; reply: HelloReply
+  kSend = 'S',     ///< one frame
+  kPoll = 'P',     ///< Poll; reply: PollReply
+  kOutputs = 'O',  ///< Outputs of the next kRecord's tick
+  kRecord = 'R',   ///< TickRecord of a finished tick
+  kState = 'X',  ///< State after the next kRecord's tick (every HelloReply::state_every ticks, and
+                 ///< when fault bits change)
+  kQuit = 'Q',   ///< Quit, then text
 };
 
 struct MessageHeader {
@@ -45,7 +44,7 @@ struct MessageHeader {
 };
 VERP_PACKED(MessageHeader);
 
-/// The PC compares the sizes before the first tick and refuses a firmware with other structs.
+/// The PC refuses a firmware whose structs have other sizes.
 struct Hello {
   std::uint32_t version = kVersion;
   std::uint32_t params_size = 0;
@@ -62,8 +61,8 @@ enum class HelloStatus : std::uint32_t { kReady = 0, kWrongVersion = 1, kWrongSi
 struct HelloReply {
   HelloStatus status = HelloStatus::kReady;
   std::uint32_t params_size = 0;
-  std::uint32_t ticks = 0;          ///< stop after this many ticks; 0: run until kStop
-  std::uint32_t state_every = 125;  ///< send kState when tick % state_every == 0; 0: never
+  std::uint32_t ticks = 0;          ///< stop after these; 0: run until kStop
+  std::uint32_t state_every = 125;  ///< kState when tick % state_every == 0; 0: never
   std::uint32_t actions_size = 0;   ///< a multiple of 4; 0: no actions
   VERP_FIELDS(status, params_size, ticks, state_every, actions_size)
 };
@@ -78,12 +77,12 @@ struct Poll {
 VERP_PACKED(Poll);
 
 enum PollFlag : std::uint16_t {
-  kStop = 1,        ///< the run is over: finish this tick, send kQuit
-  kSendFailed = 2,  ///< the bus refused a frame sent before this poll
+  kStop = 1,        ///< finish this tick, send kQuit
+  kSendFailed = 2,  ///< refused a frame before this poll
 };
 
-/// `size` bytes from the bus follow. Every reply repeats the current tick's order; the client's
-/// OperatorLink returns that of the latest reply.
+/// `size` bytes from the bus follow. Every reply repeats the current tick's order; OperatorLink
+/// returns that of the latest.
 struct PollReply {
   std::uint64_t now_us = 0;
   std::uint16_t size = 0;
@@ -93,10 +92,9 @@ struct PollReply {
   VERP_FIELDS(now_us, size, flags, reserved, order)
 };
 
-/// size - 4 bytes of text follow: one line with the reason.
+/// size - 4 bytes of text follow: the reason, one line.
 struct Quit {
-  std::uint32_t exit_code =
-      0;  ///< as the verp program's: 0 good, 1 run failed, 2 bad input, 3 link
+  std::uint32_t exit_code = 0;  ///< 0 good, 1 run failed, 2 bad input, 3 link
   VERP_FIELDS(exit_code)
 };
 VERP_PACKED(Quit);

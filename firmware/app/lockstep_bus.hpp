@@ -13,11 +13,11 @@
 
 namespace verp::app {
 
-/// Link errors since the bus was made; all were corrected except `damaged`.
+/// Link errors; all were corrected except `damaged`.
 struct LockstepCounters {
   std::uint32_t repeats = 0;
   std::uint32_t spoilt = 0;   ///< incomplete answers
-  std::uint32_t damaged = 0;  ///< polls whose preceding frames arrived damaged
+  std::uint32_t damaged = 0;  ///< polls whose frames arrived damaged
 };
 
 inline lockstep::Hello hello_of(const Params& params) {
@@ -28,9 +28,9 @@ inline lockstep::Hello hello_of(const Params& params) {
           .state_size = sizeof(State)};
 }
 
-/// The work of a controller that waits for the twin: feeds its watchdog, serves its operator.
-/// Called at least every LockstepBus::kLongSlice_us while nothing arrives. False: stop waiting; the
-/// bus is then lost.
+/// While a controller waits for the twin: feeds its watchdog, serves its operator. Called at least
+/// every LockstepBus::kLongSlice_us while nothing arrives. False: stop waiting; the bus is then
+/// lost.
 template <class Idle>
 concept IdleHook = requires(Idle& idle) {
   { idle() } -> std::same_as<bool>;
@@ -42,15 +42,15 @@ concept IdleHook = requires(Idle& idle) {
 template <hal::ByteLink Link, IdleHook Idle>
 class LockstepBus {
  public:
-  /// Longest wait of one link read: at first, and after kEager_us without data. A clock that wakes
-  /// every millisecond stretches short waits, which add up.
+  /// Longest wait of one link read, at first. A clock that wakes every millisecond stretches short
+  /// waits, which add up.
   static constexpr std::uint32_t kSlice_us = 100;
   static constexpr std::uint32_t kLongSlice_us = 1000;
 
   LockstepBus(Link& link, Idle idle) : link_(link), idle_(idle) {}
 
-  /// Announces lockstep and this robot; waits for the twin's answer. After a loss it starts a new
-  /// session: bus time restarts with the twin, and the controller needs a new bring-up.
+  /// Announces lockstep and this robot; waits for the twin's answer. After a loss bus time restarts
+  /// with the twin, and the controller needs a new bring-up.
   lockstep::Verdict greet(const Params& params) {
     lost_ = true;
     answer_ = {};
@@ -63,14 +63,13 @@ class LockstepBus {
     return reply.verdict;
   }
 
-  /// The twin wants no further tick, or is gone.
   bool stopped() const { return lost_ || over(); }
-  /// True before greet(), after a refusal, after `idle` gave up, or when the twin restarted: call
+  /// Before greet(), after a refusal, after `idle` gave up, or when the twin restarted: call
   /// greet() again.
   bool lost() const { return lost_; }
   const LockstepCounters& counters() const { return counters_; }
 
-  // FrameBus. Frames leave with the next poll.
+  // Frames leave with the next poll.
   bool send(const std::uint8_t* data, std::size_t size) {
     if (lost_ || size == 0 || size > hal::kMaxFrame || size > kOutbox - used_) return false;
     __builtin_memcpy(outbox_ + used_, data, size);
@@ -96,14 +95,14 @@ class LockstepBus {
   std::uint64_t now_us() const { return answer_.now_us; }
 
  private:
-  /// The twin sent kStop. It may have closed in the middle of a tick, so nothing waits for it.
+  /// The twin sent kStop, maybe in the middle of a tick: nothing waits for it.
   bool over() const { return (answer_.flags & lockstep::kStop) != 0; }
 
   static constexpr std::size_t kOutbox = 2 * hal::kMaxFrame;
   static constexpr std::uint32_t kEager_us = 2000;
   static constexpr std::uint32_t kFirstPatience_us = 50'000;
   static constexpr std::uint32_t kLastPatience_us = 1'000'000;
-  /// A link that brings more bytes without the answer carries something else.
+  /// More bytes without the answer: the link carries something else.
   static constexpr std::uint32_t kMostBytes = 4 * lockstep::kMaxPollBytes;
 
   // Places the request behind the frames, so that all leave in one write.
@@ -131,7 +130,7 @@ class LockstepBus {
     return true;
   }
 
-  /// Waits for the answer to request_ and repeats it as needed. False: given up.
+  /// Waits for the answer; repeats request_ as needed. False: given up.
   template <class Reply>
   bool ask(Reply& reply, std::uint8_t* buffer, std::size_t capacity) {
     std::uint32_t patience_us = kFirstPatience_us;
@@ -184,7 +183,7 @@ class LockstepBus {
     return Outcome::kNothing;
   }
 
-  /// The bytes that preceded a packet of the clock.
+  /// Bytes before a packet of the clock.
   struct Brought {
     const std::uint8_t* bytes;  ///< the first `room` of them
     std::size_t count, room;

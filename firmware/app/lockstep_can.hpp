@@ -10,8 +10,8 @@
 namespace verp::app {
 
 /// The controller's end of lockstep_can_messages.hpp: a CanBus in the twin's time over another
-/// CanBus. Like LockstepBus it waits for a slow PC as long as `idle` allows, without a timeout. The
-/// time of `Bus` only decides when to ask again.
+/// CanBus. Like LockstepBus it waits as long as `idle` allows. The time of `Bus` only decides when
+/// to ask again.
 template <hal::CanBus Bus, IdleHook Idle>
 class LockstepCan {
  public:
@@ -61,8 +61,7 @@ class LockstepCan {
  private:
   enum class Outcome : std::uint8_t { kMore, kWhole, kSpoilt, kGone };
   static constexpr std::uint32_t kSlice_us = 1000;
-  static constexpr std::uint32_t kFirstPatience_us =
-      500'000;  ///< a loaded PC is slow; its frame is not lost
+  static constexpr std::uint32_t kFirstPatience_us = 500'000;  ///< a loaded PC is slow
   static constexpr std::uint32_t kLastPatience_us = 2'000'000;
 
   void forget() {
@@ -84,7 +83,7 @@ class LockstepCan {
     return true;
   }
 
-  /// Queues a frame; waits for room as long as `idle` allows.
+  /// Waits for room as long as `idle` allows.
   bool push(const CanFrame& frame) {
     CanFrame stray;
     while (!bus_.send(frame)) {
@@ -99,7 +98,7 @@ class LockstepCan {
     return bus_.poll(frame, static_cast<std::uint32_t>(bus_.now_us() - pushed_us_) + slice_us_);
   }
 
-  /// Gets one new answer of the twin into burst_ and now_us_.
+  /// Gets one new answer into burst_ and now_us_.
   bool advance(std::uint32_t timeout_us) {
     const lockstep::CanAdvance request{
         .sequence = ++sequence_, .sent = sent_, .sent_sum = sent_sum_, .timeout_us = timeout_us};
@@ -120,7 +119,7 @@ class LockstepCan {
     }
     if (!lockstep::take_message(frame, lockstep::kCanAdvancedId, answer)) return Outcome::kMore;
     if (answer.sequence != sequence_) {
-      count_ = 0;  // the frames before it belonged to another answer
+      count_ = 0;  // they belonged to another answer
       return Outcome::kMore;
     }
     const std::uint8_t flags = answer.flags_count & ((1u << lockstep::kCanCountShift) - 1);
@@ -144,8 +143,7 @@ class LockstepCan {
     return sum;
   }
 
-  /// Sends `request` and passes frames to `take` until it has the answer; repeats as needed. False:
-  /// given up.
+  /// Passes frames to `take` until it has the answer; repeats `request` as needed. False: given up.
   template <class Request, class Handler>
   bool ask(Request&& request, Handler&& take) {
     std::uint32_t patience_us = kFirstPatience_us;
@@ -186,7 +184,7 @@ class LockstepCan {
   LockstepCounters counters_;
   std::uint64_t now_us_ = 0;
   std::uint64_t pushed_us_ = 0;  ///< when bus_ took its last frame
-  std::size_t count_ = 0;        ///< frames in the answer; at most kMaxBurst are kept
+  std::size_t count_ = 0;        ///< frames in the answer; kMaxBurst are kept
   std::size_t taken_ = 0;
   std::uint16_t sent_sum_ = 0;
   std::uint8_t sent_ = 0;

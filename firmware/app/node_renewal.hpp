@@ -9,8 +9,8 @@
 
 namespace verp::app {
 
-/// Sets nodes up again while the loop runs, one at a time, without waiting: one SDO request a tick,
-/// or several as answers come while no torque is on.
+/// Sets nodes up again while the loop runs, one at a time: one SDO request a tick, several while no
+/// torque is on.
 class NodeRenewal {
  public:
   explicit NodeRenewal(const Params& params) : params_(params) {}
@@ -18,14 +18,14 @@ class NodeRenewal {
   /// The node being set up; -1: none.
   int slot() const { return slot_; }
   void receive(const CanFrame& frame, std::uint64_t now_us) { client_.receive(frame, now_us); }
-  /// Restarts the set-up of a node that has rebooted, and queues it for stop_one(). Such a node
-  /// does not know our SYNC counter and may send EMCY 8240h on each SYNC ahead of other answers.
-  /// Stopped (CiA 301) it is silent until its turn.
+  /// Restarts the set-up of a node that has rebooted, and queues it for stop_one(). It does not
+  /// know our SYNC counter and may send EMCY 8240h on each SYNC ahead of other answers. Stopped
+  /// (CiA 301) it is silent until its turn.
   void rebooted(int slot) {
     if (slot == slot_) slot_ = -1;
     to_stop_ |= node_bit(slot);
   }
-  /// Stops one node that has rebooted; false: there is none.
+  /// Stops one rebooted node; false: there is none.
   template <hal::CanBus Bus>
   bool stop_one(CanMaster<Bus>& master) {
     for (int slot = 0; slot < kCanNodes; ++slot) {
@@ -37,8 +37,7 @@ class NodeRenewal {
     return false;
   }
 
-  /// Call once a tick. Serves `candidates` in turn. Returns the node that is set up and was started
-  /// in this tick, or -1.
+  /// Once a tick, for `candidates` in turn. Returns the node that was started, or -1.
   template <hal::CanBus Bus>
   int run(CanMaster<Bus>& master, NodeMask candidates) {
     if (slot_ >= 0 && (candidates & node_bit(slot_)) == 0) slot_ = -1;
@@ -55,7 +54,7 @@ class NodeRenewal {
     master.send(canopen::nmt_frame(canopen::NmtCommand::kStart, node_id(params_, done)));
     return done;
   }
-  /// Sends the next request. False if the node refused or was silent.
+  /// Sends the next request; false: the node refused or was silent.
   template <hal::CanBus Bus>
   bool proceed(CanMaster<Bus>& master) {
     if (slot_ < 0 || !advance(master.now_us())) {
@@ -87,7 +86,7 @@ class NodeRenewal {
     canopen::put_le(data_, setting_.value, 4);
     client_.download(setting_.at, data_, setting_.bytes, canopen::SdoClient::Mode::kPlain, now_us);
   }
-  /// Moves on when a setting is written; false if the node refused it or was silent.
+  /// Moves on once a setting is written; false: refused or silent.
   bool advance(std::uint64_t now_us) {
     using State = canopen::SdoClient::State;
     if (client_.state() == State::kBusy || finished_) return true;

@@ -9,8 +9,7 @@
 #include "common/protocol/canopen/robot_plan.hpp"
 #include "firmware/app/can_nodes.hpp"
 
-/// The settings that the controller writes into a node, in this order, before starting it. A node
-/// that lost its power has lost them.
+/// A node's settings in the order of writing, before it is started. A power loss loses them.
 namespace verp::app {
 
 struct Setting {
@@ -18,16 +17,15 @@ struct Setting {
   std::uint32_t value = 0;
   std::uint8_t bytes = 0;
   bool stays = true;      ///< persists, so it is read back
-  bool optional = false;  ///< a node without the object is fine
+  bool optional = false;  ///< a node may lack the object
 };
 
-/// Picks one setting out of a list that is generated in order.
+/// One setting of a list that is generated in order.
 class SettingList {
  public:
   SettingList(const Params& params, int slot, int wanted)
       : params_(params), slot_(slot), wanted_(wanted) {}
 
-  /// False: the list is shorter.
   bool pick(Setting& setting) {
     is_joint(slot_) ? drive() : sensor();
     setting = found_;
@@ -47,7 +45,7 @@ class SettingList {
     const std::uint32_t period_us = params_.period_us;
     common();
     add({object::kMode, canopen::cia402::kModeCyclicPosition, 1});
-    // The nearest value in the object's units: whole or tenth milliseconds.
+    // The object counts whole or tenth milliseconds.
     const bool whole = period_us % 1000 == 0;
     add({object::kPeriodExponent, static_cast<std::uint8_t>(whole ? -3 : -4), 1});
     add({object::kPeriodValue, whole ? period_us / 1000 : (period_us + 50) / 100, 1});
@@ -58,7 +56,7 @@ class SettingList {
     add({object::kQuickStopOption, canopen::plan::kQuickStopAndHold, 2});
     add({object::kAbortConnection,
          static_cast<std::uint32_t>(canopen::cia402::AbortConnection::kQuickStop), 2});
-    // A drive that stopped by itself keeps answering, and the next heartbeat enables it again.
+    // The next heartbeat enables a drive that stopped by itself.
     add({canopen::plan::kErrorBehaviour, static_cast<std::uint8_t>(canopen::ErrorBehaviour::kStay),
          1, true, true});
     const std::uint32_t watched = std::uint32_t{canopen::plan::kControllerNode} << 16;
@@ -84,14 +82,14 @@ class SettingList {
       answer(1, canopen::plan::foot_answer(), group);
     }
   }
-  /// Announces counted SYNCs first: until then a node may complain of each.
+  /// Counted SYNCs come first: until then a node may complain of each.
   void common() {
     add({canopen::plan::kSyncOverflow, canopen::plan::sync_groups(params_), 1});
     // PDOs replace the node's heartbeat.
     add({canopen::cia402::object::kProducerHeartbeat, 0, 2, true, true});
   }
 
-  // One count beyond the joint's limits, so that rounding refuses no goal of the core.
+  // One count beyond the joint's limits, so that rounding refuses no goal.
   void limits() {
     const JointParams& joint = params_.joint[slot_];
     const std::int32_t a = model::count_of(joint, joint.lower_rad);
@@ -106,7 +104,7 @@ class SettingList {
   static Object sub(unsigned index, unsigned subindex) {
     return {static_cast<std::uint16_t>(index), static_cast<std::uint8_t>(subindex)};
   }
-  // CiA 301's order: PDO off, no entries, the entries, their number, and on again last.
+  // CiA 301's order: PDO off, no entries, the entries, their number, on.
   void map(unsigned communication, std::uint32_t cob_id, const canopen::PdoMapping<>& mapping,
            std::uint8_t type, std::uint8_t group) {
     const unsigned entries = communication + 0x200;
@@ -141,7 +139,7 @@ class SettingList {
   Setting found_;
 };
 
-/// Setting `number`, from 0, of a node; false: it has fewer.
+/// `number` from 0; false: the node has fewer.
 inline bool node_setting(const Params& params, int slot, int number, Setting& setting) {
   return SettingList(params, slot, number).pick(setting);
 }

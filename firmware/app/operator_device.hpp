@@ -11,13 +11,12 @@
 
 namespace verp::app {
 
-/// The controller as a Dynamixel device on the operator's own port; OperatorLink and Recorder of
-/// the loop. Nothing waits: poll() serves the link in the loop's idle time, order() and record() in
-/// the tick. Single context; `params`, `link` and `images` must outlive it.
+/// The controller as a Dynamixel device on the operator's port; OperatorLink and Recorder of the
+/// loop. Nothing waits: poll() serves the link in the loop's idle time, order() and record() in the
+/// tick. Single context; `params`, `link` and `images` must outlive it.
 ///
 /// Answers Ping, Read, Write, Reg Write, Action, Sync, Bulk and fast reads, Sync and Bulk Write and
-/// Reboot; other instructions give the Instruction Error. Orders expire by themselves: the core
-/// checks the age of the last fresh one.
+/// Reboot; others give the Instruction Error. Orders expire: the core checks their age.
 template <hal::ByteLink Link, Images Store = NoImages>
 class OperatorDevice {
  public:
@@ -27,8 +26,8 @@ class OperatorDevice {
                  const OperatorSetup& setup) requires std::same_as<Store, NoImages>
       : OperatorDevice(link, params, setup, no_images) {}
 
-  /// Takes at most kSlice bytes from the link and answers complete packets. While part of a reply
-  /// waits for room on the link, it takes nothing. True if there was anything to do.
+  /// At most kSlice bytes from the link; nothing while part of a reply waits for room. True if
+  /// there was anything to do.
   bool poll() {
     bool busy = push();
     if (more_) serve(parser_.next());
@@ -45,8 +44,7 @@ class OperatorDevice {
     return busy;
   }
 
-  /// Shows the result of the bring-up, so that the operator knows which servo to check, and drops
-  /// orders given before it.
+  /// Shows the result to the operator; drops earlier orders.
   void brought_up(const BringUpReport& report) {
     registers_.report().bring_up(report);
     withdraw_orders();
@@ -56,23 +54,22 @@ class OperatorDevice {
   void show(table::StartFault fault) { registers_.report().start_fault(fault); }
 
   void show(table::ServoPower power) { registers_.report().servo_power(power); }
-  /// Shows the calibration state; also before there is a loop.
+  /// Shows the calibration state, also before there is a loop.
   void show(table::ImuCalibrationState state) { registers_.report().imu_calibration(state); }
 
-  /// Call when the twin that played the servos is silent or gone: no servo can hold torque. The
-  /// operator regains what torque blocks, such as a restart, until the next tick. Orders stay: a
-  /// twin that answers again finds the loop unchanged.
+  /// The twin that played the servos is gone: no servo can hold torque. The operator regains what
+  /// torque blocks, such as a restart, until the next tick. Orders stay.
   void servos_gone() { registers_.report().servos_gone(); }
 
-  /// The number of actions in the loop's library, and why stored ones are not available.
+  /// `count`: actions in the loop's library; `fault`: why stored ones are not available.
   void offer_actions(int count, action::KeptFault fault = action::KeptFault::kNone) {
     registers_.offer_actions(count, fault);
   }
 
-  /// Bus counters and others; call as often as they should refresh.
+  /// Call as often as the counters should refresh.
   void report(const LoopHealth& health) { registers_.report().health(health); }
 
-  /// For an OperatorNode that shares these registers.
+  /// An OperatorNode may share them.
   OperatorRegisters<Store>& registers() { return registers_; }
 
   std::uint8_t id() const { return registers_.id(); }
@@ -100,10 +97,10 @@ class OperatorDevice {
 
  private:
   static constexpr std::size_t kSlice = 64;
-  static constexpr int kMostSlices = 64;  ///< more than a board's port can hold
+  static constexpr int kMostSlices = 64;  ///< more than a port can hold
   enum StatusLevel : std::uint8_t { kPingOnly = 0, kReads = 1, kAll = 2 };
 
-  // Bytes still in the link were sent earlier too, so take them first.
+  // Bytes still in the link were sent earlier: take them first.
   void withdraw_orders() {
     for (int slice = 0; slice < kMostSlices && poll(); ++slice) {
     }
@@ -113,7 +110,7 @@ class OperatorDevice {
   bool push() {
     if (sent_ == reply_size_) return false;
     sent_ += link_.write(reply_ + sent_, reply_size_ - sent_, 0);
-    if (!link_.connected()) sent_ = reply_size_;  // the peer that asked is gone
+    if (!link_.connected()) sent_ = reply_size_;  // the peer is gone
     return true;
   }
 
@@ -195,11 +192,11 @@ class OperatorDevice {
     const std::uint8_t* data = registers_.read(address, size);
     if (data == nullptr) return reply(id, dxl::Error::kAccess, nullptr, 0);
     reply(id, dxl::Error::kNone, data, size);
-    // Stuffing can make a long reply exceed the packet limit.
+    // Stuffing can make a reply exceed the packet limit.
     if (reply_size_ == 0) reply(id, dxl::Error::kDataLimit, nullptr, 0);
   }
 
-  // Devices answer such a read in list order, each after the one before it.
+  // Devices answer in list order, each after the one before it.
   void read_in_turn(const dxl::Packet& packet, std::uint8_t id) {
     if (registers_.status_level() < kReads) return;
     std::uint8_t before = dxl::kBroadcast;
@@ -216,7 +213,7 @@ class OperatorDevice {
     }
     if (!asked) return;
     if (dxl::is_fast_read(packet.instruction)) {
-      // A fast read is one packet of all devices; behind others our CRC would continue theirs.
+      // One packet of all devices: behind others our CRC would continue theirs.
       if (before == dxl::kBroadcast) show_fast(own, all_bytes);
     } else if (before == dxl::kBroadcast) {
       show(id, own.address, own.length);
@@ -264,7 +261,7 @@ class OperatorDevice {
   Link& link_;
   OperatorRegisters<Store> registers_;
   dxl::Parser parser_;
-  dxl::ReadEntry waiting_;  ///< what to send once `before_us_` has answered
+  dxl::ReadEntry waiting_;  ///< sent once `before_us_` has answered
   std::uint8_t before_us_ = dxl::kBroadcast;
   bool reboot_asked_ = false;
   bool more_ = false;  ///< the parser may hold another packet

@@ -12,18 +12,17 @@
 
 namespace verp::app {
 
-/// The controller as a node on the bus of its own drives: OperatorLink and Recorder of the loop,
-/// and the CanBus between loop and `Bus`, which takes out frames addressed to the node. It
-/// publishes each tick in TPDOs (canopen/published_tick.hpp) if the bus has room for them with the
-/// IMU chosen at start. An operator may switch them like any PDO (1801h:1 and following).
+/// The controller as a node on its drives' bus: OperatorLink and Recorder of the loop, and the
+/// CanBus between loop and `Bus`, which takes out frames for the node. It publishes each tick in
+/// TPDOs (canopen/published_tick.hpp) if the bus has room. An operator may switch them (1801h:1 and
+/// following).
 ///
-/// Nothing waits. The node sends only at the end of a tick, behind the goals: an SDO answer takes a
-/// tick and costs the loop no time. Before the first tick it answers at once. In lockstep it sits
-/// below the twin's clock, so its frames take no simulated time.
+/// Nothing waits. The node sends only at the end of a tick, behind the goals. Before the first tick
+/// it answers at once. In lockstep it sits below the twin's clock, so its frames take no simulated
+/// time.
 ///
-/// `bus`, `params`, `registers` and `images` must outlive it. The registers may be those of an
-/// OperatorDevice, which then is the loop's OperatorLink and Recorder; its user calls tell() after
-/// each tick.
+/// `bus`, `params`, `registers` and `images` must outlive it. An OperatorDevice with the same
+/// registers is then the loop's OperatorLink and Recorder; its user calls tell() after each tick.
 template <hal::CanBus Bus, Images Store = NoImages>
 class OperatorNode {
  public:
@@ -39,7 +38,7 @@ class OperatorNode {
                   canopen::plan::has_room_to_publish(params, !imu_on_bus()));
     device_.objects().producer.set_period_ms(canopen::plan::heartbeat_ms(params));
     device_.start();
-    constexpr std::uint64_t kBegin_us = 0;  // the bus may not be open yet, so its time is unknown
+    constexpr std::uint64_t kBegin_us = 0;  // the bus may not be open yet
     // As NMT master it must start itself.
     device_.receive(canopen::nmt_frame(canopen::NmtCommand::kStart, kNode), kBegin_us);
   }
@@ -52,7 +51,7 @@ class OperatorNode {
       if (frame.id != kWatchers) ++asked_;
       device_.receive(frame, bus_.now_us());
       if (!ticks_) answer();
-      if (taken == kMostTaken) return false;  // a flooded bus must not block the tick
+      if (taken == kMostTaken) return false;  // a flooded bus must not block
     }
     return false;
   }
@@ -78,7 +77,7 @@ class OperatorNode {
     answer();
   }
 
-  /// Sends a few pending answers. A loop that does not tick calls it now and then.
+  /// Sends a few pending answers, for a loop that does not tick.
   void answer() {
     CanFrame frame;
     for (int sent = 0; sent < kMostAnswers && device_.next(frame, bus_.now_us()); ++sent) {
@@ -91,7 +90,7 @@ class OperatorNode {
     registers_.withdraw_orders();
   }
   void report(const LoopHealth& health) { registers_.report().health(health); }
-  /// Frames addressed to the node, except those of tick followers, which keep no pace.
+  /// Frames for the node, except those of tick followers, which keep no pace.
   std::uint32_t asked() const { return asked_; }
 
  private:
@@ -99,13 +98,13 @@ class OperatorNode {
   static constexpr std::uint32_t kWatchers =
       canopen::further_sdo(canopen::plan::kWatcherSdo).request;
   static constexpr int kMostTaken = 64;
-  /// Bus share for reading a block, in frames at the end of each tick.
+  /// Frames at the end of each tick for reading a block.
   static constexpr int kMostAnswers = 4;
   static_assert(most_sent(kMaxJoints) + canopen::published::kFrames +
                     canopen::published::kMostParts + kMostAnswers <=
                 hal::kCanQueue);
 
-  // NMT frames are not for the node: it is the master. To its loop they are strays.
+  // NMT frames are not for the node: it is the master.
   static bool is_for_node(const CanFrame& frame) {
     if (!canopen::is_canopen(frame)) return false;
     if (canopen::plan::is_to_controllers_sdo(frame.id)) return true;
@@ -128,7 +127,7 @@ class OperatorNode {
       send_pdo(published::kPartPdo);
     }
   }
-  // Sends one TPDO at once, ahead of other pending frames.
+  // Sends one TPDO ahead of other frames.
   void send_pdo(unsigned number) {
     CanFrame frame;
     device_.trigger(number - 1);

@@ -18,7 +18,7 @@
 
 namespace verp::app {
 
-/// The crash that ended the previous run (firmware/boot/crash.hpp). count 0: none.
+/// The previous run's crash (firmware/boot/crash.hpp). count 0: none.
 struct CrashNote {
   std::uint32_t pc = 0;
   std::uint32_t cause = 0;  ///< CFSR
@@ -35,14 +35,13 @@ struct OperatorSetup {
   table::SelfTest self_test = table::SelfTest::kNotRun;
   table::ResetCause reset_cause = table::ResetCause::kUnknown;
   table::ClockSource clock_source = table::ClockSource::kUnknown;
-  FieldName bad_field{};  ///< of the Params image, if self_test failed for it
+  FieldName bad_field{};  ///< of Params, if self_test failed for it
   CrashNote crash{};
-  /// false: orders come from elsewhere; only registers that select what is shown can be written.
+  /// false: only registers that select what is shown can be written.
   bool takes_orders = true;
 };
 
-/// The controller's registers and the effects of reads and writes, independent of packets. Errors
-/// are those of the e-Manual.
+/// The registers and the effects of reads and writes, without packets. Errors are the e-Manual's.
 template <Images Store>
 class OperatorRegisters {
  public:
@@ -89,34 +88,34 @@ class OperatorRegisters {
   table::ImuSource imu_source() const {
     return image_.template get<table::ImuSource>(reg("imu_source"));
   }
-  /// Pass to App::limit_torque() before each tick. Changes only with torque off: a standing robot
-  /// must neither sag nor push harder at once.
+  /// For App::limit_torque() before each tick. Changes only with torque off: a standing robot must
+  /// neither sag nor push harder at once.
   std::uint8_t torque_limit_percent() const { return byte(reg("torque_limit")); }
-  /// The operator's order for the chip's calibration; returned once.
+  /// The order for the chip; returned once.
   table::ImuCalibrationOrder take_calibration_order() {
     const table::ImuCalibrationOrder order = calibration_order_;
     calibration_order_ = table::ImuCalibrationOrder::kNone;
     return order;
   }
-  /// The operator wrote `request` 0; returned once.
+  /// `request` 0 was written; returned once.
   bool take_relax() { return standing_.take_relax(); }
-  /// How many actions action_request accepts, and why stored ones are not available.
+  /// `count`: what action_request accepts; `fault`: why stored ones are not available.
   void offer_actions(int count, action::KeptFault fault = action::KeptFault::kNone) {
     image_.set(reg("action_count"), static_cast<std::uint16_t>(count));
     image_.set(reg("action_fault"), fault);
   }
   TickReport& report() { return report_; }
-  /// Whether a write at `address` may have the effect that the table states (OperatorSetup).
+  /// Whether a write there may have its effect (OperatorSetup).
   bool obeys(std::uint16_t address) const { return takes_orders_ || only_shows(address); }
 
-  /// The bytes of a read; nullptr if any lies outside the table. Gaps read as zero.
+  /// nullptr: outside the table. Gaps read as zero.
   const std::uint8_t* read(std::uint16_t address, std::size_t size) {
     if (!RegisterImage::holds(address, size)) return nullptr;
     if (address < reg_end("window_data") && address + size > reg("window_data")) fill_window();
     return image_.at(address);
   }
 
-  /// Writes all of it or returns the error.
+  /// Writes all of it, or returns the error.
   dxl::Error write(std::uint16_t address, const std::uint8_t* data, std::size_t size) {
     const Write write{address, data, size};
     const dxl::Error error = check(write);
@@ -129,7 +128,7 @@ class OperatorRegisters {
   dxl::Error reg_write(std::uint16_t address, const std::uint8_t* data, std::size_t size) {
     const dxl::Error error = check({address, data, size});
     if (error != dxl::Error::kNone) return error;
-    __builtin_memcpy(registered_, data, size);  // a checked write is one run of writable registers
+    __builtin_memcpy(registered_, data, size);  // one run of writable registers
     registered_address_ = address;
     registered_size_ = size;
     image_.set(reg("registered_instruction"), std::uint8_t{1});
@@ -145,7 +144,6 @@ class OperatorRegisters {
                  size);  // conditions may have changed
   }
 
-  /// See StandingOrder.
   bool slept_until(std::uint32_t tick) {
     return standing_.slept_until(tick, tuning_.safety.command_hold_s);
   }
@@ -176,7 +174,7 @@ class OperatorRegisters {
     return order;
   }
 
-  /// Call after the tick: updates all registers.
+  /// Call after the tick.
   void record(const TickRecord& record, const State& state, const Outputs& outputs) {
     report_.tick(record, state, outputs);
     tuning_ = state.tuning;
@@ -196,7 +194,7 @@ class OperatorRegisters {
     const std::uint8_t* from(std::uint16_t at) const { return data + (at - address); }
   };
 
-  /// Registers that only select what is read and how long it is held.
+  /// They only select what is read and how long it is held.
   static constexpr bool only_shows(std::uint16_t address) {
     return address == reg("parameter_id") || address == reg("window_kind") ||
            address == reg("window_offset") || address == reg("tick_hold");
@@ -223,7 +221,7 @@ class OperatorRegisters {
     return error == dxl::Error::kNone ? check_values(write) : error;
   }
 
-  /// Bounds that are not constants of the table.
+  /// Checks bounds that are not constants of the table.
   dxl::Error check_values(const Write& write) const {
     if (write.covers(reg("action_request")) &&
         dxl::get_u16(write.from(reg("action_request"))) > word(reg("action_count"))) {
@@ -237,7 +235,7 @@ class OperatorRegisters {
         (byte(reg("imu_sources")) >> *write.from(reg("imu_source")) & 1) == 0) {
       return dxl::Error::kDataRange;
     }
-    // Calibration measures the samples that steer, so the chip must be the source.
+    // Calibration needs the chip as the source.
     if (write.covers(reg("imu_calibrate")) && *write.from(reg("imu_calibrate")) != 0 &&
         imu_source() != table::ImuSource::kChip) {
       return dxl::Error::kResultFail;
@@ -312,7 +310,7 @@ class OperatorRegisters {
     return write.covers(reg("window_commit")) ? commit() : dxl::Error::kNone;
   }
 
-  /// While the memory is being prepared the window stays idle: that is no refusal.
+  /// While the memory is prepared the window stays idle: no refusal.
   dxl::Error keep_block(const Write& write) {
     const std::uint32_t begin = data_begin(write);
     const Taken taken =
@@ -332,7 +330,7 @@ class OperatorRegisters {
     return commit(window_kind(), crc) ? dxl::Error::kNone : dxl::Error::kResultFail;
   }
 
-  /// Fills the window; beyond the image's end it shows zeros.
+  /// Beyond the image's end it shows zeros.
   void fill_window() {
     const std::size_t size = store_.size(window_kind());
     const std::size_t offset = dxl::get_u32(image_.at(reg("window_offset")));

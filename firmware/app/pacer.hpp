@@ -6,10 +6,10 @@
 
 namespace verp::app {
 
-/// Deadline statistics of a loop. A tick's deadline is the start of the next period.
+/// A tick's deadline is the start of the next period.
 struct Deadlines {
   std::uint64_t ticks = 0;
-  std::uint64_t missed = 0;         ///< ticks that ended late or were followed by skipped periods
+  std::uint64_t missed = 0;         ///< ticks that ended late or skipped periods
   std::uint64_t skipped = 0;        ///< periods without a tick
   std::uint64_t worst_late_us = 0;  ///< longest delay of a tick's start
 };
@@ -19,7 +19,7 @@ struct Deadlines {
 ///     pacer.start(period_us);
 ///     for (;;) app.tick(pacer.next());
 ///
-/// Ticks counted as missed carry kOverrun in their records.
+/// Missed ticks carry kOverrun in their records.
 template <hal::TickSource Source>
 class Pacer {
  public:
@@ -33,7 +33,6 @@ class Pacer {
     return started;
   }
 
-  /// Call after a tick: waits for the next one.
   Beat next() {
     const bool late = clock_.now_us() > due_us_;
     const std::uint32_t begun = clock_.wait();

@@ -3,11 +3,11 @@
 
 #include "firmware/app/contracts.hpp"
 
-/// The controls on the robot itself: emergency stop and buttons, debounced with one reading a tick,
-/// merged into the operator's order.
+/// Emergency stop and buttons on the robot, debounced with one reading a tick, merged into the
+/// operator's order.
 namespace verp::app {
 
-/// A debounced contact: it changes after `to_on` or `to_off` such readings in a row.
+/// Changes after `to_on` or `to_off` such readings in a row.
 class Contact {
  public:
   /// `on`: the initial state.
@@ -31,15 +31,14 @@ class Contact {
 
 inline constexpr int kPanelButtons = 2;
 
-/// The pins now. The stop circuit is closed in normal operation, so a cut wire reads as pressed.
+/// The stop circuit is normally closed, so a cut wire reads as pressed.
 struct PanelReading {
   bool stop_pressed = false;
   bool button_pressed[kPanelButtons] = {};
 };
 
-/// An OperatorLink that adds the panel to another link's orders. read() returns the pins'
-/// PanelReading. A stop counts as pressed until it was read released; without a stop it never is.
-/// Buttons are mailbox bits, button 0 the lowest.
+/// Adds the panel to another OperatorLink's orders. A stop counts as pressed until it was read
+/// released; without a stop it never is. Buttons are mailbox bits, button 0 the lowest.
 template <OperatorLink Link, class Pins>
 class WithPanel {
  public:
@@ -60,13 +59,11 @@ class WithPanel {
     }
     return order;
   }
-  /// Whether the panel or the link held a stop pressed in the last order. False while a stop that
-  /// reads released counts as pressed only because its state is not settled.
+  /// In the last order, by panel or link. False for a stop that reads released but is not settled.
   bool pressed() const { return pressed_; }
 
  private:
-  /// A stop counts at the second reading, because one may be a spark; it ends after a quarter of a
-  /// second of 8 ms ticks.
+  /// Second reading: one may be a spark. It ends after a quarter of a second at 8 ms.
   static constexpr std::uint8_t kPressed = 2, kReleased = 32, kButton = 4;
 
   Link& link_;

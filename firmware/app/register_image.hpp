@@ -8,19 +8,19 @@ namespace verp::app {
 
 namespace table = dxl::controller;
 
-/// Address of a register and of its end; a wrong name does not compile.
+/// A wrong name does not compile.
 consteval std::uint16_t reg(const char* name) {
   return table::find(name)->address;
 }
 consteval std::uint16_t reg_end(const char* name) {
   return static_cast<std::uint16_t>(table::find(name)->address + table::find(name)->bytes());
 }
-/// Address of array element `index`; elements have `size` bytes.
+/// Elements have `size` bytes.
 constexpr std::uint16_t element(std::uint16_t array, int index, int size) {
   return static_cast<std::uint16_t>(array + index * size);
 }
 
-/// The controller's registers as bytes in wire order: little-endian, as every supported core is.
+/// Bytes in wire order: little-endian, as every supported core is.
 class RegisterImage {
  public:
   template <class Value>

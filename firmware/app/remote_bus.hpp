@@ -13,8 +13,8 @@
 
 namespace verp::app {
 
-/// Streams of a RemoteBus. read_some() waits for at least one byte and returns the count, 0 once
-/// the far end closed. write() waits until all bytes have gone; false once the far end closed.
+/// read_some() waits for at least one byte; 0 once the far end closed. write() waits until all
+/// bytes have gone; false once the far end closed.
 template <class Stream>
 concept InStream = requires(Stream& stream, void* to, std::size_t capacity) {
   { stream.read_some(to, capacity) } -> std::same_as<std::size_t>;
@@ -25,15 +25,13 @@ concept OutStream = requires(Stream& stream, const void* from, std::size_t size)
 };
 
 /// The controller's end of link_messages.hpp: FrameBus, OperatorLink and Recorder over two byte
-/// streams to the PC that has the bus. Call hello() first. After the link is lost, polls return
-/// nothing and stopped() is true.
+/// streams. Call hello() first. After a loss, polls return nothing and stopped() is true.
 template <InStream In, OutStream Out>
 class RemoteBus {
  public:
   RemoteBus(In& in, Out& out) : in_(in), out_(out) {}
 
-  /// Fetches Params, actions and the run's settings. False: refused, link lost, or no room for the
-  /// actions.
+  /// Params, actions and the run's settings. False: refused, link lost, or no room for the actions.
   bool hello(Params& params, ActionRoom* actions = nullptr) {
     append(link::Kind::kHello, link::Hello{.params_size = sizeof(Params),
                                            .record_size = sizeof(TickRecord),
@@ -43,11 +41,10 @@ class RemoteBus {
            (run_.actions_size == 0 || (actions != nullptr && read_actions(*actions)));
   }
 
-  /// The actions that hello() stored in `room`.
+  /// The actions that hello() stored.
   action::Library actions(const ActionRoom& room) const { return room.library(run_.actions_size); }
   /// Ticks of the run; 0: until stopped().
   std::uint32_t ticks() const { return run_.ticks; }
-  /// The PC wants no further tick, or is gone.
   bool stopped() const { return lost_ || (reply_.flags & link::kStop) != 0; }
   bool lost() const { return lost_; }
   std::uint32_t refused() const { return refused_; }
@@ -82,7 +79,7 @@ class RemoteBus {
     append(link::Kind::kRecord, record);
   }
 
-  /// Ends the session; `text` is the reason in one line.
+  /// `text`: the reason in one line.
   void quit(std::uint32_t exit_code, const char* text) {
     std::size_t length = 0;
     while (text[length] != 0 && length < kMaxText) ++length;
@@ -96,7 +93,7 @@ class RemoteBus {
 
  private:
   static constexpr std::size_t kMaxText = 120;
-  /// Room for a tick's messages: State, Outputs, record, three Sync Writes, a read, a poll.
+  /// Room for State, Outputs, record, three Sync Writes, a read, a poll.
   static constexpr std::size_t kOutbox = sizeof(TickRecord) + sizeof(State) + sizeof(Outputs) +
                                          4 * hal::kMaxFrame + 16 * sizeof(link::MessageHeader);
 
@@ -135,7 +132,7 @@ class RemoteBus {
     return !lost_;
   }
 
-  // The first read usually returns the whole reply, so the usual cost is one call.
+  // The first read usually returns the whole reply.
   bool read_reply(std::size_t capacity) {
     std::size_t have = 0;
     std::size_t want = sizeof reply_;

@@ -5,22 +5,21 @@
 #include "common/control/step.hpp"
 #include "common/record/tick_record.hpp"
 
-/// Replays recorded inputs on another machine's core and returns its digests.
+/// Replays recorded inputs on another core; returns its digests.
 ///
-/// Over any byte stream. In: one ReplayJob, the Params image, then `ticks` Inputs. Out: one
-/// TickDigest per tick, then one ReplayReport and, on request, the State after one tick, to name a
-/// field that differs.
+/// Over any byte stream. In: one ReplayJob, the Params image, `ticks` Inputs. Out: one TickDigest
+/// per tick, one ReplayReport and, on request, the State after one tick.
 namespace verp {
 
 struct ReplayJob {
   static constexpr std::uint32_t kMagic = 0x31'4c'50'52;  ///< "RPL1"
   static constexpr std::uint32_t kNoState = 0xFFFFFFFF;
   std::uint32_t magic = kMagic;
-  std::uint32_t params_size = sizeof(Params);  ///< sizes detect builds with different structs
+  std::uint32_t params_size = sizeof(Params);  ///< sizes detect other builds
   std::uint32_t inputs_size = sizeof(Inputs);
   std::uint32_t state_size = sizeof(State);
   std::uint32_t ticks = 0;
-  std::uint32_t state_after = kNoState;  ///< index into the Inputs
+  std::uint32_t state_after = kNoState;  ///< index of an Inputs
   VERP_FIELDS(magic, params_size, inputs_size, state_size, ticks, state_after)
 };
 VERP_PACKED(ReplayJob);
@@ -28,13 +27,13 @@ VERP_PACKED(ReplayJob);
 struct ReplayReport {
   std::uint32_t magic = ReplayJob::kMagic;
   std::uint32_t ticks = 0;
-  std::uint32_t stack_bytes = 0;  ///< deepest stack below step()'s caller; 0: not measured
+  std::uint32_t stack_bytes = 0;  ///< deepest, below step()'s caller; 0: not measured
   std::uint32_t reserved = 0;
   VERP_FIELDS(magic, ticks, stack_bytes, reserved)
 };
 VERP_PACKED(ReplayReport);
 
-/// Blocks until all bytes were moved; false once the far end is gone.
+/// Blocks until all bytes moved; false: the far end is gone.
 template <class Stream>
 concept ByteStream = requires(Stream& stream, void* to, const void* from, std::size_t size) {
   { stream.read(to, size) } -> std::same_as<bool>;
@@ -43,12 +42,11 @@ concept ByteStream = requires(Stream& stream, void* to, const void* from, std::s
 
 enum class ReplayResult : std::uint8_t { kDone, kBadJob, kLinkLost };
 
-/// A replay's memory, too big for a microcontroller's stack. A bigger Block gives fewer, longer
-/// transfers.
+/// Too big for a microcontroller's stack. A bigger Block gives fewer transfers.
 template <int Block>
 class Replay {
  public:
-  /// Calls gauge.begin() before the first tick and gauge.used_bytes() after the last.
+  /// gauge.begin() before the first tick, gauge.used_bytes() after the last.
   template <ByteStream In, ByteStream Out, class StackGauge>
   ReplayResult run(In& in, Out& out, StackGauge&& gauge) {
     ReplayJob job;

@@ -8,11 +8,9 @@
 
 namespace verp::app {
 
-/// A piece of flash where new actions wait until they are complete.
-///  - room(): its bytes; bytes(): its memory address, aligned to 4.
-///  - begin(): discards the contents. ready(): it may be written.
-///  - write(offset, from, count): in any order, within the room; repeating the same write is
-///    allowed. False: the memory failed.
+/// Flash where new actions wait until they are complete.
+///  - room(): bytes; bytes(): memory address, aligned to 4.
+///  - write(offset, from, count): in any order, repeats allowed. False: the memory failed.
 template <class Place>
 concept ActionPlace = requires(Place& place, const Place& seen, std::size_t offset,
                                const std::uint8_t* from, std::size_t count) {
@@ -23,12 +21,12 @@ concept ActionPlace = requires(Place& place, const Place& seen, std::size_t offs
   { place.write(offset, from, count) } -> std::same_as<bool>;
 };
 
-/// The robot's Params image and its actions. New actions must carry the active robot's own Params
-/// in front. The board stores both and starts with them.
+/// Params image and actions. New actions must carry the active robot's own Params in front. The
+/// board stores both and starts with them.
 template <ActionPlace Place>
 class RobotImages {
  public:
-  /// `actions`: the active ones, in a memory of `actions_bytes`; it may hold none.
+  /// `actions`: the active ones, perhaps none, in a memory of `actions_bytes`.
   RobotImages(const ParamsImage& robot, const std::uint8_t* actions, std::size_t actions_bytes,
               Place& place)
       : robot_(robot),
@@ -62,7 +60,7 @@ class RobotImages {
   Taken write(ImageKind kind, std::size_t offset, const std::uint8_t* from, std::size_t count) {
     if (kind != ImageKind::kActions) return robots_.write(kind, offset, from, count);
     accepted_bytes_ = 0;
-    if (!begun_) place_.begin();  // not earlier, so that reading causes no erase
+    if (!begun_) place_.begin();  // not earlier: reading causes no erase
     begun_ = true;
     if (!place_.ready()) return Taken::kNotYet;
     if (!place_.write(offset, from, count)) return Taken::kNo;

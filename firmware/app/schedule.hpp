@@ -7,16 +7,15 @@
 #include "common/protocol/control_table.hpp"
 #include "common/protocol/dynamixel2.hpp"
 
-/// Bytes and time of one tick on the servo bus: the basis of the loop's timeouts and of export's
-/// limit.
+/// Bytes and time of one tick on the servo bus, for the loop's timeouts and export's limit.
 namespace verp::app {
 
 inline constexpr std::uint32_t kBitsPerByte = 10;  ///< start, eight data, stop
-/// A device's time from a request's last byte to its reply, above its Return Delay Time of 0: an
-/// allowance, not a measurement. A slower servo counts as silent.
+/// From a request's last byte to the reply, above Return Delay Time 0: an allowance, not a
+/// measurement. A slower servo counts as silent.
 inline constexpr std::uint32_t kReplySlackUs = 25;
 inline constexpr std::uint32_t kTransactionSlackUs =
-    150;  ///< interrupt and driver latency of the master
+    150;  ///< master's interrupt and driver latency
 inline constexpr std::uint32_t kLongestReturnDelayUs =
     508;  ///< e-Manual: Return Delay Time 254 x 2 us
 
@@ -30,7 +29,7 @@ constexpr std::uint32_t timeout_us(std::size_t bytes, std::size_t replies, std::
          kTransactionSlackUs;
 }
 
-/// Bytes of a Sync Read and all its replies.
+/// Bytes of a Sync Read with all replies.
 constexpr std::size_t sync_read_bytes(std::size_t devices, std::size_t length) {
   return dxl::kInstructionBytes + 4 + devices + devices * (dxl::kStatusBytes + length);
 }
@@ -42,7 +41,7 @@ constexpr std::size_t sync_write_bytes(std::size_t devices, std::size_t length) 
   return dxl::kInstructionBytes + 4 + devices * (1 + length);
 }
 
-/// Whether every servo answers Fast Sync Read; one that does not would break the reply chain.
+/// A servo without Fast Sync Read would break the reply chain.
 constexpr bool all_fast(const Params& params) {
   for (int j = 0; j < params.servo_count(); ++j) {
     if (params.servo[params.joint[j].servo_profile % kServoProfiles].fast_sync_read == 0) {
@@ -52,8 +51,8 @@ constexpr bool all_fast(const Params& params) {
   return params.servo_count() > 0;
 }
 
-/// Bus Watchdog setting while torque is on: servos hold by themselves a little after the controller
-/// would have begun to lower the robot.
+/// While torque is on: servos hold by themselves a little after the controller would have begun to
+/// lower the robot.
 inline std::uint8_t bus_watchdog_units(const Params& params) {
   constexpr float kLater_s = 0.1F;
   constexpr float kUnit_s = 1e-6F * static_cast<float>(dxl::kBusWatchdogUnit_us);
@@ -64,7 +63,7 @@ inline std::uint8_t bus_watchdog_units(const Params& params) {
                                                                    : units);
 }
 
-/// Devices in the tick's second read: IMU, feet, and one servo in turn.
+/// The tick's second read: IMU, feet, and one servo in turn.
 constexpr std::size_t sensor_devices(const Params& params) {
   std::size_t devices = 1;
   devices += params.imu.device_id != 0 ? 1 : 0;
@@ -72,16 +71,16 @@ constexpr std::size_t sensor_devices(const Params& params) {
   return devices;
 }
 
-/// Most extra bytes per device in a read after an unanswered one (BusMaster).
+/// Most extra bytes per device after an unanswered read (BusMaster).
 inline constexpr std::uint8_t kMostSpare = 2;
-/// From Torque Enable to Hardware Error Status of a servo with an alert.
+/// Reads from Torque Enable to Hardware Error Status.
 inline constexpr std::uint16_t kAlertBytes = 7;
-/// Most servos queried or set up again in one tick (DoubtedServos).
+/// Servos resolved in one tick (DoubtedServos).
 inline constexpr int kResolvedAtOnce = 4;
 
-/// Bytes of the longest tick in which every device answers: reads, one alert read, goals. Also
-/// either torque, strength and a Bus Watchdog clear and set for all servos, or these for one servo
-/// plus a few servos queried or set up again.
+/// The longest tick in which every device answers: reads, one alert read, goals. Also either
+/// torque, strength and a Bus Watchdog clear and set for all servos, or these for one servo plus a
+/// few queried or set up again.
 constexpr std::size_t schedule_bytes(const Params& params) {
   const std::size_t joints = params.servo_count();
   const std::size_t positions =
@@ -97,8 +96,8 @@ constexpr std::size_t schedule_bytes(const Params& params) {
          sync_write_bytes(joints, 4) + (told_to_all > told_to_some ? told_to_all : told_to_some);
 }
 
-/// Time of that tick on the wire, reply slack included. Above 80 % of the period no retry fits:
-/// such a robot is refused (host/robot/model/bus_time.hpp).
+/// Reply slack included. Above 80 % of the period no retry fits: such a robot is refused
+/// (host/robot/model/bus_time.hpp).
 constexpr std::uint32_t schedule_us(const Params& params) {
   const std::size_t replies =
       (all_fast(params) ? 1u : params.servo_count()) + sensor_devices(params) + 1;

@@ -4,8 +4,8 @@
 
 namespace verp::app {
 
-/// Runs the client's started transfer to its end; true on success. Drops other frames meanwhile. An
-/// answer may take `timeout_us`, at most SDO's own timeout.
+/// Runs a started transfer to its end; true on success. Drops other frames. `timeout_us`: for an
+/// answer, at most SDO's own.
 template <hal::CanBus Bus>
 bool run_transfer(canopen::SdoClient& client, CanMaster<Bus>& master,
                   std::uint32_t timeout_us = canopen::sdo::kTimeoutUs) {
@@ -19,7 +19,7 @@ bool run_transfer(canopen::SdoClient& client, CanMaster<Bus>& master,
       client.cancel(canopen::Abort::kTimeout);
     }
   }
-  while (client.next(frame, master.now_us())) master.send(frame);  // sends our abort
+  while (client.next(frame, master.now_us())) master.send(frame);  // our abort
   return client.state() == canopen::SdoClient::State::kDone;
 }
 

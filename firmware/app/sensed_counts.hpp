@@ -7,13 +7,12 @@
 
 namespace verp::app {
 
-/// Answers of IMU and feet in a tick, until they are put into its Inputs.
+/// Counts of IMU and feet in a tick, until put into its Inputs.
 class SensedCounts {
  public:
   void begin() { sensed_ = 0; }
 
-  /// Takes an answer of the IMU (either source) or of a foot. False: it differs from this tick's
-  /// earlier one, and neither counts.
+  /// False: the answer differs from this tick's earlier one, and neither counts.
   bool take(const CanFrame& frame, int source, Answer worth) {
     if (worth == Answer::kOld) return true;
     const bool imu = source == kImuNode || source == AnswerWatch::kImuSecond;
@@ -30,7 +29,7 @@ class SensedCounts {
     return false;
   }
 
-  /// `imu`: IMU counts are wanted. `present`: the robot's nodes.
+  /// `imu`: wanted. `present`: the robot's nodes.
   void put(Inputs& inputs, bool imu, NodeMask present) const {
     constexpr NodeMask kImu = node_bit(kImuNode) | node_bit(AnswerWatch::kImuSecond);
     if (imu && (sensed_ & kImu) == kImu) {

@@ -7,8 +7,7 @@
 
 namespace verp::app {
 
-/// Settings in a servo's RAM besides goals, in its byte layout. A servo that lost power has lost
-/// them.
+/// A servo's RAM settings besides goals, in its byte layout. A power loss loses them.
 struct ServoRam {
   explicit ServoRam(const ServoProfile& profile) {
     dxl::put_u16(gains, profile.position_d_gain);
@@ -16,13 +15,13 @@ struct ServoRam {
     dxl::put_u16(gains + 4, profile.position_p_gain);
     dxl::put_u16(motion + 4, profile.profile_ms);
   }
-  std::uint8_t gains[6];        ///< from Position D Gain (80) on
-  std::uint8_t motion[8] = {};  ///< Profile Acceleration (108) 0, Profile Velocity in ms
+  std::uint8_t gains[6];        ///< Position D Gain (80) on
+  std::uint8_t motion[8] = {};  ///< Profile Acceleration (108) 0, Velocity in ms
 };
 
 /// Max and Min Position Limit (48, 52), EEPROM: the servo enforces them even if the controller
-/// fails. One count beyond the joint's limits, so that rounding refuses no goal of the core; within
-/// the single turn of position control.
+/// fails. One count beyond the joint's limits, so that rounding refuses no goal; within the single
+/// turn of position control.
 struct ServoLimits {
   explicit ServoLimits(const JointParams& joint) {
     const std::int32_t a = model::count_of(joint, joint.lower_rad);

@@ -10,19 +10,18 @@
 
 namespace verp::app {
 
-/// The tick's second half: the core's outputs as Sync Writes. These have no reply, so every change
-/// except goals is sent in kRepeats ticks, and each servo's state again in turn. So one lost frame
-/// leaves no limp robot stiff and no walking one with a slack joint. Strength is Goal PWM; a servo
-/// refuses more than set_full()'s value. It is copied with its loop and holds no reference into it.
+/// The core's outputs as Sync Writes. These have no reply, so every change except goals is sent in
+/// kRepeats ticks, and each servo's state again in turn: one lost frame leaves no limp robot stiff
+/// and no walking one with a slack joint. Strength is Goal PWM; a servo refuses more than
+/// set_full()'s value. It is copied with its loop and holds no reference into it.
 template <hal::FrameBus Bus>
 class ServoWriter : public JointStrength {
  public:
   using JointStrength::JointStrength;
 
-  /// Sends strength and goals in kRepeats ticks; the last of these sends torque for the first time.
-  /// So whichever frame is lost, no servo gets torque with old goals, a wrong strength or a tripped
-  /// Bus Watchdog. `turn` is the joint whose state is repeated; `doubted` servos are sent only
-  /// torque off.
+  /// Strength and goals in kRepeats ticks, torque in the last of these: whichever frame is lost, no
+  /// servo gets torque with old goals, a wrong strength or a tripped Bus Watchdog. `turn`: the
+  /// joint whose state is repeated; `doubted` servos are sent only torque off.
   void send(BusMaster<Bus>& master, const Outputs& outputs, int turn, std::uint32_t doubted) {
     if (params_.servo_count() == 0) return;
     const std::uint32_t wanted = outputs.torque_enable & all_joints(params_);
@@ -54,9 +53,9 @@ class ServoWriter : public JointStrength {
 
   /// Silence after which a servo's Bus Watchdog trips.
   std::uint32_t patience_us() const { return bus_watchdog_ * dxl::kBusWatchdogUnit_us; }
-  /// Every servo was sent its torque often enough to have received it.
+  /// Every servo was sent torque often enough to have received it.
   bool has_torque() const { return torque_ != 0 && !told_all_; }
-  /// Whether the last tick wrote to all servos; otherwise the bus has room.
+  /// The last tick wrote to all servos; otherwise the bus has room.
   bool told_all() const { return told_all_; }
   /// A servo may have received nothing for longer than patience_us().
   void expect_tripped() { watchdog_clears_ = kRepeats; }
@@ -64,7 +63,7 @@ class ServoWriter : public JointStrength {
  private:
   static constexpr std::uint8_t kRepeats = 3;
 
-  // A servo with a tripped watchdog ignores goals: clear it before them, set it again after.
+  // A tripped watchdog ignores goals: clear before, set again after.
   void clear_watchdogs(BusMaster<Bus>& master) {
     first_ = 0;
     last_ = params_.servo_count() - 1;
@@ -96,8 +95,7 @@ class ServoWriter : public JointStrength {
     master.send(encoder.finish());
   }
 
-  // Writes one register of joints first_ to last_, except `left_out`: `value` where torque is on,
-  // else 0.
+  // Joints first_ to last_, except `left_out`: `value` where torque is on, else 0.
   void send_to(BusMaster<Bus>& master, std::uint16_t address, std::uint8_t value,
                std::uint32_t left_out = 0) {
     dxl::Encoder encoder(master.frame(), master.capacity());
@@ -112,10 +110,10 @@ class ServoWriter : public JointStrength {
     if (told > 0) master.send(encoder.finish());
   }
 
-  std::uint32_t torque_ = 0;   ///< as sent last
+  std::uint32_t torque_ = 0;   ///< last sent
   std::uint32_t wanted_ = 0;   ///< joints that get goals; torque_ follows
-  std::uint8_t strength_ = 0;  ///< as sent last, percent
-  std::uint8_t early_ = 0;     ///< ticks before wanted joints get torque
+  std::uint8_t strength_ = 0;  ///< last sent, percent
+  std::uint8_t early_ = 0;     ///< ticks before torque
   std::uint8_t repeats_ = kRepeats;
   std::uint8_t watchdog_clears_ = 0;
   bool told_all_ = false;

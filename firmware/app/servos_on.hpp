@@ -4,8 +4,7 @@
 
 namespace verp::app {
 
-/// ServosOn<Bus>::Type: the ServoBinding for a kind of bus. Another kind needs another
-/// specialisation.
+/// ServosOn<Bus>::Type: the ServoBinding for a kind of bus.
 template <class Bus>
 struct ServosOn;
 

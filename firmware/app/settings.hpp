@@ -6,8 +6,8 @@
 #include "firmware/app/operator_registers.hpp"
 #include "hal/contract/store.hpp"
 
-/// Operator settings that survive a power loss. The defaults of OperatorSetup apply if nothing was
-/// kept, another version wrote it, or this board lacks the feature.
+/// Operator settings that survive a power loss. OperatorSetup's defaults apply if nothing was kept,
+/// another version wrote it, or this board lacks the feature.
 namespace verp::app {
 
 inline constexpr std::uint16_t kSettingsKey = 1;  ///< key in the board's Store
@@ -15,7 +15,7 @@ inline constexpr std::uint16_t kSettingsKey = 1;  ///< key in the board's Store
 struct Settings {
   std::uint8_t id = table::kDefaultId;
   table::ImuSource imu_source = table::ImuSource::kBus;
-  /// Kept, because a reset during a robot's first steps must not restore full strength.
+  /// A reset during first steps must not restore full strength.
   std::uint8_t torque_limit_percent = 100;
 
   friend bool operator==(const Settings&, const Settings&) = default;
@@ -26,7 +26,7 @@ class SettingsKeeper {
  public:
   explicit SettingsKeeper(Memory& memory) : memory_(memory) {}
 
-  /// Call at start: loads the settings into the operator link's setup.
+  /// Call at start.
   void load(OperatorSetup& setup) {
     kept_ = {setup.id, setup.imu_source, setup.torque_limit_percent};
     std::uint8_t bytes[kBytes];
@@ -42,9 +42,8 @@ class SettingsKeeper {
     kept_ = {setup.id, setup.imu_source, setup.torque_limit_percent};
   }
 
-  /// Call regularly: stores changes, one step of the memory per call. True while something is not
-  /// durable yet. If the memory refuses a change, it is not retried; the settings then hold until
-  /// the next start.
+  /// Regularly: stores changes, one step of the memory per call. True while something is not
+  /// durable. A change that the memory refuses is not retried until the next start.
   bool keep(const Settings& now, bool may_erase) {
     const hal::WorkState state = memory_.work(may_erase);
     if (now == kept_) return state == hal::WorkState::kWorking;
@@ -58,7 +57,7 @@ class SettingsKeeper {
  private:
   static constexpr std::uint8_t kVersion = 1;
   static constexpr std::size_t kBytes = 4;
-  static constexpr std::size_t kBytesOnce = 3;  ///< without the torque limit, an older layout
+  static constexpr std::size_t kBytesOnce = 3;  ///< an older layout: no torque limit
   static constexpr table::Register kLimit = *table::find("torque_limit");
   Memory& memory_;
   Settings kept_;

@@ -5,14 +5,14 @@
 
 namespace verp::app {
 
-/// A tone for a person nearby; 0 ms: none.
+/// 0 ms: none.
 struct Tone {
   std::uint32_t hz = 0;
   std::uint32_t duration_ms = 0;
 };
 
-/// The controller's buzzer signals: high and short when ready; low and long when the boot check
-/// refused torque, and for each new fault; once a second while the supply is low.
+/// Buzzer: high and short when ready; low and long when the boot check refused torque, and for each
+/// new fault; once a second while the supply is low.
 class Signals {
  public:
   static constexpr Tone kReady = {2000, 80};
@@ -23,9 +23,9 @@ class Signals {
 
   static constexpr Tone at_start(bool sound) { return sound ? kReady : kRefused; }
 
-  /// Call once a tick with its Outputs::faults.
+  /// Call once a tick.
   Tone after_tick(std::uint64_t now_us, std::uint32_t faults) {
-    constexpr std::uint32_t kStopping = 0xFFFF;  // the upper half are notices
+    constexpr std::uint32_t kStopping = 0xFFFF;  // upper half: notices
     const std::uint32_t risen = faults & ~before_ & kStopping;
     before_ = faults;
     if (risen != 0) {

@@ -10,30 +10,29 @@
 namespace verp::app {
 
 /// The order in registers request to emergency_stop, and whether it still counts. The core gets up
-/// on a level, not on an edge. So this class keeps a repeated or stale order from raising a robot
-/// that nobody watches.
+/// on a level: a repeated or stale order must not raise a robot that nobody watches.
 class StandingOrder {
  public:
   StandingOrder(const Params& params, RegisterImage& image) : params_(params), image_(image) {}
 
-  /// After each start, also by the watchdog, the first request must be to relax.
+  /// After each start, also by the watchdog, relax comes first.
   bool takes(Request request) const { return relaxed_once_ || request == Request::kRelax; }
   /// A request that takes() accepted was written.
   void requested() {
     relaxed_once_ = true;
     relax_asked_ = relax_asked_ || image_.get<Request>(reg("request")) == Request::kRelax;
   }
-  /// A request to relax was written, even if it was one before; returned once.
+  /// A request to relax was written; returned once.
   bool take_relax() {
     const bool asked = relax_asked_;
     relax_asked_ = false;
     return asked;
   }
-  /// One of the registers was written: the operator is present.
+  /// A register was written: the operator is present.
   void given() { fresh_ = true; }
 
-  /// Whether the loop stopped before this tick for longer than an order lasts, as in a flash erase
-  /// of seconds. Call once a tick; counting starts with the loop.
+  /// True if the loop stopped before this tick for longer than an order lasts, as in a flash erase.
+  /// Once a tick.
   bool slept_until(std::uint32_t tick, float order_lasts_s) {
     const std::uint32_t ticks = ticking_ && tick > tick_ ? tick - tick_ : 0;
     tick_ = tick;
@@ -41,14 +40,14 @@ class StandingOrder {
     const float gap_s = 1e-6F * static_cast<float>(params_.period_us) * static_cast<float>(ticks);
     return gap_s > order_lasts_s;
   }
-  /// Cancels the standing order; the operator may have disconnected. A robot with torque keeps its
-  /// order and waits for the next as the core decides.
+  /// Cancels the standing order; the operator may have disconnected. A robot with torque keeps it
+  /// and waits for the next as the core decides.
   void withdraw(bool armed) {
     fresh_ = false;
     if (!armed) image_.set(reg("request"), Request::kRelax);
   }
 
-  /// The order for the next tick. It is fresh only once.
+  /// The order is fresh only once.
   Command take(std::uint16_t& flags) {
     Command command;
     command.request = image_.get<Request>(reg("request"));

@@ -6,14 +6,13 @@
 #include "firmware/app/signals.hpp"
 #include "hal/contract/watchdog.hpp"
 
-/// Faults found before the first tick that forbid torque until the next start. The operator's
-/// register start_fault, the LED and the buzzer report them. Nothing is retried: it takes a person
-/// and a reset.
+/// Faults before the first tick that forbid torque until the next start, shown by register
+/// start_fault, LED and buzzer. Nothing is retried: it takes a person and a reset.
 namespace verp::app {
 
-/// Opens the servo port and powers the servos, unless there is a fault already. On a fault power
-/// stays off; servos with a supply of their own, perhaps left stiff by an earlier run, are told to
-/// release if the port works. `Servos`: open() (false: the port failed), power(bool), release().
+/// Opens the servo port and powers the servos, unless there is a fault. On a fault power stays off;
+/// servos with a supply of their own, perhaps left stiff, are to release if the port works.
+/// `Servos`: open() (false: the port failed), power(bool), release().
 template <class Servos>
 table::StartFault open_servos(Servos& servos, table::StartFault so_far) {
   using table::StartFault;
@@ -27,15 +26,15 @@ table::StartFault open_servos(Servos& servos, table::StartFault so_far) {
   return fault;
 }
 
-/// Guards a ticking loop. The watchdog is armed once for all loops of a start.
+/// The watchdog is armed once for all loops of a start.
 template <hal::Watchdog Dog>
 class LoopGuard {
  public:
-  /// `exists`: false on an emulator without a watchdog.
+  /// `exists`: false on an emulator.
   LoopGuard(Dog& dog, bool exists) : dog_(dog), exists_(exists) {}
 
-  /// Call last before the first tick: starts the pacing clock, then the watchdog. Do not tick if it
-  /// returns a fault.
+  /// Last before the first tick: starts the pacing clock, then the watchdog. Do not tick after a
+  /// fault.
   template <hal::TickSource Source>
   table::StartFault begin(Pacer<Source>& pacer, std::uint32_t period_us, std::uint32_t timeout_us) {
     using table::StartFault;
@@ -50,8 +49,8 @@ class LoopGuard {
   bool armed_ = false;
 };
 
-/// LED and buzzer patterns. Without a fault the LED blinks, half a second on, half a second off.
-/// Otherwise LED and buzzer repeat the start fault's number in flashes and beeps.
+/// Without a fault the LED blinks, half a second on, half off. Otherwise LED and buzzer repeat the
+/// fault's number.
 class LifeSign {
  public:
   struct Now {

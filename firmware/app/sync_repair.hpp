@@ -8,21 +8,21 @@
 
 namespace verp::app {
 
-/// Returns nodes that answer the wrong SYNC to the planned one, one at a time, while the loop runs
-/// with torque. It switches their TPDO off and on, so that they wait for its SYNC start value again
-/// (CiA 301). The node loses an answer or two; others lose nothing.
+/// Returns nodes that answer the wrong SYNC to the planned one, one at a time, with torque on.
+/// Switches their TPDO off and on, so that they wait for its SYNC start value again (CiA 301). The
+/// node loses an answer or two; others lose nothing.
 class SyncRepair {
  public:
   explicit SyncRepair(const Params& params) : params_(params) {}
 
   /// The node being repaired; -1: none.
   int slot() const { return slot_; }
-  /// The node starts anew, so its repair ends.
+  /// Ends the repair of a node that starts anew.
   void cancel(int slot) {
     if (slot == slot_) slot_ = -1;
   }
 
-  /// Call once a tick with the nodes astray. Sends the first request, or one that was not answered.
+  /// Call once a tick. Sends the first request, or an unanswered one again.
   template <hal::CanBus Bus>
   void run(CanMaster<Bus>& master, NodeMask astray) {
     if (slot_ < 0 && !choose(astray & ~stubborn_)) return;
@@ -33,7 +33,7 @@ class SyncRepair {
     }
     send(master);
   }
-  /// Takes that node's SDO response. True if the node answers the planned SYNC from now on.
+  /// True: the node answers as planned from now on.
   template <hal::CanBus Bus>
   bool receive(CanMaster<Bus>& master, const CanFrame& frame) {
     namespace sdo = canopen::sdo;
@@ -58,7 +58,7 @@ class SyncRepair {
 
  private:
   static constexpr std::uint8_t kPatience = 2;     ///< ticks to wait for an answer
-  static constexpr std::uint8_t kMostMissed = 50;  ///< then the node is silent and will be renewed
+  static constexpr std::uint8_t kMostMissed = 50;  ///< answers missed; then the node is silent
 
   bool choose(NodeMask astray) {
     for (int i = 0; i < kCanNodes && astray != 0; ++i) {
@@ -92,8 +92,8 @@ class SyncRepair {
   int slot_ = -1;
   int last_ = kCanNodes - 1;
   std::uint8_t step_ = 0;
-  std::uint8_t waited_ = 0;  ///< ticks
-  std::uint8_t missed_ = 0;  ///< answers
+  std::uint8_t waited_ = 0;
+  std::uint8_t missed_ = 0;
   bool asked_ = false;
 };
 

@@ -5,25 +5,24 @@
 
 namespace verp::app {
 
-/// Chooses the next SYNC of a tick, normally 1 to n.
+/// The next SYNC of a tick, normally 1 to n.
 ///
-/// Nodes count SYNCs (CiA 301). A SYNC that arrives twice, or from another node, advances all
-/// counters, and each group then answers the SYNC before its own. A SYNC that nobody received
-/// leaves all behind. When most of a group shows this, the controller sends one SYNC fewer, or one
-/// more with the same counter, which realigns all nodes. Single nodes are left to SyncRepair.
+/// Nodes count SYNCs (CiA 301). One that arrives twice, or from another node, advances all
+/// counters, and each group then answers the SYNC before its own; one that nobody received leaves
+/// all behind. When most of a group shows this, the controller sends one SYNC fewer, or one more
+/// with the same counter. Single nodes are left to SyncRepair.
 ///
-/// A tick has time for one extra SYNC, never SYNC 1, with which a tick begins.
+/// A tick has time for one extra SYNC, never SYNC 1.
 ///
-/// Late answers on a crowded bus look the same. So a correction requires a window that ended on
-/// time, with the bus free for a drive's reaction time.
+/// Late answers look the same. So a correction requires a window that ended on time, with the bus
+/// free for a drive's reaction time.
 class SyncRound {
  public:
   explicit SyncRound(std::uint8_t groups) : groups_(groups) {}
 
   /// Begins a tick with SYNC 1.
   void begin() { again_ = false; }
-  /// The SYNC after `window`; more than `groups`: the tick's are done. `quiet`: the window ended on
-  /// time with the bus free.
+  /// More than `groups`: the tick's are done. `quiet`: the window ended on time with the bus free.
   std::uint8_t after(std::uint8_t window, AnswerWatch& answers, bool quiet) {
     const auto next = static_cast<std::uint8_t>(window + 1);
     if (!quiet) return next;

@@ -10,18 +10,18 @@
 namespace verp::app {
 
 struct HeldTick {
-  TickRecord record;  ///< its inputs
-  State state;        ///< the State after it
+  TickRecord record;
+  State state;  ///< the State after it
   VERP_FIELDS(record, state)
 };
 VERP_PACKED(HeldTick);
 
-/// Keeps the last tick's State and some earlier records as images beside those of `Store` (Images).
-/// Holding freezes them while the loop goes on, so that a client can read a walking robot's bits.
+/// The last tick's State and some earlier records as images beside `Store`'s. Holding freezes them
+/// while the loop goes on, so that a client can read a walking robot's bits.
 ///
 /// ImageKind::kState is a HeldTick, available while held. kTicks are kTicks TickRecords; tick n is
 /// at n modulo kTicks; an unwritten one has chain 0. A record may change while it is read, unless
-/// kTicks are held too.
+/// held.
 template <Images Store = NoImages>
 class TickLog {
  public:
@@ -38,7 +38,7 @@ class TickLog {
     last_.record = record;
     last_.state = state;
   }
-  /// Values of register tick_hold: the frozen images.
+  /// Values of register tick_hold.
   enum Hold : std::uint8_t { kNothing = 0, kStateOnly = 1, kAll = 2 };
   void hold(std::uint8_t what) { hold_ = what; }
 

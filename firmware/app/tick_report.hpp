@@ -16,18 +16,18 @@
 
 namespace verp::app {
 
-/// Counters of the loop that a tick's record lacks.
+/// Loop counters that a tick's record lacks.
 struct LoopHealth {
   BusCounters bus{};
   std::uint32_t bus_crc_errors = 0;
   std::uint32_t bus_noise_bytes = 0;
-  std::uint32_t skipped_periods = 0;  ///< periods without a tick: Deadlines::skipped
+  std::uint32_t skipped_periods = 0;  ///< periods without a tick
   std::uint32_t imu_faults = 0;
-  std::uint16_t battery_tenth_v = 0;     ///< the board's measurement; 0: none
-  const JointEffort* efforts = nullptr;  ///< of each joint; null: not on this bus
+  std::uint16_t battery_tenth_v = 0;     ///< measured by the board; 0: not measured
+  const JointEffort* efforts = nullptr;  ///< null: not on this bus
 };
 
-/// Writes a tick's readable values into the register image.
+/// A tick's values in the register image.
 class TickReport {
  public:
   TickReport(const Params& params, RegisterImage& image)
@@ -38,7 +38,7 @@ class TickReport {
   void tick(const TickRecord& record, const State& state, const Outputs& outputs) {
     const Inputs& inputs = record.inputs;
     image_.set(reg("torque_enable"), static_cast<std::uint8_t>(outputs.torque_enable != 0));
-    // A quiet operator is no hardware error: the robot stands and is well.
+    // A quiet operator is no hardware error.
     image_.set(
         reg("hardware_error"),
         static_cast<std::uint8_t>(outputs.faults & ~std::uint32_t{safety::kFaultOperatorQuiet}));
@@ -71,7 +71,7 @@ class TickReport {
     devices_.tick(inputs, state, outputs);
   }
 
-  /// Values in the last tick's TPDOs (canopen/published_tick.hpp).
+  /// The last tick's TPDOs (canopen/published_tick.hpp).
   void publish_flags(std::uint16_t flags) { image_.set(reg("inputs_flags"), flags); }
   void publish_part(std::uint64_t part) { image_.set(reg("inputs_part"), part); }
 

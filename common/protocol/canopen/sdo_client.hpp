@@ -8,8 +8,7 @@
 /// SDO client: reads and writes one node's objects, one at a time.
 ///
 ///  - download() or upload() begins; receive() takes frames; next() returns one to send. None
-///  waits.
-///    state() shows the end, at the latest kTimeoutUs after the last progress.
+///    waits. state() shows the end, at the latest kTimeoutUs after the last progress.
 ///  - kDone: the download is confirmed, or the upload complete with the announced size and CRC.
 ///  - While initiating, frames of an earlier transfer are ignored; later, foreign frames abort.
 ///  - The caller's memory is in use until the end.
