@@ -1,6 +1,5 @@
-# verp_compile_together(TARGET SOURCES...): compiles one folder's sources as one file, for the PC and for the boards,
-# because headers take most of a test's compile time. So names in one folder's tests must differ, or the file is listed
-# here and compiled alone.
+# verp_compile_together(TARGET SOURCES...): compiles one folder's sources as one file, for the PC and for the boards.
+# So names in one folder must differ, or the file is listed here and compiled alone.
 set(VERP_COMPILED_ALONE
   balance/gravity_test.cpp can_app/canopen_servos_test.cpp can_app/controller_actions_test.cpp can_app/controller_objects_test.cpp canopen/nmt_test.cpp
   control/step_test.cpp gait/gait_test.cpp gait/preview_test.cpp math/elementary_test.cpp math/linear_test.cpp

@@ -1,10 +1,9 @@
-# Under sanitizers a program's start takes longer than most of its tests. So ctest runs each whole program as one test,
-# named `PREFIX` and the program's name. A program that needs minutes sets the property VERP_SHARDS: it runs in that
-# many parts, before all others, so that no core idles at the end. The property VERP_LONG_WALKS names tests to leave
-# out: they only walk longer than other tests do. Such walks are ten times slower here and find nothing more.
+# Under sanitizers a program's start takes longer than most tests. So ctest runs each whole program as one test, named
+# `PREFIX` and the program's name. Property VERP_SHARDS: it runs in that many parts, before all others, so that no core
+# idles. Property VERP_LONG_WALKS: tests to leave out, which walk longer and find nothing more.
 #
-# Writes test_programs.txt in the build tree, for tests/wanted: each program, the prefix of its tests' names, their
-# label and their sources; under sanitizers the whole name and no sources.
+# Writes test_programs.txt for tests/wanted: each program, its tests' prefix, label and sources; under sanitizers the
+# whole name and no sources.
 function(verp_note_test_program target name)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "PROPERTIES;SOURCES")
   list(FIND arg_PROPERTIES LABELS at)
@@ -71,7 +70,7 @@ set_tests_properties([=[${name}]=] PROPERTIES TIMEOUT 1800 ${properties})
     set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.cmake)
   endfunction()
 else()
-  # CMake's limit of 5 s is too short on a busy PC.
+  # CMake's limit of 5 s is too short.
   function(gtest_discover_tests target)
     _gtest_discover_tests(${target} ${ARGN} DISCOVERY_TIMEOUT 300)
     cmake_parse_arguments(arg "NO_PRETTY_VALUES" "TEST_PREFIX;TEST_FILTER;TEST_LIST" "PROPERTIES" ${ARGN})

@@ -14,16 +14,15 @@
 #include "tests/bench/leg_problem.hpp"
 #include "tests/target/twin_run.hpp"
 
-/// bench_core FOLDER [--benchmark_...]: times of the core on this PC, over the generic21 walk on
-/// which target_bench counts instructions. Keeps the walk in FOLDER/inputs and writes FOLDER/leg,
-/// the leg and targets for bench_peers.
+/// bench_core FOLDER [--benchmark_...]: times of the core on this PC, over target_bench's generic21
+/// walk. Keeps it in FOLDER/inputs and writes FOLDER/leg for bench_peers.
 namespace verp::bench {
 namespace {
 
-constexpr std::uint32_t kTicks = 3600;      // 36 s at 10 ms
-constexpr std::uint32_t kFirstTick = 650;   // the robot is up by then
-constexpr std::uint32_t kLastTick = 3250;   // and stops later
-constexpr std::uint32_t kLegTargets = 512;  // from kFirstTick on: five seconds, two kinds of walk
+constexpr std::uint32_t kTicks = 3600;     // 36 s at 10 ms
+constexpr std::uint32_t kFirstTick = 650;  // the robot is up
+constexpr std::uint32_t kLastTick = 3250;
+constexpr std::uint32_t kLegTargets = 512;  // five seconds, two kinds of walk
 
 struct LegPose {
   Pose sole;
@@ -32,11 +31,11 @@ struct LegPose {
 
 struct Recording {
   Params params;
-  std::vector<Inputs> walking;  // kFirstTick to kLastTick
-  State start;                  // before the first of them
+  std::vector<Inputs> walking;
+  State start;  // at kFirstTick
   Outputs start_outputs;
-  std::vector<LegPose> left_leg;     // step()'s poses, tick by tick
-  float angle_rad[kMaxJoints] = {};  // all joints in mid-walk
+  std::vector<LegPose> left_leg;     // tick by tick
+  float angle_rad[kMaxJoints] = {};  // in mid-walk
 };
 
 void read_goals(const Params& params, const Outputs& outputs, float* angle_rad) {
@@ -59,7 +58,7 @@ LegPose leg_pose(const Params& params, const float* before_rad, const float* now
   return pose;
 }
 
-/// Read from `file`, or else from the twin. Empty if the robot did not finish.
+/// From `file`, or else from the twin. Empty if the robot did not finish.
 std::vector<Inputs> walk(const test::Robot& robot, const std::string& file) {
   std::vector<Inputs> inputs(kTicks);
   const auto size = static_cast<std::streamsize>(kTicks * sizeof(Inputs));

@@ -16,26 +16,24 @@
 
 #include "tests/bench/leg_problem.hpp"
 
-/// bench_peers FOLDER [--benchmark_...]: KDL's inverse kinematics on the leg and targets of
-/// bench_core, by the faster of two solvers on this PC: Levenberg-Marquardt, and Newton-Raphson
-/// with weighted damped least squares. Exit 1 if either differs from our answer.
+/// bench_peers FOLDER [--benchmark_...]: KDL's inverse kinematics on bench_core's leg, by the
+/// faster of two solvers: Levenberg-Marquardt, and Newton-Raphson with weighted damped least
+/// squares. Exit 1 if either differs from our answer.
 ///
-/// KDL gets every advantage. It is set up once and uses single-axis joints for x, y or z axes,
-/// Eigen with the compiler's vectors, and the true answer of 10 ms earlier as start; our closed
-/// form needs none. Tolerances are no finer than needed: Levenberg-Marquardt's default residual is
-/// 1e-5 in metres, with a radian weighing 0.01 m; Newton-Raphson ends at 1e-5 m and rad. These
-/// solvers know no joint limits, which ours keeps.
+/// KDL gets every advantage: set up once, single-axis joints, Eigen with the compiler's vectors,
+/// the true answer of 10 ms earlier as start. Tolerances are no finer than needed:
+/// Levenberg-Marquardt's default residual is 1e-5 in metres, a radian weighing 0.01 m;
+/// Newton-Raphson ends at 1e-5 m and rad. These solvers know no joint limits, which ours keeps.
 namespace verp::bench {
 namespace {
 
-// Solutions agree within KDL's tolerance: 1e-5 m is 1e-3 rad at a weight of 0.01 m.
+// KDL's tolerance: 1e-5 m is 1e-3 rad at a weight of 0.01 m.
 constexpr double kMostApart_rad = 5e-3;
 constexpr double kMostApart_m = 1e-4;
 
 constexpr double kNewtonEnds = 1e-5;
 constexpr unsigned kMostIterations = 100;
 
-/// Counts the solver's iterations.
 struct CountingWdls : KDL::ChainIkSolverVel_wdls {
   using ChainIkSolverVel_wdls::CartToJnt;
   using ChainIkSolverVel_wdls::ChainIkSolverVel_wdls;
@@ -90,13 +88,13 @@ std::vector<Question> make_questions(const LegProblem& leg) {
   return questions;
 }
 
-/// Difference between KDL's answers and ours over all targets, and the time they took.
+/// Over all targets, and the time.
 struct Agreement {
   double apart_rad = 0, apart_m = 0, iterations = 0, seconds = 0;
   int unsolved = 0;
 };
 
-/// One of KDL's solvers; `iterations` counts those of all calls so far, if known.
+/// `iterations` counts those of all calls, if known.
 struct Peer {
   const char* name;
   KDL::ChainIkSolverPos& solver;

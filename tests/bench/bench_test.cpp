@@ -4,7 +4,7 @@
 
 #include "tests/host/tool/program.hpp"
 
-/// Tests what `verp bench` reports. Speed depends on the machine and is not tested.
+/// What `verp bench` reports, not speed.
 namespace verp::tool::test {
 namespace {
 
@@ -57,7 +57,7 @@ TEST_F(Bench, TableHasTheBarBesideEachPromisedNumber) {
   }
 }
 
-// The others are still measured, and the row names what to install.
+// The others are measured, and the row names what to install.
 TEST_F(Bench, LanguageThatIsNotInstalledSaysSoAndFailsNobody) {
   const Outcome outcome = shell("mkdir few && ln -s /bin/sh few/sh && PATH=$PWD/few " VERP_PROGRAM
                                 " bench --only languages --repetitions 1");
@@ -75,7 +75,7 @@ TEST_F(Bench, AnswerThatKdlDoesNotGiveIsFound) {
   const std::string peers = VERP_BENCH_PEERS " . --benchmark_min_time=0.01";
   ASSERT_EQ(shell(VERP_BENCH_CORE " . --benchmark_filter=none").status, 0);
   EXPECT_EQ(shell(peers).status, 0);
-  // Line 9 holds our answer to the first target.
+  // Line 9: our answer to the first target.
   const Outcome wrong = shell("sed -i '9s/^[^ ]*/0.5/' leg && " + peers);
   EXPECT_EQ(wrong.status, 1);
   EXPECT_NE(wrong.err.find("disagree"), std::string::npos) << wrong.err;

@@ -16,7 +16,7 @@
 /// tests/support/with-can.
 namespace {
 
-constexpr std::uint32_t kTicks = 1900;  // as the walk of ten seconds: stands up, walks, stops
+constexpr std::uint32_t kTicks = 1900;  // stands up, walks ten seconds, stops
 
 int run(std::vector<std::string> boards, std::uint32_t ticks) {
   if (boards.empty()) {

@@ -7,14 +7,13 @@
  * call (from 0) that took most, and the most that all calls inside one call of the first function
  * took.
  *
- * QEMU has no DWT cycle counter, and instruction counts repeat exactly while times do not. A call
- * begins when the block at the function's address runs, and ends when the block after the calling
- * bl or blx runs. A tail call has no such block and ends with its caller. Interrupts would count
- * for the function they interrupt; images under test have none. A predicated instruction counts
- * even if its condition fails, because it takes its cycle.
+ * Instruction counts repeat exactly, and QEMU has no DWT cycle counter. A call begins when the
+ * block at the function's address runs, and ends when the block after the calling bl or blx runs. A
+ * tail call ends with its caller. Images under test have no interrupts. A predicated instruction
+ * counts always, because it takes its cycle.
  *
- * Debian's QEMU 7.2 ships no qemu-plugin.h: the few declarations used are below (API version 1,
- * QEMU's documentation "TCG Plugins"). */
+ * Debian's QEMU 7.2 ships no qemu-plugin.h: the declarations used are below (API version 1, QEMU's
+ * "TCG Plugins"). */
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>

@@ -27,13 +27,13 @@
 #include "tests/target/twin_run.hpp"
 
 /// language_bench TIMES: control ticks per second from each language, without physics. One JSON
-/// line each; a missing language is reported there and is no failure.
+/// line each; a missing language is no failure.
 namespace {
 
 using Json = nlohmann::json;
 using Rates = std::vector<double>;
 
-/// Why a language can't be measured here.
+/// With the reason.
 struct Missing : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -52,7 +52,7 @@ std::string last_words(const std::filesystem::path& file) {
   return verp::process::last_line(verp::files::read(file).value_or(""));
 }
 
-/// The program's output: one number per line.
+/// One number per line.
 Rates rates_of(const std::string& command) {
   const verp::board::TemporaryDirectory scratch;
   const std::string errors = (scratch.path() / "errors").string();
@@ -109,7 +109,7 @@ Rates in_cpp(int times) {
 
 Rates in_python(int times) {
   need_library();
-  // Debian's Python: another one lacks Debian's packages.
+  // Another Python lacks Debian's packages.
   if (!succeeds("/usr/bin/python3 -c 'import cffi, numpy'")) {
     throw Missing("apt-get install python3-cffi python3-numpy");
   }
@@ -144,7 +144,7 @@ Rates in_csharp(int times) {
                               times));
 }
 
-/// `verp run` in lockstep over a Unix socket. Wall-clock time, because two processes take turns.
+/// `verp run` in lockstep over a Unix socket; wall-clock time, because two processes take turns.
 double external_rate() {
   using Clock = std::chrono::steady_clock;
   constexpr auto kPatience = std::chrono::seconds(30);

@@ -5,30 +5,29 @@
 #include <string>
 #include <vector>
 
-/// One leg and its targets as plain numbers, shared by bench_core and bench_peers. Only ours is
-/// compiled with EIGEN_DONT_VECTORIZE: in one program Eigen's functions would exist in two versions
-/// under one name.
+/// Plain numbers, shared by bench_core and bench_peers. Only ours is compiled with
+/// EIGEN_DONT_VECTORIZE: one program would hold two versions of Eigen's functions under one name.
 namespace verp::bench {
 
 inline constexpr int kJoints = 6;  ///< hip to ankle
 
-/// Frames are parallel to the body's when all joints are at zero. Rotations are row-major.
+/// Frames are parallel to the body's with all joints at zero. Rotations are row-major.
 struct LegTarget {
   std::array<double, 9> sole_rotation{};  ///< body frame
   std::array<double, 3> sole_m{};
-  std::array<double, kJoints> before_rad{};  ///< one tick earlier, as a warm start
-  std::array<double, kJoints> answer_rad{};  ///< our solver's answer
+  std::array<double, kJoints> before_rad{};  ///< one tick earlier, a warm start
+  std::array<double, kJoints> answer_rad{};  ///< our solver's
 };
 
 struct LegProblem {
-  std::array<double, 3 * kJoints> origin_m{};  ///< of each joint, in the previous joint's frame
+  std::array<double, 3 * kJoints> origin_m{};  ///< in the previous joint's frame
   std::array<double, 3 * kJoints> axis{};      ///< unit vectors
-  std::array<double, 9> foot_sole{};           ///< the sole in the last joint's frame
+  std::array<double, 9> foot_sole{};           ///< in the last joint's frame
   std::array<double, 3> foot_sole_m{};
   std::vector<LegTarget> targets;
 };
 
-/// Calls `visit` with every array of a problem, in file order.
+/// In file order.
 template <class Problem, class Visit>
 void for_each_array(Problem& problem, Visit visit) {
   visit(problem.origin_m);
@@ -43,7 +42,6 @@ void for_each_array(Problem& problem, Visit visit) {
   }
 }
 
-/// False if the file cannot be written.
 inline bool write_problem(const std::string& path, const LegProblem& problem) {
   std::ofstream file(path);
   file.precision(std::numeric_limits<double>::max_digits10);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kAnswerBytes = 200;
 
-/// Answers every poll at once with the same bytes and counts polls until the board sends kQuit.
+/// Answers every poll at once and counts until kQuit.
 class Echo {
  public:
   Echo(FifoLink& link, const Params& params, std::uint32_t ticks)

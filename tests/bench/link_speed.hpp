@@ -6,15 +6,14 @@
 
 namespace verp::board {
 
-/// Speed of the link to an emulated board without bus and physics. A tick is four frames of 200
-/// bytes from the board, two answers of 200 bytes, and one record.
+/// Without bus and physics. A tick is four frames of 200 bytes from the board, two answers of 200
+/// bytes, and one record.
 struct LinkSpeed {
   double ticks_per_s = 0;
   double round_trips_per_s = 0;
 };
 
-/// With `with_step` the board also runs the controller. Wall-clock time: repeat it and watch the
-/// load.
+/// `with_step`: the board runs the controller. Wall-clock time: repeat it and watch the load.
 LinkSpeed measure_link(const std::string& board, const Params& params, std::uint32_t ticks,
                        bool with_step);
 

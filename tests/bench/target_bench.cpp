@@ -12,14 +12,14 @@
 #include "tests/bench/target_cost.hpp"
 #include "tests/target/twin_run.hpp"
 
-/// target_bench [--check|--profile] [BOARD...]: the exact cost of a tick of a walking generic21 on
-/// each emulated board, and its link's speed. One JSON line each. --check: exit 1 if a promise is
+/// target_bench [--check|--profile] [BOARD...]: a walking generic21's exact cost of a tick on each
+/// emulated board, and its link's speed. One JSON line each. --check: exit 1 if a promise is
 /// broken. --profile: where the instructions go.
 namespace {
 
-constexpr std::uint32_t kTicks = 3600;  // 36 s at 10 ms: stands up, six different walks, stops
+constexpr std::uint32_t kTicks = 3600;  // 36 s at 10 ms: stands up, six walks, stops
 constexpr std::uint32_t kLinkTicks = 20000;
-constexpr int kLinkAttempts = 3;  // the best counts, because other programs only slow it down
+constexpr int kLinkAttempts = 3;  // the best counts
 
 bool keeps(const char* what, double value, double least, double most) {
   const bool good = value >= least && value <= most;
@@ -85,7 +85,7 @@ int run(std::vector<std::string> boards, Task task) {
   std::vector<verp::Inputs> inputs;
   for (const verp::TickRecord& record : walk.records) inputs.push_back(record.inputs);
   bool good = inputs.size() == kTicks;
-  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // line by line, for readers who follow
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // line by line
   for (const std::string& board : boards) {
     if (task == Task::kProfile) {
       show_profile(board, robot.params, inputs);

@@ -22,7 +22,7 @@ namespace {
 constexpr const char* kStep = "verp::step";
 constexpr const char* kDigest = "verp::digest_state";
 
-/// A command's standard output; throws BoardError with `remedy` if it fails.
+/// Throws BoardError with `remedy` if it fails.
 std::string output_of(const std::string& command, const std::string& remedy) {
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
   std::string text;
@@ -32,7 +32,7 @@ std::string output_of(const std::string& command, const std::string& remedy) {
   return text;
 }
 
-/// A function's hexadecimal address from lines "ADDRESS T NAME(PARAMETERS)".
+/// From lines "ADDRESS T NAME(PARAMETERS)".
 std::string address_of(const std::string& symbols, const std::string& function) {
   const std::size_t at = symbols.find(" T " + function + "(");
   if (at == std::string::npos || at < 8) {
@@ -46,7 +46,7 @@ struct Count {
   std::uint64_t calls = 0, sum = 0, least = 0, most = 0, most_at = 0, most_in_step = 0;
 };
 
-/// The output of instruction_count.c; the first line is step().
+/// By instruction_count.c; step() comes first.
 std::vector<Count> read_counts(const std::filesystem::path& path) {
   std::vector<Count> counts;
   std::ifstream file(path);

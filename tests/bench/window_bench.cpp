@@ -21,10 +21,9 @@
 #include "host/show/render/offscreen_context.hpp"
 #include "host/show/scene/camera.hpp"
 
-// The cost of a picture. `frames`: CPU time of the renderer alone, and how far a robot camera's
-// pixels are from those of 64 samples. `window`: frame rate of the real window and the twin's speed
-// beside it. One JSON line each, for one robot and for four. Four also run with 2 ms steps: one
-// core barely manages their physics at 1 ms.
+// `frames`: CPU time of the renderer, and a robot camera's distance from 64 samples. `window`:
+// frame rate of the real window and the twin's speed beside it. One JSON line each, for one robot
+// and for four. Four also run at 2 ms: one core barely manages 1 ms.
 namespace verp::view {
 namespace {
 
@@ -78,7 +77,7 @@ void bench_frames(int robots, bool antialias, int frames) {
       robots, antialias, 1e3 * (cpu_s() - before_s) / frames, frames / wall_s);
 }
 
-/// Mean distance of a pixel's colour from `truth`, of 255.
+/// Of a pixel's colour, of 255.
 double rms_apart(const render::Image& image, const render::Image& truth) {
   double sum = 0;
   for (std::size_t i = 0; i < image.rgb.size(); ++i) {
@@ -88,7 +87,7 @@ double rms_apart(const render::Image& image, const render::Image& truth) {
   return std::sqrt(sum / double(image.rgb.size()));
 }
 
-/// Averages a picture that is `times` as large each way.
+/// From a picture `times` as large each way.
 render::Image averaged(const render::Image& large, int times) {
   render::Image out{{large.size.width / times, large.size.height / times}, {}};
   for (int y = 0; y < out.size.height; ++y) {
@@ -105,7 +104,7 @@ render::Image averaged(const render::Image& large, int times) {
   return out;
 }
 
-/// A robot's camera in the furnished room: one sample per pixel, edges smoothed, and four samples.
+/// In the furnished room: one sample per pixel, edges smoothed, and four samples.
 void bench_camera() {
   constexpr int kPictures = 24, kTimes = 8;
   constexpr render::Size kCamera{320, 240};

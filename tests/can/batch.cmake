@@ -1,5 +1,5 @@
-# All tests that need CAN sockets share two runs of tests/support/with-can, `can.start` and `can.slow`; afterwards each
-# test reports its own result.
+# Tests that need CAN sockets share two runs of tests/support/with-can, `can.start` and `can.slow`; then each reports
+# its own result.
 #
 #   verp_can_test(START NAME PROGRAM ARGUMENT...)   PROGRAM may be a generator expression. START is
 #                                                     start: tests that wait for answers, however long they take
@@ -24,7 +24,7 @@ function(verp_can_tests_begin start)
   file(GENERATE OUTPUT ${folder}/batch CONTENT "${batch}")
   add_test(NAME can.${start} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-can --timeout 1700 ${ARGN}
     --writable ${folder} ${CMAKE_SOURCE_DIR}/tests/can/run_batch ${folder})
-  # RUN_SERIAL: some tests use wall-clock time. TIMEOUT: each of the many tests is slow on a busy PC.
+  # RUN_SERIAL: some tests use wall-clock time. TIMEOUT: they are many.
   set_tests_properties(can.${start} PROPERTIES LABELS "hil-can;vm" FIXTURES_SETUP can_${start} RUN_SERIAL TRUE TIMEOUT 1750)
 endfunction()
 

@@ -71,7 +71,7 @@ TEST(CanPort, CarriesFdFramesWhereTheInterfaceDoes) {
   }
 }
 
-// Frames keep the given order, not that of their identifiers, as on a real bus.
+// In the given order, not that of identifiers.
 TEST(CanPort, SendsManyAtOnceInTheOrderGivenUpToTheFirstThatItRefuses) {
   const OwnVcan vcan;
   RawNode far(vcan.name);
@@ -146,7 +146,7 @@ TEST(CanPort, LetsInWhatItsFiltersSayAndNothingElse) {
   settle(port);
 }
 
-// Each kind moves its own counter only, and the caller never receives an error frame.
+// The caller never receives an error frame.
 TEST(CanPort, CountsErrorFramesByKind) {
   const OwnVcan vcan;
   RawNode far(vcan.name);
@@ -211,7 +211,7 @@ TEST(CanPort, RefusesFromBusOffUntilTheControllerIsBack) {
   EXPECT_TRUE(heard == frame_of(2)) << "what was refused stays so";
 }
 
-/// Sends until the bus accepts it, as a master does; false after two seconds.
+/// Until the bus accepts it; false after two seconds.
 bool sends_again(CanPort& port, const CanFrame& frame) {
   for (int i = 0; i < 200; ++i) {
     if (port.send(frame)) return true;
@@ -280,7 +280,7 @@ TEST(CanPort, SaysWhenAFrameCameNotWhenItWasFetched) {
   EXPECT_GE(port.now_us(), after_us + 50'000) << "time goes on";
 }
 
-// More frames than socket and inbox hold.
+// More than socket and inbox hold.
 TEST(CanPort, LosesNoFrameUncounted) {
   const OwnVcan vcan;
   RawNode far(vcan.name);
@@ -301,7 +301,7 @@ TEST(CanPort, LosesNoFrameUncounted) {
   EXPECT_GT(brought, 0u);
   EXPECT_LT(brought, kFlood) << "the flood was no flood";
   for (int i = 0; i < 3; ++i) {
-    far.send(frame_of(0x182));  // the next frame reports a loss, and so does each later one
+    far.send(frame_of(0x182));  // the next frame reports a loss
     ASSERT_TRUE(poll_for(port, heard, kSoon_us));
     EXPECT_EQ(brought + port.errors().overruns, kFlood);
   }

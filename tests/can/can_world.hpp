@@ -8,14 +8,14 @@
 #include "host/os/link/can_port.hpp"
 #include "tests/contract/pc/can_sockets.hpp"
 
-/// A test's own interfaces. Runs as root inside tests/support/with-can.
+/// Runs as root inside tests/support/with-can.
 namespace verp::test {
 
 inline void ip(const std::string& arguments) {
   ASSERT_EQ(std::system(("ip " + arguments).c_str()), 0) << arguments;
 }
 
-/// A vcan interface with this object's lifetime.
+/// A vcan interface.
 class OwnVcan {
  public:
   explicit OwnVcan(std::string interface = "vcan7") : name(std::move(interface)) { make(); }
@@ -52,12 +52,12 @@ inline CanFrame frame_of(std::uint32_t id, unsigned number = 0) {
   return frame;
 }
 
-/// Polls for so long from now, not from the last frame sent.
+/// From now, not from the last frame sent.
 inline bool poll_for(link::CanPort& port, CanFrame& frame, std::uint32_t time_us) {
   return port.poll(frame, static_cast<std::uint32_t>(port.now_us()) + time_us);
 }
 
-/// Receives what is on its way; nothing may be for us.
+/// No frame may be for us.
 inline void settle(link::CanPort& port) {
   CanFrame frame;
   EXPECT_FALSE(poll_for(port, frame, 30'000));

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// tshark's fields; Decoded's members in the order of decode().
+/// In the order of decode().
 constexpr const char* kFields[] = {"can.id",
                                    "_ws.col.Info",
                                    "canopen.node_id",

@@ -7,33 +7,33 @@
 
 #include "host/os/process/child.hpp"
 
-/// Records an interface with can-utils and decodes it with tshark.
+/// By can-utils and tshark.
 namespace verp::test {
 
-/// A frame as tshark's CANopen dissector reports it; members it does not report are empty.
+/// As tshark's CANopen dissector reports it.
 struct Decoded {
   std::uint32_t id = 0;
-  std::string info;  ///< tshark's words: "SYNC [1]", "PDO1 (tx)", "EMCY" ...
+  std::string info;  ///< "SYNC [1]", "PDO1 (tx)", "EMCY" ...
   std::optional<std::uint32_t> node, sync, command, commanded, state, error_code, error_register,
       index, subindex, abort_code;
   std::vector<std::uint8_t> data;  ///< of a PDO, an SDO, or a frame outside CANopen
 
   bool is(const char* words) const { return info.rfind(words, 0) == 0; }
-  /// Little-endian value of `bytes` bytes from `place` on.
+  /// Little-endian, from `place` on.
   std::uint32_t value(std::size_t place, std::size_t bytes) const;
 };
 
-/// Runs candump from construction until decode().
+/// From construction until decode().
 class Capture {
  public:
   Capture(const std::filesystem::path& folder, std::string interface = "vcan0");
 
-  /// Waits until the log contains `text` in candump's notation: "613#40".
+  /// In candump's notation: "613#40".
   void await(const std::string& text) const;
   std::vector<Decoded> decode();
 
  private:
-  /// Sends an unused frame until the log contains it.
+  /// Sends an unused frame until the log has it.
   void await_marker(const char* frame) const;
 
   std::string interface_;

@@ -29,7 +29,7 @@ def nmt(master, command, node):
 
 def reset(master, node):
     nmt(master, 0x81, node)
-    while (told := master.hear(0x700 + node)) != b"\0":  # heartbeats were already on their way
+    while (told := master.hear(0x700 + node)) != b"\0":  # earlier heartbeats
         if told is None:
             raise Refused("no boot-up message")
 
@@ -101,7 +101,7 @@ def store(master, node):
 
 def main(interface, node):
     master = Master(interface)
-    first = master.read(node, 0x1000, 0, "I")  # the first frame that the twin receives
+    first = master.read(node, 0x1000, 0, "I")  # the twin's first frame
     print(json.dumps({
         "first": first,
         "start_up": start_up(master, node),

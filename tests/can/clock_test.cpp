@@ -9,8 +9,7 @@
 
 #include "host/os/link/system_clock.hpp"
 
-// with-can makes reading the clock cheap (tests/support/quick_clock.cpp); it must still agree with
-// the kernel.
+// quick_clock.cpp must agree with the kernel.
 namespace verp::test {
 namespace {
 
@@ -61,7 +60,7 @@ TEST(ClockOfCanTests, NeverGoesBackWhicheverThreadLooks) {
   EXPECT_EQ(went_back, 0);
 }
 
-// A sleep must not end early: the pacing of `verp run` counts periods.
+// `verp run` counts periods by sleeps.
 TEST(ClockOfCanTests, SleepsUntilItsOwnTime) {
   const std::uint64_t end_ns = link::monotonic_ns() + kLong_ns;
   for (std::uint64_t most_ns = 0; link::monotonic_ns() < end_ns;

@@ -16,7 +16,7 @@ DRIVE = 0x192  # CiA 402, low half of 1000h
 MOVE = 400  # increments
 STEPS = 40
 STEP_S = 0.01
-PATIENCE_S = 20  # for a busy PC, not for a node
+PATIENCE_S = 20  # for a busy PC
 
 
 class Refused(Exception):

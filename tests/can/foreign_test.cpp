@@ -22,13 +22,13 @@ using verp::test::Capture;
 using verp::test::Decoded;
 using Frames = std::vector<Decoded>;
 
-constexpr unsigned kJoint = 19;  ///< the head's yaw: no joint carries less of the robot
+constexpr unsigned kJoint = 19;  ///< the head's yaw carries least of the robot
 
 void rest(int time_ms) {
   std::this_thread::sleep_for(std::chrono::milliseconds(time_ms));
 }
 
-/// `verp hil` in real time until stop().
+/// In real time until stop().
 class Twin {
  public:
   explicit Twin(const fs::path& folder)
@@ -45,7 +45,7 @@ class Twin {
     for (int i = 0; i < 1000 && !waits(); ++i) rest(20);
     EXPECT_TRUE(waits()) << errors();
   }
-  /// Sends Ctrl-C; returns the exit status.
+  /// By Ctrl-C; returns the exit status.
   int stop() {
     child_.tell(SIGINT);
     return child_.wait();
@@ -72,7 +72,7 @@ class ForeignMaster : public Program {
   void cansend(const std::string& frame) const {
     ASSERT_EQ(shell("cansend vcan0 " + frame, "cansend").status, 0) << frame;
   }
-  /// Sends a frame and waits for its answer, or the beginning of it.
+  /// Waits for the answer's beginning.
   void ask(const Capture& capture, const std::string& frame, const std::string& answer) const {
     cansend(frame);
     capture.await(answer);
@@ -117,7 +117,6 @@ TEST_F(ForeignMaster, StartsTheDrivesMovesAJointAndReadsItBack) {
   EXPECT_EQ(result.at("link").at("dropped"), 0);
   EXPECT_EQ(result.at("link").at("overruns"), 0);
 
-  // tshark reads the same.
   const Frames frames = capture.decode();
   const Frames emergencies = of(frames, "EMCY", kJoint);
   ASSERT_EQ(emergencies.size(), 2u);
@@ -136,7 +135,7 @@ TEST_F(ForeignMaster, StartsTheDrivesMovesAJointAndReadsItBack) {
   for (const Decoded& each : of(frames, "NMT Error Control", kJoint)) {
     if (states.empty() || states.back() != each.state) states.push_back(*each.state);
   }
-  // It boots when time begins, and again on command.
+  // When time begins, and on command.
   EXPECT_EQ(states, (std::vector<unsigned>{0x00, 0x7F, 0x05}));
 }
 
@@ -167,10 +166,10 @@ TEST_F(ForeignMaster, ACia402MasterStartsADriveByWhatItTellsByItself) {
 TEST_F(ForeignMaster, FramesTypedByHandAreAnswered) {
   Twin twin(folder_);
   Capture capture(folder_);
-  ask(capture, "000#8113", "713#00");                    // NMT: reset node 19
-  ask(capture, "613#4000100000000000", "593#43001000");  // SDO: read device type 1000h
-  ask(capture, "613#40FF5F0000000000", "593#80");        // SDO: a missing object
-  ask(capture, "613#2B17100014000000", "593#60");        // SDO: set heartbeat to 20 ms, 1017h
+  ask(capture, "000#8113", "713#00");                    // reset node 19
+  ask(capture, "613#4000100000000000", "593#43001000");  // read 1000h
+  ask(capture, "613#40FF5F0000000000", "593#80");        // a missing object
+  ask(capture, "613#2B17100014000000", "593#60");        // set 1017h to 20 ms
   ask(capture, "000#0113", "713#05");                    // NMT: start
   ask(capture, "613#4041600000000000", "593#4B4160");    // SDO: statusword
   EXPECT_EQ(twin.stop(), 0) << twin.errors();

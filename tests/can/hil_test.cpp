@@ -36,8 +36,7 @@ class HilOnCan : public Program {
   }
 };
 
-// The PC knows a tick's end a few frames later, when the next one begins: so the walk's numbers are
-// only nearly the same.
+// The PC knows a tick's end when the next one begins, so the walk's numbers are nearly the same.
 TEST_F(HilOnCan, WalksWithTheBitsOfSoftwareInTheLoop) {
   const Outcome walk = verp("walk --bus can --json --for 3", "walk");
   ASSERT_EQ(walk.status, 0) << walk.err;
@@ -68,7 +67,7 @@ TEST_F(HilOnCan, RefusesAnotherRobot) {
       << outcome.err;
 }
 
-// Its drives would answer beside the twin's.
+// They would answer beside the twin's.
 TEST_F(HilOnCan, RefusesNodesThatAreThereAlready) {
   const std::uint8_t id = params().joint[3].servo_id;
   std::atomic<bool> over = false;

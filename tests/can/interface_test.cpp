@@ -16,21 +16,20 @@
 #include "tests/hil/promises.hpp"
 #include "tests/hil/software_board.hpp"
 
-// The fault campaign's part for a real interface, in wall time: a robot walks over vcan while the
-// interface goes down and up again.
+// The fault campaign for a real interface, in wall time: vcan goes down and up under a walk.
 namespace verp::test {
 namespace {
 
 using std::chrono::milliseconds;
 
-/// A longer period than its own: one core may have to run the robot, its bus and this PC.
+/// A longer period: one core may have to run all.
 Params can_robot() {
   Params params = model::make_params(model::load_robot(model::find_model("generic21"), "can"));
   params.period_us = 20'000;
   return params;
 }
 
-/// The robot's nodes on an interface, in real time.
+/// In real time.
 class LiveNodes {
  public:
   LiveNodes(const Params& params, const link::Endpoint& endpoint)
@@ -60,7 +59,7 @@ class LiveNodes {
   std::thread thread_;
 };
 
-/// The controller's end, paced by real time.
+/// In real time.
 class PortLine {
  public:
   explicit PortLine(const link::Endpoint& endpoint) : port_(endpoint) {}
@@ -80,7 +79,7 @@ class PortLine {
   }
 
  private:
-  /// How long this PC may delay an answer; five times that fit into the period.
+  /// How long this PC may delay an answer; the period is five times as long.
   static constexpr std::uint32_t kHeld_us = 2000;
 
   link::CanPort port_;
@@ -98,8 +97,8 @@ class InterfaceRun {
     return ready && desk_.write(app::reg("request"), {0});
   }
   ::testing::AssertionResult reaches(Mode mode, std::uint32_t then_ms) {
-    // Rising takes 7 s. If this PC skips periods, the robot may hold and sit down; then the time
-    // starts again.
+    // Rising takes 7 s. If this PC skips periods the robot may sit down; then the time starts
+    // again.
     constexpr std::uint32_t kPatience_ms = 8000;
     const auto passed = [this](std::uint32_t ticks, std::uint32_t ms) {
       return ticks * params_.period_us >= 1000 * ms;
@@ -119,7 +118,7 @@ class InterfaceRun {
            << now.fresh << ", timeouts " << now.timeouts << ", strays " << now.strays
            << ", skipped periods " << now.misses;
   }
-  /// The robot goes on meanwhile: a thread runs the commands, because they take time.
+  /// In a thread, because commands take time.
   void take_down_and_up() {
     const milliseconds gone(150 + random_() % 350);
     std::atomic<int> stage = 0;
@@ -145,7 +144,7 @@ class InterfaceRun {
   Registers registers() { return read_registers(desk_); }
 
   OwnVcan can{"vcan8"};
-  Registers during;  ///< while it was down
+  Registers during;  ///< while down
 
  private:
   using Board = ControllerOnBoard<PortLine>;
@@ -155,7 +154,7 @@ class InterfaceRun {
     board_->tick();
   }
 
-  /// Somewhat less than the test's limit in CMakeLists.txt.
+  /// Less than the limit in CMakeLists.txt.
   static constexpr std::chrono::seconds kTime{100};
 
   const std::chrono::steady_clock::time_point end_ = std::chrono::steady_clock::now() + kTime;

@@ -48,7 +48,7 @@ class CanLockstepPort : public ::testing::Test {
     }
   }
 
-  /// Sequence numbers of the received answers.
+  /// Of the received answers.
   std::vector<int> answers() {
     std::vector<int> heard;
     CanFrame frame;
@@ -81,8 +81,7 @@ TEST_F(CanLockstepPort, AnswersEachQuestion) {
   EXPECT_EQ(server.counters().polls, 3u);
 }
 
-// A PC that was stopped finds the question and its repetition, and two answers overflow a small
-// controller's FIFO.
+// A stopped PC finds the question and its repetition; two answers overflow a small FIFO.
 TEST_F(CanLockstepPort, AnswersOnceWhenItWasLate) {
   greet();
   ask(1);

@@ -19,9 +19,9 @@ using nlohmann::json;
 using verp::test::ScriptedNode;
 
 constexpr std::uint8_t kNode = 5;
-/// Each command begins by reading 1000h, 1008h and 1018h:1 to 3.
+/// Reads of 1000h, 1008h and 1018h:1 to 3.
 constexpr unsigned kIdentity = 5;
-/// A busy PC rarely takes as long; the tests wait for three of them.
+/// A busy PC is rarely as late.
 const std::string kPatience = " --timeout 400";
 
 ScriptedNode::Tells tells(const canopen::Identity& identity) {
@@ -38,7 +38,7 @@ class OddNodes : public Program {
   Outcome bus_command(const std::string& words) const {
     return verp("bus " + words + " --link can:" + bus.name + kPatience, "bus");
   }
-  /// One error line, and an end at the first silence.
+  /// One error line, at the first silence.
   static void expect_silence(const Outcome& outcome, int id, const ScriptedNode& node) {
     EXPECT_EQ(outcome.status, 3);
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
@@ -50,7 +50,7 @@ class OddNodes : public Program {
   verp::test::OwnVcan bus;
 };
 
-// If the node is gone, each object would have to time out.
+// Else each object would time out.
 TEST_F(OddNodes, ReadingAllObjectsEndsWhenTheNodeFallsSilentHalfWayThrough) {
   constexpr unsigned kTold = 4;
   const ScriptedNode node(bus.endpoint(), kNode, tells(can::drive_identity(402, kNode)),
@@ -72,7 +72,7 @@ TEST_F(OddNodes, ReadingAnArrayEndsWhenTheNodeFallsSilentHalfWayThrough) {
   EXPECT_FALSE(said.contains("objects")) << "half an array is none: " << said;
 }
 
-// 0 is a valid value: this node reports it as its vendor.
+// 0 is valid: this node's vendor.
 TEST_F(OddNodes, ScanSaysNotToldOfObjectsThatANodeDoesNotHave) {
   const ScriptedNode node(bus.endpoint(), kNode, [](Address at) -> std::optional<std::uint32_t> {
     if (at == Address{0x1000, 0}) return 0x00020192;

@@ -16,7 +16,7 @@
 #include "tests/can/can_world.hpp"
 #include "tests/host/tool/program.hpp"
 
-// The robot on the CAN interface is the twin in real time.
+// The robot is the twin in real time.
 namespace verp::tool::test {
 namespace {
 
@@ -24,10 +24,10 @@ using nlohmann::json;
 
 class RunOnCan : public Program {
  protected:
-  /// Runs `command` while a twin of generic21 is on vcan0.
+  /// With a twin of generic21 on vcan0.
   Outcome beside_twin(const std::string& command) const {
     const std::string program = VERP_PROGRAM;
-    // Delete the output of an earlier twin, which also said that it waits.
+    // An earlier twin's output says the same.
     return shell("rm -f twin.err; " + program +
                  " hil generic21 --bus can --realtime --link can:vcan0 --for 600 --json "
                  ">twin.out 2>twin.err & twin=$!; "
@@ -42,9 +42,8 @@ class RunOnCan : public Program {
   }
 };
 
-// One core may have to run the robot, its bus and this PC. If it is too busy, `verp run` refuses
-// with status 3; missed periods later may make the robot hold or fall, status 1 with a reason. So
-// repeat until it walked.
+// On a busy core, `verp run` refuses with status 3, or missed periods make the robot hold or fall,
+// status 1. So repeat until it walked.
 TEST_F(RunOnCan, DrivesTheRobotAndLetsItGo) {
   const std::string run = std::string(VERP_PROGRAM) +
                           " run generic21 --bus can --link can:vcan0 --yes --json "
@@ -59,7 +58,7 @@ TEST_F(RunOnCan, DrivesTheRobotAndLetsItGo) {
   EXPECT_TRUE(result.at("let_go")) << outcome.err;
   EXPECT_GT(result.at("ticks"), 100);
   EXPECT_NE(outcome.err.find("relaxed to rising"), std::string::npos) << outcome.err;
-  // However late this PC was, a minute's worth of skipped periods means a wrong clock.
+  // More skipped periods mean a wrong clock.
   EXPECT_LT(result.at("deadlines").at("skipped_periods"), 3000);
   const bool undisturbed =
       result.at("deadlines").at("skipped_periods") == 0 && result.at("bus").at("timeouts") == 0;
@@ -73,13 +72,13 @@ TEST_F(RunOnCan, DrivesTheRobotAndLetsItGo) {
   EXPECT_EQ(replay.status, 0) << replay.err;
 }
 
-// At the end each drive is asked whether it let go. Ctrl-C ends the questions, and the report says
-// what is unknown.
+// Each drive is asked whether it let go. Ctrl-C ends the questions, and the report says what is
+// unknown.
 TEST_F(RunOnCan, AnInterruptEndsTheQuestionsToSilentDrives) {
   const std::string run = std::string(VERP_PROGRAM) +
                           " run generic21 --bus can --link can:vcan0 --yes --json --period 20 "
                           "--for 60 >run.out 2>run.err";
-  // Status 3 without a question to a drive means that the PC was too busy; then try again.
+  // Status 3 without a question means a busy PC: try again.
   const Outcome outcome = beside_twin(
       "for attempt in 1 2 3 4 5; do " + run +
       " & run=$!; while kill -0 $run && ! grep -q 'relaxed to rising' run.err; do sleep 0.1; done; "
@@ -108,7 +107,7 @@ TEST_F(RunOnCan, SaysThatNobodyAnswers) {
   EXPECT_EQ(verp("bus ping --id 3 --link can:vcan0").status, 3);
 }
 
-// Its bring-up would reset all nodes of the first one's robot, which may walk.
+// Its bring-up would reset the first one's nodes.
 TEST_F(RunOnCan, RefusesToBeTheSecondOfThisPcBeforeItSendsAnything) {
   verp::test::OwnVcan bus;
   link::CanPort listener(bus.endpoint());
@@ -157,7 +156,7 @@ TEST_F(RunOnCan, ServesNodesOnceOnABus) {
         << outcome.err;
   }
   for (const std::string& signal : {std::string("KILL"), std::string("INT")}) {
-    const std::string said = signal + ".err";  // a file of its own: earlier ones name a twin, too
+    const std::string said = signal + ".err";  // earlier files name a twin, too
     const Outcome outcome =
         shell(std::string(VERP_PROGRAM) + " " + hil + " 2>" + said +
               " & twin=$!; until grep -q 'twin waits' " + said +
@@ -166,11 +165,11 @@ TEST_F(RunOnCan, ServesNodesOnceOnABus) {
   }
 }
 
-// CanRealTime tests whether it fails. Here the status must say which it was.
+// The status must say which it was.
 TEST_F(RunOnCan, ATwinThatIsHeldUpSkipsAndSaysSoAtOnce) {
   verp::test::OwnVcan bus;
   std::atomic<bool> over = false;
-  // Rarely, because a twin with many waiting frames goes from one to the next and may catch up.
+  // A twin with many waiting frames may catch up.
   std::thread master([&] {
     link::CanPort port(bus.endpoint());
     while (!over) {
@@ -255,7 +254,7 @@ TEST_F(RunOnCan, ShowsFieldsInHexAndSmallIntegersWithTheirSign) {
                   read + "60C2:2 && " + read + "60C2:2 --json && ! " + write +
                   " --object 60C2:2 -129 && ! " + read + "1A00:1F");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const std::string text = "0x00000080\n0x60410010\n-3\n";  // SYNC; the statusword, 16 bits
+  const std::string text = "0x00000080\n0x60410010\n-3\n";  // SYNC; statusword, 16 bits
   ASSERT_EQ(outcome.out.substr(0, text.size()), text);
   EXPECT_EQ(json::parse(outcome.out.substr(text.size())).at("objects").at("60C2:2").at("value"),
             -3);

@@ -12,9 +12,8 @@ using nlohmann::json;
 
 class WatchedRun : public Program {
  protected:
-  /// Runs `watch` on vcan0 beside `verp run`, whose robot is the twin in real time, then interrupts
-  /// the run. One core runs it all, so a run may refuse or end early, and runs repeat until `watch`
-  /// is done.
+  /// On vcan0 beside `verp run` and the twin. One core runs it all, so runs may end early and
+  /// repeat until `watch` is done.
   Outcome run_beside(const std::string& watch) const {
     const std::string on_bus = " generic21 --bus can --json --link can:vcan0 ";
     return shell("verp=" VERP_PROGRAM "; watch() { " + watch +
@@ -53,7 +52,7 @@ TEST_F(WatchedRun, TellsOfEachTickShowsItsRegistersAndRefusesOrders) {
   EXPECT_NE(slurp(folder_ / "write.err").find("under local control"), std::string::npos)
       << slurp(folder_ / "write.err");
   const json run = json::parse(slurp(folder_ / "last.out"));
-  // If one core was too busy, drives may be silent until the end, which is reported.
+  // On a busy core drives may be silent, which is reported.
   if (run.at("bus").at("timeouts") == 0 || run.at("failure") != "not every servo let go") {
     EXPECT_TRUE(run.at("let_go")) << run << outcome.err;
   }

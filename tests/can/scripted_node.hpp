@@ -13,8 +13,8 @@
 
 namespace verp::test {
 
-/// Answers reads of given four-byte objects, reports all others as missing, and falls silent for
-/// good after `answers` answers.
+/// Answers reads of four-byte objects, reports others as missing, and falls silent after `answers`
+/// answers.
 class ScriptedNode {
  public:
   using Tells = std::function<std::optional<std::uint32_t>(canopen::Address)>;

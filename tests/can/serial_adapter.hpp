@@ -11,8 +11,7 @@
 
 namespace verp::test {
 
-/// A serial adapter (slcan) on a pseudo-terminal: it has a bit rate and a queue, which vcan lacks.
-/// It starts down.
+/// slcan on a pseudo-terminal, with a bit rate and a queue, which vcan lacks. It starts down.
 class SerialAdapter {
  public:
   SerialAdapter() : end(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)) {
@@ -22,21 +21,21 @@ class SerialAdapter {
     ::tcgetattr(slave_, &raw);
     ::cfmakeraw(&raw);
     ::tcsetattr(slave_, TCSANOW, &raw);
-    const int slcan = 17;  // N_SLCAN of linux/tty.h
+    const int slcan = 17;  // of linux/tty.h
     EXPECT_EQ(::ioctl(slave_, TIOCSETD, &slcan), 0) << "is the module slcan there?";
     ifreq request{};
     EXPECT_EQ(::ioctl(slave_, SIOCGIFNAME, &request), 0);
     name = static_cast<const char*>(request.ifr_name);
   }
   ~SerialAdapter() {
-    ::close(end);  // a hangup removes the interface
+    ::close(end);  // removes the interface
     ::close(slave_);
   }
   SerialAdapter(const SerialAdapter&) = delete;
   SerialAdapter& operator=(const SerialAdapter&) = delete;
 
   std::string name;
-  const int end;  ///< the adapter firmware's end; it never waits
+  const int end;  ///< the adapter's end; it never waits
 
  private:
   int slave_ = -1;

@@ -38,7 +38,7 @@ struct CanSocket : link::CanPort {
          frame.id == canopen::further_sdo(2).response);
     return (secretive && answers) || CanPort::send(frame);
   }
-  bool secretive = false;  ///< reports its ticks but answers no question
+  bool secretive = false;  ///< answers no question
 };
 using Log = app::TickLog<>;
 using Node = app::OperatorNode<CanSocket, Log>;
@@ -47,7 +47,7 @@ Params generic21() {
   return model::make_params(model::load_robot(model::find_model("generic21"), "can"));
 }
 
-/// Some ticks after a State was read, flips one bit of the controller's State.
+/// Some ticks after a read, flips one bit of the controller's State.
 class Spoiler {
  public:
   explicit Spoiler(bool flips = true) : flips_(flips) {}
@@ -73,7 +73,7 @@ void Spoiler::spoil(State& state) {
   std::memcpy(&state.zeros.leg[1].pitch_rad, &bits, sizeof bits);
 }
 
-/// A controller whose drives have no power: it ticks and reports that.
+/// Its drives have no power.
 class LoneController {
  public:
   LoneController(const Params& params, const std::string& endpoint, Spoiler* spoiler = nullptr)
@@ -118,7 +118,7 @@ class LoneController {
   std::thread thread_;
 };
 
-/// A controller in lockstep with `verp hil` that obeys its operator port, or else stands.
+/// In lockstep with `verp hil`; obeys its operator port, or else stands.
 class WalkingController {
  public:
   WalkingController(const Params& params, const std::string& orders, Spoiler* spoiler = nullptr,
@@ -181,7 +181,7 @@ class WalkingController {
   }
 
   const Params params_;
-  const std::string orders_;  ///< empty: no orders
+  const std::string orders_;
   Spoiler* const spoiler_;
   const bool secretive_;
   std::atomic<bool> over_ = false;
@@ -215,7 +215,7 @@ TEST_F(ShadowOnCan, HasTheBitsOfAControllerThatWalks) {
   EXPECT_EQ(result.at("differs"), false);
 }
 
-// Without an operator port, `verp hil` has only the bus frames.
+// `verp hil` has only the bus frames.
 TEST_F(ShadowOnCan, VerpHilNamesABitThatFlipped) {
   Spoiler spoiler;
   WalkingController controller(generic21(), "", &spoiler);
@@ -286,7 +286,7 @@ TEST_F(ShadowOnCan, EndsWellWhenItIsInterruptedAndSaysWhatItKnowsAndThatTheBusIs
   EXPECT_GE(json::parse(outcome.out).at("compared_ticks"), 20);
 }
 
-// A controller has one SDO server, so two would mistake each other's answers for their own.
+// The controller has one SDO server.
 TEST_F(ShadowOnCan, OneAloneAsksAController) {
   const link::CanClaim first("vcan0", "watcher", link::CanClaim::kWatcher);
   const Outcome second = shadow("--link can:vcan0 --for 1");

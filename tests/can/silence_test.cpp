@@ -19,10 +19,10 @@ namespace {
 using canopen::Address;
 using nlohmann::json;
 
-/// Nodes 5, 19 and 30 on an interface: drives named by numbers.
+/// Drives 5, 19 and 30.
 class Nodes {
  public:
-  /// Whether a request gets an answer.
+  /// True: it answers.
   using Rule = std::function<bool(unsigned node, Address at)>;
   Nodes(const std::string& link, Rule answers)
       : port_(link::parse_endpoint(link)), answers_(std::move(answers)) {
@@ -64,7 +64,6 @@ class SilenceOnCan : public Program {
  protected:
   const verp::test::OwnVcan bus;
   const std::string link = " --link can:" + bus.name;
-  /// 19 reports its device type and nothing else.
   static bool all_but_19(unsigned node, Address at) { return node != 19 || at.index == 0x1000; }
 };
 
@@ -105,7 +104,7 @@ TEST_F(SilenceOnCan, APingOfANodeThatFellSilentSaysSo) {
   EXPECT_TRUE(says(outcome.err, "raise --timeout")) << outcome.err;
 }
 
-// From 4.5 s after its start the scan waits nine seconds for 30.
+// It waits nine seconds for 30, from 4.5 s on.
 TEST_F(SilenceOnCan, AnInterruptedScanPrintsWhatItFoundSoFar) {
   const Nodes nodes("can:" + bus.name,
                     [](unsigned node, Address at) { return node != 30 || at.index == 0x1000; });
@@ -118,7 +117,7 @@ TEST_F(SilenceOnCan, AnInterruptedScanPrintsWhatItFoundSoFar) {
   EXPECT_TRUE(says(outcome.err, "interrupted")) << outcome.err;
 }
 
-/// A serial adapter with half the robot's bit rate, and a thread at its other end.
+/// With half the robot's bit rate.
 class SlowAdapter : public verp::test::SerialAdapter {
  public:
   SlowAdapter() {
@@ -132,7 +131,7 @@ class SlowAdapter : public verp::test::SerialAdapter {
   }
 
  private:
-  /// The interface comes up when the adapter has read the command.
+  /// Up when the adapter has read the command.
   void read_on() const {
     char piece[64];
     while (!over_) {
@@ -145,7 +144,7 @@ class SlowAdapter : public verp::test::SerialAdapter {
   std::thread reader_;
 };
 
-// Each command that knows the robot says the same, before it does anything.
+// Before anything is done.
 TEST_F(SilenceOnCan, AnInterfaceWithAnotherBitRateThanTheRobotIsRefused) {
   const SlowAdapter adapter;
   for (const std::string command : {"run generic21 --yes", "hil generic21", "shadow generic21"}) {

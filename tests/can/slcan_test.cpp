@@ -52,7 +52,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// Fills the interface's queue while the adapter does not read; returns the number of frames.
+/// While the adapter does not read; returns the frames.
 unsigned jam(CanPort& port) {
   unsigned sent = 0;
   for (unsigned refused = 0; refused < 50;) {
@@ -88,7 +88,7 @@ TEST(Slcan, CarriesFramesBothWays) {
   EXPECT_EQ(heard.data[0] << 8 | heard.data[1], 0x1122);
 }
 
-// Accepted frames leave once, in order, and as soon as there is room.
+// Once, in order, as soon as there is room.
 TEST(Slcan, WaitsOutAFullQueue) {
   Adapter adapter;
   CanPort port(adapter.endpoint());
@@ -109,7 +109,6 @@ TEST(Slcan, WaitsOutAFullQueue) {
   EXPECT_EQ(port.errors().dropped, 0u);
 }
 
-// Once the kernel's queue moves again.
 TEST(Slcan, SendsTheBestOfWhatWaitsFirst) {
   Adapter adapter;
   CanPort port(adapter.endpoint());
@@ -120,7 +119,7 @@ TEST(Slcan, SendsTheBestOfWhatWaitsFirst) {
   bool sync_sent = false;
   const std::uint64_t until_ns = monotonic_ns() + 20'000'000'000;
   while (lines.size() < sent + 1 && monotonic_ns() < until_ns) {
-    sync_sent = sync_sent || port.send(frame_of(0x080));  // as soon as there is any room
+    sync_sent = sync_sent || port.send(frame_of(0x080));  // as soon as there is room
     CanFrame heard;
     ASSERT_FALSE(port.poll(heard, 0));
     for (const std::string& each : adapter.read_lines()) {
@@ -135,7 +134,7 @@ TEST(Slcan, DropsWhatWaitsAtABusOff) {
   Adapter adapter;
   CanPort port(adapter.endpoint());
   jam(port);
-  adapter.say("sb256256\r");  // the adapter's state: off the bus, error counters
+  adapter.say("sb256256\r");  // off the bus, error counters
   CanFrame heard;
   EXPECT_FALSE(poll_for(port, heard, 100'000));
   EXPECT_EQ(port.errors().bus_offs, 1u);

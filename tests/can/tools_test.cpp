@@ -17,7 +17,7 @@
 #include "tests/host/tool/link_controller.hpp"
 #include "tests/host/tool/program.hpp"
 
-// What tshark's CANopen dissector reads must equal what controller and twin say they sent.
+// tshark's CANopen dissector reads what controller and twin sent.
 namespace verp::tool::test {
 namespace {
 
@@ -32,10 +32,10 @@ struct CanSocket : link::CanPort {
 using CanController = verp::test::ControllerOn<CanSocket, app::LockstepCan>;
 using Frames = std::vector<Decoded>;
 
-/// A twin that answers after the controller's patience repeats its answer; drop the repeats.
+/// A late answer is repeated.
 Frames without_repeats(const Frames& all) {
   Frames kept;
-  std::vector<std::size_t> answer;  ///< the twin's frames in `kept` since its last answer
+  std::vector<std::size_t> answer;  ///< since its last answer
   int last = -1;
   for (const Decoded& each : all) {
     const canopen::Connection on =
@@ -57,10 +57,10 @@ Frames without_repeats(const Frames& all) {
   return kept;
 }
 
-/// A write of four bytes or fewer: node, index, subindex, value.
+/// Four bytes or fewer.
 using Write = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
 
-/// One captured walk on vcan0, and its trace.
+/// One walk on vcan0, and its trace.
 class CanTools : public Program {
  protected:
   const Params params =
@@ -88,7 +88,7 @@ class CanTools : public Program {
     }
     return all;
   }
-  /// Positions of each tick's SYNC with counter 1.
+  /// Each tick's SYNC with counter 1.
   std::vector<std::size_t> ticks() const {
     std::vector<std::size_t> at;
     for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -117,7 +117,7 @@ class CanTools : public Program {
   }
 };
 
-// The bring-up resets all nodes, which report it; then it sets them up and starts them.
+// All nodes are reset, set up and started.
 void CanTools::expect_commands(std::size_t end) const {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> told, wanted;
   for (const Decoded& each : some(0, end, "NMT: "))
@@ -136,7 +136,7 @@ void CanTools::expect_commands(std::size_t end) const {
   EXPECT_EQ(booted.size(), nodes().size());
 }
 
-// Every object that the controller sets, with its answer; then what it reads back.
+// With their answers, then what the controller reads back.
 void CanTools::expect_settings(std::size_t end) const {
   std::vector<Write> wanted, told;
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> kept;
@@ -168,7 +168,7 @@ void CanTools::expect_settings(std::size_t end) const {
     ++read_back;
   }
   EXPECT_EQ(told, wanted);
-  // Only third and fourth PDOs, which are optional, are aborted.
+  // Third and fourth PDOs are optional.
   const Frames aborted = some(0, end, "Default-SDO (tx): Abort");
   for (const Decoded& each : aborted) {
     EXPECT_EQ(*each.index & 0xFF00, 0x1800u);
@@ -212,7 +212,7 @@ void CanTools::expect_goals(const Outputs& outputs, std::size_t from, std::size_
   }
 }
 
-// The controller's heartbeats, which drives watch: so many within their patience.
+// So many within the drives' patience.
 void CanTools::expect_heartbeats(std::size_t from, std::size_t to) const {
   const std::uint32_t ticks_each = std::uint32_t{plan::patience_ms(params)} * 1000 /
                                    plan::kHeartbeatsInPatience / params.period_us;
@@ -258,7 +258,7 @@ TEST_F(CanTools, TsharkReadsAWalkAsWeSayItIs) {
       velocities += each.index == 0x606C ? 1 : 0;
       torques += each.index == 0x6077 ? 1 : 0;
     }
-    // The answer to the last request; that to the next may have come, too.
+    // The next answer may have come, too.
     if ((inputs.flags & kSlowFresh) != 0) {
       ASSERT_FALSE(telemetry.empty());
       const bool told = says(telemetry.back(), inputs) ||

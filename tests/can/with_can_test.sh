@@ -30,7 +30,7 @@ launch() { # arguments; sets status, output and errors
   output=$("$with_can" "$@" 2>"$scratch/errors") || status=$?
   errors=$(<"$scratch/errors")
 }
-# Starts as a terminal does (own process group, SIGINT not ignored) and waits until the command runs.
+# As a terminal does (own process group, SIGINT not ignored), once the command runs.
 launch_and_interrupt() { # signal wanted-status
   local process
   rm -f "$scratch/kept/started"
@@ -48,7 +48,7 @@ launch_and_interrupt() { # signal wanted-status
   is "status after $1" "$status" "$2"
 }
 
-# One start tests all that a command can ask for.
+# One start for all that a command can ask.
 cat >"$scratch/command" <<'END'
 printf '%s|' "$@" "$GIVEN" "$PWD"
 ip link show up dev vcan0 >/dev/null && echo 'vcan0 is up'
@@ -97,10 +97,10 @@ nothing_left 'an interrupt'
 launch_and_interrupt TERM 143
 nothing_left 'a termination'
 launch_and_interrupt KILL 137
-rm -rf "${TMPDIR:?}"/* # a killed with-can cannot clean up
+rm -rf "${TMPDIR:?}"/* # a killed with-can leaves files
 nothing_left 'a kill'
 
-# Neither way works: the kernel refuses, and the PC has no User-Mode Linux.
+# The kernel refuses, and there is no User-Mode Linux.
 for each in bash env dirname readlink mktemp rm id sleep; do ln -s "$(command -v "$each")" "$scratch/bin/"; done
 PATH=$scratch/bin launch true
 is 'without a place to run it is a failure' "$status" 125

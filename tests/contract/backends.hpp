@@ -1,6 +1,6 @@
 #pragma once
 
-/// Each suite's backends in this build.
+/// In this build.
 #ifdef VERP_CAN_SOCKETS
 #include "tests/contract/fakes.hpp"
 #include "tests/contract/pc/can_sockets.hpp"

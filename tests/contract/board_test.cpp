@@ -6,7 +6,7 @@
 #include "hal/contract/watchdog.hpp"
 #include "tests/contract/backends.hpp"
 
-// The promises of hal/contract/tick_source.hpp and watchdog.hpp.
+// hal/contract/tick_source.hpp and watchdog.hpp.
 
 namespace verp {
 namespace {

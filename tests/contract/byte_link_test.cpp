@@ -8,14 +8,14 @@
 #include "hal/contract/byte_link.hpp"
 #include "tests/contract/backends.hpp"
 
-// The promises of hal/contract/byte_link.hpp, for each end of each link.
+// hal/contract/byte_link.hpp, each end of each link.
 
 namespace verp {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 constexpr std::uint32_t kAWhile_us = 5'000'000;
-constexpr std::uint64_t kAtOnce_us = 1'000'000;  // a busy PC may be slow; a timeout would be longer
+constexpr std::uint64_t kAtOnce_us = 1'000'000;  // a busy PC may be slow; a timeout is longer
 
 Bytes random_bytes(std::size_t size, std::mt19937& random) {
   Bytes bytes(size);
@@ -23,7 +23,7 @@ Bytes random_bytes(std::size_t size, std::mt19937& random) {
   return bytes;
 }
 
-/// A byte of an endless noise stream: a test on target cannot store the stream.
+/// Of an endless noise stream, which a target cannot store.
 std::uint8_t noise(std::size_t place, std::uint32_t stream) {
   auto bits = static_cast<std::uint32_t>(place) * 2654435761u + stream;
   bits ^= bits >> 15;
@@ -34,7 +34,7 @@ std::uint8_t noise(std::size_t place, std::uint32_t stream) {
 template <class Pair>
 class ByteLinkContract : public ::testing::Test {
  protected:
-  /// Stops early when no byte has come for a while.
+  /// Stops when no byte comes for a while.
   template <class Link>
   static Bytes collect(Link& link, std::size_t size) {
     Bytes all(size);
@@ -57,7 +57,7 @@ class ByteLinkContract : public ::testing::Test {
       if (count < part.size()) return all;
     }
   }
-  /// Runs both ends until they know of each other.
+  /// Until both ends know of each other.
   bool meet() {
     std::uint8_t byte = 0;
     for (int i = 0; i < 500; ++i) {
@@ -68,7 +68,7 @@ class ByteLinkContract : public ::testing::Test {
     }
     return false;
   }
-  /// Returns the bytes that came before the loss.
+  /// Bytes before the loss.
   Bytes drain_until_lost() {
     Bytes all;
     std::uint8_t piece[64];
@@ -79,7 +79,7 @@ class ByteLinkContract : public ::testing::Test {
     return all;
   }
 
-  /// Checks the report of a link that lost its far end `times` times.
+  /// After `times` losses of the far end.
   void expect_lost(std::uint32_t times) {
     EXPECT_EQ(pair.near().connected(), !Pair::kDetectsLoss);
     EXPECT_EQ(pair.near().errors().losses, Pair::kDetectsLoss ? times : 0u);
@@ -181,7 +181,7 @@ TYPED_TEST(ByteLinkContract, TellsALossAfterWhatCameBefore) {
   this->expect_lost(1);
 }
 
-// Without an operator, calls wait their time, without a signal or an exception.
+// Calls wait their time, without a signal or an exception.
 TYPED_TEST(ByteLinkContract, OutlivesALoss) {
   this->pair.cut();
   const Bytes bytes(100);
@@ -193,7 +193,7 @@ TYPED_TEST(ByteLinkContract, OutlivesALoss) {
   this->expect_lost(1);
   const std::uint64_t before_us = this->pair.now_us();
   EXPECT_EQ(this->pair.near().read(&byte, 1, 2000), 0u);
-  const bool takes_it = !TypeParam::kDetectsLoss;  // a wire takes bytes that nobody hears
+  const bool takes_it = !TypeParam::kDetectsLoss;  // a wire takes bytes that no end hears
   EXPECT_EQ(this->pair.near().write(&byte, 1, 2000), takes_it ? 1u : 0u);
   EXPECT_GE(this->pair.now_us(), before_us + (takes_it ? 2000 : 4000));
 }

@@ -6,7 +6,7 @@
 #include "hal/contract/camera.hpp"
 #include "tests/contract/backends.hpp"
 
-// The promises of hal/contract/camera.hpp.
+// hal/contract/camera.hpp.
 namespace verp {
 namespace {
 
@@ -72,7 +72,7 @@ TYPED_TEST(CameraContract, TheBytesStandStillUntilTheNextPictureIsFetched) {
   for (int i = 0; i < 12; ++i) this->camera.show();
   EXPECT_TRUE(this->camera.is(this->frame, 0));
   ASSERT_EQ(this->camera.read(this->frame), hal::CameraStatus::kFresh);
-  // Which frame it is depends on how many a backend keeps.
+  // Backends keep different numbers of frames.
   EXPECT_EQ(this->frame.sequence, this->frame.lost + 1);
   EXPECT_TRUE(this->camera.is(this->frame, this->frame.sequence));
 }
@@ -99,7 +99,7 @@ TYPED_TEST(CameraContract, CountsFaultsKeepsTheFrameAndComesBack) {
     EXPECT_GT(this->frame.time_us, before_us);
     EXPECT_EQ(this->camera.faults(), faults);
   } else {
-    EXPECT_EQ(this->camera.faults(), 0u);  // a twin's camera never fails
+    EXPECT_EQ(this->camera.faults(), 0u);  // a twin's never fails
   }
 }
 

@@ -5,7 +5,7 @@
 #include "hal/contract/can_bus.hpp"
 #include "tests/contract/backends.hpp"
 
-// The promises of hal/contract/can_bus.hpp, for each backend.
+// hal/contract/can_bus.hpp.
 
 namespace verp {
 namespace {
@@ -15,7 +15,7 @@ class CanBusContract : public ::testing::Test {
  protected:
   static constexpr std::uint32_t kLong_us = 4 * Backend::kPlenty_us;
 
-  /// A frame that carries its number: up to eight bytes, different from its neighbours.
+  /// Up to eight bytes, different from its neighbours.
   static CanFrame numbered(std::uint32_t id, unsigned number) {
     CanFrame frame;
     frame.id = id;
@@ -23,7 +23,7 @@ class CanBusContract : public ::testing::Test {
     for (unsigned i = 0; i < frame.size; ++i) frame.data[i] = static_cast<std::uint8_t>(number + i);
     return frame;
   }
-  /// Lets all waiting frames pass; no other node may send.
+  /// All waiting frames pass; no other node may send.
   static void settle(Backend& backend) {
     CanFrame frame;
     EXPECT_FALSE(backend.bus.poll(frame, Backend::kPlenty_us));
@@ -48,7 +48,6 @@ TYPED_TEST(CanBusContract, SendsEachFrameOnceWholeAndInOrder) {
   EXPECT_FALSE(backend.far_take(frame)) << "sent once";
 }
 
-// As the loop sends them.
 TYPED_TEST(CanBusContract, TakesAWholeTickAtOnce) {
   TypeParam backend;
   for (int round = 0; round < 2; ++round) {
@@ -81,7 +80,7 @@ TYPED_TEST(CanBusContract, CarriesExtendedAndRemoteFramesAsSuch) {
     ASSERT_TRUE(backend.bus.send(this->numbered(1, 1)));  // the poll's time starts here
     ASSERT_TRUE(backend.bus.poll(frame, TypeParam::kPlenty_us));
     EXPECT_TRUE(frame == each);
-    this->settle(backend);  // our frame may have waited for that one
+    this->settle(backend);  // ours may have waited for that one
     ASSERT_TRUE(backend.far_take(frame));
   }
 }
@@ -117,7 +116,7 @@ TYPED_TEST(CanBusContract, BringsEachFrameOnceWholeAndInOrder) {
   this->settle(backend);
 }
 
-// More frames than any backend keeps.
+// More than any backend keeps.
 TYPED_TEST(CanBusContract, CountsWhatFindsNoRoom) {
   TypeParam backend;
   constexpr unsigned kFlood = 100;

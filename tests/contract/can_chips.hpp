@@ -7,14 +7,14 @@
 #include "tests/support/can/sja1000_model.hpp"
 #include "tests/support/can/zynqmp_can_model.hpp"
 
-/// CAN controllers on their register models, as backends of the CanBus suite.
+/// CAN controllers on their register models, as backends.
 namespace verp::test {
 
-/// Shared by all pairs of a `Model` on its wire and the `Bus` behind it.
+/// A `Model` on its wire and its `Bus`.
 template <class Model, class Io, class Bus>
 struct CanChip {
   static constexpr std::uint32_t kPlenty_us = 20'000;
-  static constexpr std::uint64_t kSlack_us = 100;  ///< the cost of reading its registers
+  static constexpr std::uint64_t kSlack_us = 100;  ///< reads of registers
   static constexpr bool kBusOff = true;
   static constexpr std::uint32_t kBitRate_hz = 1'000'000;
 
@@ -24,7 +24,7 @@ struct CanChip {
   ~CanChip() { EXPECT_EQ(model.violations(), 0u) << model.first_violation().c_str(); }
 
   void far_send(const CanFrame& frame) { model.wire.far_send(frame); }
-  /// Frames on the wire or in the chip reach the far node first.
+  /// Frames on the wire or in the chip come first.
   bool far_take(CanFrame& frame) {
     for (std::uint32_t us = 0; us < kPlenty_us && !model.wire.idle(); ++us) model.advance(1);
     return model.wire.far_take(frame);
@@ -44,7 +44,7 @@ struct CanChip {
 };
 
 struct Sja1000Chip : CanChip<Sja1000Model, Sja1000ModelIo, hal::sja1000::Sja1000<Sja1000ModelIo>> {
-  /// The timing of the board kvaser_pci.
+  /// Of the board kvaser_pci.
   static constexpr CanTiming kTiming =
       hal::sja1000::Sja1000<Sja1000ModelIo>::timing(16'000'000, kBitRate_hz);
   Sja1000Chip() { EXPECT_TRUE(bus.open(kTiming)); }

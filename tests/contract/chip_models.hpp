@@ -18,8 +18,7 @@
 #include "tests/support/stm32/rig.hpp"
 #include "tests/support/stm32/usart_model.hpp"
 
-/// The drivers of hal/chip/stm32 on the register models, as backends: on the PC, and on target for
-/// what emulators lack.
+/// Drivers of hal/chip/stm32 on register models: on the PC, and on target for what emulators lack.
 namespace verp::test {
 
 using hal::stm32::Family;
@@ -29,7 +28,7 @@ using ChipIo = hal::stm32::test::Io;
 using ChipTimer = hal::stm32::test::Timer;
 using ChipDog = hal::stm32::IndependentWatchdog<ChipIo>;
 
-/// A USART whose wire has no detect line, so nothing shows that the far end is gone.
+/// Its wire has no detect line: nothing shows that the far end is gone.
 class UsartPair {
   static constexpr std::uint32_t kBaud = 2'000'000;
   static constexpr std::uint32_t kStep_us = 50;
@@ -39,7 +38,7 @@ class UsartPair {
   static constexpr bool kDetectsLoss = false;
   static constexpr bool kKeepsBytesOnLoss = true;
 
-  /// The far end: the model's script.
+  /// The model's script.
   class Far {
    public:
     explicit Far(UsartPair& pair) : pair_(pair) {}
@@ -117,10 +116,10 @@ class UsartPair {
   Far far_{*this};
 };
 
-/// A servo at the far end of that wire, behind the loop's own FrameBus.
+/// Behind the loop's own FrameBus.
 struct UsartBus {
   static constexpr std::uint32_t kPlenty_us = 20'000;
-  static constexpr std::uint64_t kSlack_us = 200;  // each register access takes time
+  static constexpr std::uint64_t kSlack_us = 200;  // register accesses
 
   explicit UsartBus(int pings) : left(pings) { wait_for_ping(); }
   void wait_for_ping() {
@@ -146,11 +145,11 @@ struct UsartBus {
                                                                               pair.clock()};
 };
 
-/// A chip's bxCAN and another node on one bus.
+/// With another node on the bus.
 template <Family kFamily>
 struct ChipCan {
   static constexpr std::uint32_t kPlenty_us = 20'000;
-  static constexpr std::uint64_t kSlack_us = 200;  // each register access takes time
+  static constexpr std::uint64_t kSlack_us = 200;  // register accesses
   static constexpr bool kBusOff = true;
 
   void far_send(const CanFrame& frame) { board.can.send(frame); }
@@ -179,7 +178,7 @@ struct ChipTicks {
   ChipTimer& source = rig.timer;
 };
 
-/// A chip's independent watchdog, its oscillator at kLsi_hz, across resets.
+/// Across resets, its oscillator at kLsi_hz.
 template <std::uint32_t kLsi_hz>
 struct ChipWatchdog {
   class Dog {
@@ -212,7 +211,7 @@ struct ChipWatchdog {
   Dog dog;
 };
 
-/// Two sectors of a chip's own flash.
+/// Two sectors.
 template <Family kFamily>
 struct ChipFlash {
   using Pages = hal::stm32::SectorPages<ChipIo, ChipTimer, ChipDog>;
@@ -223,7 +222,7 @@ struct ChipFlash {
   store::FlashStore<Pages> store{pages};
 };
 
-/// A motion sensor behind a chip's SPI.
+/// Behind a chip's SPI.
 template <hal::stm32::model::ImuKind kKind>
 struct ChipImu {
   ChipImu() { settle(); }

@@ -15,12 +15,12 @@
 #include "hal/fake/scripted_imu.hpp"
 #include "hal/fake/scripted_range_finder.hpp"
 
-/// The fakes of hal/fake as backends, on the PC and on target.
+/// hal/fake's, on the PC and on target.
 namespace verp::test {
 
-/// A FrameBus backend prepared for `pings` pings of servo 1. It answers the e-Manual's status
-/// packet, except for the firmware version. kPlenty_us suffices for an answer. kSlack_us is how far
-/// its clock may move when it should stand: 0 in simulated time.
+/// A FrameBus backend for `pings` pings of servo 1. It answers the e-Manual's status packet, except
+/// for the firmware version. kPlenty_us suffices for an answer. kSlack_us: its clock's error while
+/// it should stand; 0 in simulated time.
 inline const std::vector<std::uint8_t> kPing = {0xFF, 0xFF, 0xFD, 0x00, 0x01,
                                                 0x03, 0x00, 0x01, 0x19, 0x4E};
 
@@ -50,9 +50,9 @@ struct ScriptedInPieces : Scripted {
   explicit ScriptedInPieces(int pings) : Scripted(pings) { bus.set_piece(3); }
 };
 
-/// A CanBus backend: `bus` is one node, the test is the other. far_send() sends once the wire is
-/// free; far_take() returns the next frame received there. kPlenty_us suffices for hal::kCanQueue
-/// frames. If kBusOff, fill_and_bus_off() queues frames and then causes bus-off.
+/// A CanBus backend: `bus` is one node, the test the other. far_send() sends once the wire is free;
+/// far_take() returns the next frame received there. kPlenty_us suffices for hal::kCanQueue frames.
+/// kBusOff: fill_and_bus_off() queues frames, then causes bus-off.
 struct ScriptedWire : SimulatedTime {
   static constexpr bool kBusOff = true;
   void far_send(const CanFrame& frame) { bus.inject(frame, bus.now_us() + 100); }
@@ -66,7 +66,7 @@ struct ScriptedWire : SimulatedTime {
   hal::ScriptedCan bus;
 };
 
-/// A ByteLink backend: near() is the end under test; cut() removes the far end, mend() restores it.
+/// A ByteLink backend: near() is under test; cut() removes the far end, mend() restores it.
 struct MemoryPair {
   static constexpr bool kDetectsLoss = true;
   static constexpr bool kKeepsBytesOnLoss = true;
@@ -95,14 +95,14 @@ struct Manual {
   hal::ManualClock source;
 };
 
-/// The watchdog really waits kPercent of its timeout.
+/// The watchdog waits kPercent of its timeout.
 template <std::uint32_t kPercent>
 struct FakeDog {
   hal::FakeWatchdog dog{kPercent};
 };
 
-/// An Imu backend. measure(gyro_x) makes the chip take one sample with this value. break_chip(yes)
-/// stops or restores its answers. settle() gives it time to come up, without samples.
+/// An Imu backend. measure(gyro_x) takes one sample with this value. break_chip(yes) stops or
+/// restores answers. settle() gives time to come up, without samples.
 struct ScriptedChip {
   void measure(std::int16_t gyro_x) { imu.measure({{gyro_x, 0, 0}, {0, 0, 0}, time_us += 8000}); }
   void break_chip(bool yes) { broken = yes; }
@@ -121,7 +121,7 @@ struct ScriptedChip {
 struct ScriptedLaser {
   static constexpr std::size_t kSteps = 21;
   static constexpr bool kBreaks = true;
-  /// One turn of the mirror: 1 m ahead, nothing elsewhere.
+  /// 1 m ahead, nothing elsewhere.
   void turn() {
     hal::RangeScan scan;
     scan.time_us = time_us += 50'000;
@@ -143,8 +143,8 @@ struct ScriptedLaser {
 };
 
 /// A Camera backend. show() makes the next picture of kWidth by kHeight pixels. is(frame, n) checks
-/// that the bytes are picture n, counted from 0. break_it(yes) unplugs or replugs it. After wait()
-/// the next read looks for it.
+/// that the bytes are picture n, from 0. break_it(yes) unplugs or replugs it; after wait() the next
+/// read looks for it.
 struct ScriptedEye {
   static constexpr std::uint32_t kWidth = 4, kHeight = 2;
   static constexpr bool kBreaks = true;

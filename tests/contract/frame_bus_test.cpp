@@ -7,7 +7,7 @@
 #include "hal/contract/frame_bus.hpp"
 #include "tests/contract/backends.hpp"
 
-// The promises of hal/contract/frame_bus.hpp, for each backend.
+// hal/contract/frame_bus.hpp.
 
 namespace verp {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 using test::kPing;
 using test::ping_reply;
 
-constexpr std::uint32_t kTooShort_us = 60;  // shorter than a ping's own time, or the script's delay
+constexpr std::uint32_t kTooShort_us = 60;  // shorter than a ping, or the script's delay
 
 template <class Backend>
 class FrameBusContract : public ::testing::Test {

@@ -5,7 +5,7 @@
 #include "hal/contract/imu.hpp"
 #include "tests/contract/backends.hpp"
 
-// The promises of hal/contract/imu.hpp.
+// hal/contract/imu.hpp.
 namespace verp {
 namespace {
 

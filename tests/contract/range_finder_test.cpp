@@ -5,7 +5,7 @@
 #include "hal/contract/range_finder.hpp"
 #include "tests/contract/backends.hpp"
 
-// The promises of hal/contract/range_finder.hpp.
+// hal/contract/range_finder.hpp.
 namespace verp {
 namespace {
 
@@ -31,7 +31,7 @@ TYPED_TEST(RangeFinderContract, GivesEachScanOnceAndTheNewestOnly) {
     this->laser.turn();
     ASSERT_EQ(this->laser.read(this->scan), hal::RangeStatus::kFresh);
     EXPECT_EQ(this->scan.steps, TypeParam::kSteps);
-    // 1 m ahead in the middle, nothing on the left.
+    // 1 m ahead, nothing on the left.
     EXPECT_NEAR(this->scan.range_mm[TypeParam::kSteps / 2], 1000,
                 80);  // a twin stands slightly off
     EXPECT_EQ(this->scan.range_mm[TypeParam::kSteps - 1], 0);
@@ -57,13 +57,13 @@ TYPED_TEST(RangeFinderContract, CountsFaultsKeepsTheScanAndComesBack) {
     EXPECT_EQ(this->scan.time_us, before_us);
     this->laser.break_it(false);
     this->laser.wait();
-    this->laser.read(this->scan);  // asks it again
+    this->laser.read(this->scan);  // asks again
     const std::uint32_t faults = this->laser.faults();
     this->laser.turn();
     ASSERT_EQ(this->laser.read(this->scan), hal::RangeStatus::kFresh);
     EXPECT_EQ(this->laser.faults(), faults);
   } else {
-    EXPECT_EQ(this->laser.faults(), 0u);  // a twin's laser never fails
+    EXPECT_EQ(this->laser.faults(), 0u);  // a twin's never fails
   }
 }
 

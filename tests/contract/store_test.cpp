@@ -8,7 +8,7 @@
 #include "hal/contract/store.hpp"
 #include "tests/contract/backends.hpp"
 
-// The promises of hal/contract/store.hpp, for each backend. tests/unit/store tests power cuts.
+// hal/contract/store.hpp. tests/unit/store tests power cuts.
 
 namespace verp {
 namespace {

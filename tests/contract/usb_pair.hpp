@@ -6,8 +6,7 @@
 
 #include "tests/support/stm32/usb_rig.hpp"
 
-/// A chip's USB port and a program on a PC. The far end closes the port or, if `kPulled`, pulls the
-/// cable.
+/// A chip's USB port and a PC's program, which closes the port or, if `kPulled`, pulls the cable.
 namespace verp::test {
 
 template <hal::stm32::Family kFamily, bool kPulled>
@@ -16,12 +15,12 @@ class UsbPair {
 
  public:
   static constexpr bool kDetectsLoss = true;
-  static constexpr bool kKeepsBytesOnLoss = !kPulled;  // some bytes may still be in the PC
+  static constexpr bool kKeepsBytesOnLoss = !kPulled;  // some may be in the PC
 
   class Far {
    public:
     explicit Far(UsbPair& pair) : pair_(pair) {}
-    /// Waits, within its timeout, until the device has them.
+    /// Waits until the device has them.
     std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t timeout_us) {
       constexpr std::size_t kRoom = 256;
       auto& host = pair_.rig_.host;

@@ -135,7 +135,7 @@ class Twin:
                                         stdin=subprocess.DEVNULL, stdout=open("twin.out", "w"), stderr=self.log)
 
     def __enter__(self):
-        for _ in range(6000):  # a minute: sanitizers and other tests slow it
+        for _ in range(6000):  # a minute: other tests slow it
             if os.path.islink(self.path):
                 return self
             assert self.process.poll() is None, self.said()
@@ -255,7 +255,7 @@ def another_rate(twin):
     port.set_rate(57600)
     assert port.ask(3, PING).device == 3
     port.silence(packet(4, PING))
-    assert port.write(3, 8, 4, 1) == 0  # Baud Rate: 2 M; the answer has the old rate
+    assert port.write(3, 8, 4, 1) == 0  # 2 M; the answer has the old rate
     port.silence(packet(3, PING))
     port.set_rate(2000000)
     assert port.ask(3, PING).device == 3
@@ -272,7 +272,7 @@ def long_packets(twin):
     assert port.ask(1, PING).error == 0
 
 
-HEAD = 19  # turns about the vertical: carries only itself
+HEAD = 19  # carries only itself
 DRIVE_MODE, MODE, STARTUP, TORQUE, VELOCITY_P, POSITION_P = 10, 11, 60, 64, 78, 84
 GOAL_PWM, GOAL_CURRENT, GOAL_VELOCITY, ACCELERATION, VELOCITY, GOAL = 100, 102, 104, 108, 112, 116
 TICK, MOVING, STATUS_123, PWM, CURRENT, SPEED, POSITION, SPEED_WANTED, POSITION_WANTED = 120, 122, 123, 124, 126, 128, 132, 136, 140
@@ -332,7 +332,7 @@ def profiles(twin):
     set_up(port, 3)
     here = port.read(HEAD, POSITION, 4)
     assert port.write(HEAD, TORQUE, 1, 1) == 0
-    # 600 counts at 50 * 0.229 rev/min = 782 counts/s; with 20 * 214.577 rev/min^2 = 4883 counts/s^2 0.16 s more.
+    # 600 counts at 782 counts/s (50 * 0.229 rev/min); 4883 counts/s^2 (20 * 214.577 rev/min^2) take 0.16 s more.
     for acceleration, kind, least, most in ((0, 1, 700, 850), (20, 3, 860, 1010)):
         assert port.write(HEAD, ACCELERATION, acceleration, 4) == 0
         assert port.write(HEAD, VELOCITY, 50, 4) == 0
@@ -345,7 +345,7 @@ def profiles(twin):
         status = port.read(HEAD, STATUS_123, 1)
         assert status & 2 == 0 and status & 8 == 0 and status & 1, status
         assert abs(port.read(HEAD, POSITION_WANTED, 4) - goal) <= 1
-    set_up(port, 3, 4)  # time-based: one second, of which acceleration may take at most half
+    set_up(port, 3, 4)  # one second, at most half of it acceleration
     assert port.write(HEAD, TORQUE, 1, 1) == 0
     for acceleration, kind in ((0, 1), (250, 3), (800, 2)):
         assert port.write(HEAD, VELOCITY, 1000, 4) == 0
@@ -398,7 +398,7 @@ def modes(twin):
     assert port.write(HEAD, GOAL, stop + 900, 4) == 0  # beyond its stop
     rest(port, 700)
     assert abs(port.read(HEAD, CURRENT, 2) - 60) <= 4, port.read(HEAD, CURRENT, 2)
-    assert port.read(HEAD, STATUS_123, 1) & 9 == 8  # it neither follows nor arrives
+    assert port.read(HEAD, STATUS_123, 1) & 9 == 8  # neither follows nor arrives
     assert port.write(HEAD, GOAL, here, 4) == 0
     rest(port, 1500)
 
@@ -418,7 +418,7 @@ def startup(twin):
     """Point 12: Startup Configuration (60) and Control Table Backup."""
     port = Port(twin.path)
     store, restore = b"\x01CTRL", b"\x02CTRL"
-    assert port.ask(HEAD, BACKUP, restore).error == RESULT_FAIL  # nothing is backed up
+    assert port.ask(HEAD, BACKUP, restore).error == RESULT_FAIL  # no backup
     assert port.write(HEAD, POSITION_P, 900, 2) == 0
     assert port.write(HEAD, TORQUE, 1, 1) == 0
     assert port.ask(HEAD, BACKUP, store).error == RESULT_FAIL
@@ -432,7 +432,7 @@ def startup(twin):
     assert port.read(HEAD, POSITION_P, 2) == 900 and port.read(HEAD, TORQUE, 1) == 1
     assert abs(port.read(HEAD, GOAL, 4) - port.read(HEAD, POSITION, 4)) <= 10
     assert port.write(HEAD, TORQUE, 0, 1) == 0
-    assert port.ask(HEAD, BACKUP, restore).error == 0  # of EEPROM: 60 was 0 at that time
+    assert port.ask(HEAD, BACKUP, restore).error == 0  # 60 was 0 in the backup
     assert port.read(HEAD, STARTUP, 1) == 0
     set_up(port, 3, 8)  # Torque On by Goal Update
     assert port.write(HEAD, GOAL, port.read(HEAD, POSITION, 4), 4) == 0

@@ -28,12 +28,12 @@ bool special_asin(float x, float& expected) {
   return !(std::fabs(x) <= 1.0F);
 }
 bool special_exp(float x, float& expected) {
-  constexpr float kLargest = 0x1.62e42ep+6F;  // the largest float whose exponential is a float
+  constexpr float kLargest = 0x1.62e42ep+6F;  // its exponential is a float
   expected = x > kLargest ? math::kMaxFloat : 0.0F;
   return !std::isfinite(x) || x > kLargest;
 }
 
-/// sincos() must give the same bits as sin() and cos().
+/// The same bits as sin() and cos().
 float sin_of_both(float x) {
   return math::sincos(x).sin;
 }

@@ -2,7 +2,7 @@
 
 namespace verp::exhaustive {
 
-/// Prints tests/unit/math/golden.hpp: this build's results for the golden arguments.
+/// Prints tests/unit/math/golden.hpp.
 void print_golden();
 
 }  // namespace verp::exhaustive

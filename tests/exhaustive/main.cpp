@@ -17,7 +17,7 @@
 #include "tests/exhaustive/functions.hpp"
 #include "tests/exhaustive/golden.hpp"
 
-/// verp_exhaustive: the worst error of common/math's elementary functions over every float.
+/// The worst error of common/math's elementary functions.
 namespace verp::exhaustive {
 namespace {
 
@@ -39,7 +39,7 @@ struct Options {
   bool json = false;
 };
 
-/// The worst error so far and its arguments: one, or two for atan2.
+/// With its arguments: one, or two for atan2.
 struct Worst {
   double error_ulp = 0;
   float x = 0;
@@ -56,7 +56,7 @@ struct Report {
   bool good() const { return worst.error_ulp <= bound_ulp; }
 };
 
-/// A progress bar on stderr, only on a terminal.
+/// On stderr, only on a terminal.
 class Progress {
  public:
   Progress(std::string_view name, std::uint64_t total) : name_(name), total_(total) {}
@@ -79,7 +79,7 @@ class Progress {
   bool shown_ = isatty(STDERR_FILENO) == 1;
 };
 
-/// Calls test(i, worst) for all i below `count`, in blocks over the threads; returns the worst.
+/// Calls test(i, worst) for all i below `count`, in blocks over threads.
 template <class Test>
 Report sweep(std::string_view name, double bound_ulp, std::uint64_t count, unsigned threads,
              Test test) {
@@ -103,7 +103,7 @@ Report sweep(std::string_view name, double bound_ulp, std::uint64_t count, unsig
   }
   for (std::thread& worker : workers) worker.join();
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  // Equal errors rank by argument, so that the report does not depend on the threads.
+  // Equal errors rank by argument, so the threads do not matter.
   const auto less = [](const Worst& a, const Worst& b) {
     if (a.error_ulp != b.error_ulp) return a.error_ulp < b.error_ulp;
     return std::bit_cast<std::uint32_t>(a.x) > std::bit_cast<std::uint32_t>(b.x);
@@ -170,7 +170,7 @@ void print_json(const std::vector<Report>& reports) {
   std::printf("{\"functions\": [");
   const char* separator = "";
   for (const Report& report : reports) {
-    // JSON has no infinity: -1 marks a wrong special value or a result that is not finite.
+    // JSON has no infinity: -1 marks a wrong special value.
     const double error = std::isfinite(report.worst.error_ulp) ? report.worst.error_ulp : -1.0;
     std::printf(
         "%s\n  {\"name\": \"%.*s\", \"worst_ulp\": %.6f, \"bound_ulp\": %g, \"good\": %s, "
@@ -196,7 +196,7 @@ bool known(std::string_view function) {
                      [&](const UnaryFunction& f) { return f.name == function; });
 }
 
-/// Empty on success, else the mistake.
+/// The mistake, or empty.
 std::string parse(int argc, char** argv, Options& options) {
   for (int i = 1; i < argc; ++i) {
     const std::string_view option = argv[i];

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# boards.sh ROOT: every STM32 board has an entry in each place that boards/README.md, "One more STM32 board", names, and
-# that page names each such place. Prints one line per missing entry.
+# boards.sh ROOT: every STM32 board has an entry in each place that boards/README.md, "One more STM32 board", names.
+# Prints one line per missing entry.
 set -uo pipefail
 cd "$1" || exit 3
 failed=0

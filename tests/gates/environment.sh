@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# environment.sh ROOT: configures ROOT in an environment that offers foreign packages, tools and flags in every way that
-# this script knows, and builds one program and one module of it there. Prints what was taken from that environment; exit
-# status 1 if anything was. Works in a scratch folder.
+# environment.sh ROOT: configures ROOT in an environment that offers foreign packages, tools and flags, and builds one
+# program and one module there. Prints what was taken from it; exit status 1 if anything was. Works in a scratch
+# folder.
 set -uo pipefail
 root=$1
 scratch=$(mktemp -d)
@@ -52,7 +52,7 @@ cd "$root" || exit 3
 try 'configuring' /usr/bin/cmake --preset host-release -B "$build" -DVERP_TESTS=ON
 grep -q '^-- Environment variables without effect on this build: .*CXXFLAGS.*CMAKE_PREFIX_PATH' "$scratch/log" ||
   { echo 'the variables without effect are not named' && failed=1; }
-# With what `ninja` alone configures once more.
+# `ninja` alone configures once more.
 rm -f "$build/.ninja_deps" && touch -d 2001-01-01 "$build/build.ninja"
 try 'building' /usr/bin/ninja -C "$build" replay_contracted verp_instruction_count
 grep -rlF -e "$foreign" -e '-march=native -O3' "$build"/{CMakeCache.txt,build.ninja,compile_commands.json} | sed 's/$/ names what is foreign/' |

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # golden.sh ROOT: each kCoreVersion has one digest of the long trace, for ever. The last line of
-# tests/golden/core_versions.txt holds the core's current version and digest. Versions rise, no digest recurs, and
-# committed lines never change. The trace uses generic21, so new numbers in its file also need a new version.
+# tests/golden/core_versions.txt is the current one. Versions rise, no digest recurs, committed lines never change. New
+# numbers in generic21's file need a new version, too.
 set -euo pipefail
 
 cd "$1"

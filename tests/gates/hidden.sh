@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# hidden.sh ROOT: configures ROOT with its tests once for each optional package, with that package hidden. Each time cmake
-# has to succeed, everything in `all` has to have a rule, and left_out.txt has to name the package. Prints what does not
-# hold; exit status 1 if anything. Works in a scratch folder.
+# hidden.sh ROOT: configures ROOT with its tests once for each optional package, with that package hidden. cmake has to
+# succeed, everything in `all` to have a rule, and left_out.txt to name the package. Prints what does not hold; exit
+# status 1 if anything. Works in a scratch folder.
 set -uo pipefail
 cd "$1" || exit 3
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 failed=0
 
-undo=() # words for cmake that show again what was hidden
+undo=() # words for cmake that show what was hidden
 configured() { # package cmake-argument...
   local package=$1
   shift
@@ -23,7 +23,7 @@ hidden() { # package cmake-argument...
   left_out | grep -q "$1" || { echo "without $1 left_out.txt says: $(left_out)" && failed=1; }
 }
 
-# pkg-config, which does not know the module that a file names.
+# A pkg-config that does not know the file's module.
 printf '#!/bin/sh\ncase " $* " in *" $(cat %s/module) "*) exit 1 ;; esac\nexec pkg-config "$@"\n' "$scratch" >"$scratch/pkg-config"
 chmod +x "$scratch/pkg-config" && echo none >"$scratch/module"
 configured nothing -D VERP_TESTS=ON -D PKG_CONFIG_EXECUTABLE="$scratch/pkg-config" || exit 1
@@ -43,7 +43,7 @@ for each in qt6-base-dev:Qt6 libqcustomplot-dev:QCustomPlotQt6 libbenchmark-dev:
 done
 for each in octave-dev:VERP_MKOCTFILE octave:VERP_OCTAVE mono-mcs:VERP_MCS mono-runtime:VERP_MONO python3-cffi:VERP_PYTHON_cffi \
   python3-numpy:VERP_PYTHON_numpy clang:VERP_CLANG xvfb:VERP_XVFB_RUN mkdocs:VERP_MKDOCS; do
-  hidden "${each%:*}" -D "${each#*:}=" # defined, so cmake does not look for it
+  hidden "${each%:*}" -D "${each#*:}=" # defined, so not searched
   undo=(-U "${each#*:}")
 done
 exit "$failed"

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# links.sh ROOT: every relative link of a Markdown page resolves to a file or folder, and its anchor to a heading of that
-# page. Links of the manual to pages that host/guide/build_manual.py writes must name one of those. Prints file:line and
-# the link for each violation; exit status 1 if there is any.
+# links.sh ROOT: every relative link of a Markdown page resolves to a file or folder, and its anchor to a heading.
+# Links of the manual to pages that host/guide/build_manual.py writes must name one of those. Prints file:line and the
+# link; exit status 1 if there is a violation.
 set -uo pipefail
 cd "$1" || exit 3
 failed=0
 complain() { echo "$1: $2" && failed=1; }
 
-links_of() { # page: line, tab, target of each link outside of code
+links_of() { # line, tab, target of each link outside of code
   awk '/^```/ { code = !code; next } code || /^    / { next }
     { gsub(/`[^`]*`/, "")
       while (match($0, /\]\([^) ]+\)/)) {
@@ -16,7 +16,7 @@ links_of() { # page: line, tab, target of each link outside of code
       } }' "$1"
 }
 
-anchors_of() { # page: its headings as anchors
+anchors_of() { # headings as anchors
   awk '/^```/ { code = !code; next } code { next }
     sub(/^#+ +/, "") { $0 = tolower($0); gsub(/[^a-z0-9_ -]/, ""); gsub(/^ +| +$/, ""); gsub(/ +/, "-"); print }' "$1"
 }

@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
-# merge.sh ROOT: the merge gate leaves to --full what tests/full.md names, and no more. The lists below say which boards, which
-# folders under sanitizers and which tests it must run, whatever tests/run and that table say. Each row of the table names tests
-# that exist, and one that stays. The whole run may take 45 minutes, 25 with a warm cache. Prints what is missing; exit status 1
-# if anything is.
+# merge.sh ROOT: the merge gate leaves to --full what tests/full.md names, and no more. The lists below say which
+# boards, sanitized folders and tests it must run, whatever tests/run and that table say. Each row names tests that
+# exist, and one that stays. The whole run may take 45 minutes, 25 with a warm cache. Prints what is missing; exit
+# status 1 if anything is.
 set -uf -o pipefail
 cd "$1" || exit 3
 failed=0
 missing() { echo "$1" && failed=1; }
 
 boards_of_full='mps2_an385 mps2_an500 mps3_an547 nucleo_f446re'
-# The core, and code that reads foreign bytes.
+# The core, and readers of foreign bytes.
 sanitized='unit math replay contract hil host.action host.bus host.can host.edit host.eds host.files host.libverp host.link host.live
   host.model host.radio host.record host.shadow host.tool.verp_tool_test.input_tests'
-# Bits of every instruction set, loops over every bus, walks, faults, and gates.
+# Bits of every instruction set, loops over every bus, walks, faults, gates.
 kept='replay.golden replay.matrix trace.mps2_an386 loop.mps2_an386 tour.mps2_an386 bench.mps2_an386 unit.mps2_an386 hil.olimex_h405.walk
   budget.olimex_h405 budget.opencr trace.qemu_rv32 can.qemu_rv32 trace.zcu102_r5 can.zcu102_r5 can_loop.zcu102_r5
   hil.Serial/Campaign.StaysSafeAndTells/noise hil.Can/CanCampaign.StaysSafeAndTells/doubled scenario.Generic21.WalksSideways
@@ -43,11 +43,11 @@ grep -q 'TEST_LIST input_tests' tests/host/tool/CMakeLists.txt || missing 'tests
 grep -q '^host-asan-ubsan tests: ' <<<"$full" || missing 'tests/run: --full has no sanitizers'
 [[ ! $(sed -nE 's/^host-release tests: .* -E ([^ ]+).*/\1/p' <<<"$full") ]] || missing 'tests/run: --full leaves tests out'
 
-# Suite.Name of each test of GoogleTest, and the name of each of CMake's.
+# Suite.Name for GoogleTest, the name for CMake.
 tests=$(grep -rhozE --include='*_test.cpp' 'TEST(_F|_P)?\(\w+,\s*\w+\)' tests | tr -d '\n ' | tr '\0' '\n' | sed -E 's/.*\((.*),(.*)\)/\1.\2/'
   grep -rhoE --include=CMakeLists.txt --include='*.cmake' 'NAME [a-z0-9_.]+' tests | sed 's/.* //')
 of_boards=$(grep -rhoE --include=CMakeLists.txt --include='*.cmake' '\w+\.\$\{VERP_BOARD|_test\(\w+ ' boards | sed -E 's/.*\(//; s/[. ].*//')
-is_there() { # name; `*` is any part of it
+is_there() { # `*` is any part of a name
   local board kind=${1%%.*}
   for board in $boards; do
     [[ $1 != *."$board" && $1 != *."$board"[.*]* ]] && continue

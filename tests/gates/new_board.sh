@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # new_board.sh ROOT BUILD: adds a first board as boards/README.md, "One more STM32 board", says, in a copy of the
-# sources. The board is a copy of olimex_h405, whose chip has an emulator. boards.sh must find nothing missing, the
-# images must build within their budget, and a unit test must run in one.
+# sources. It copies olimex_h405, whose chip has an emulator. boards.sh must find nothing missing, the images must
+# build within their budget, and a unit test must run.
 set -euo pipefail
 root=$1 tree=$2/new_board old=olimex_h405 new=my_board
 mkdir -p "$tree"
@@ -12,7 +12,7 @@ cd "$tree"
 rm -rf "boards/$new"
 cp -r "boards/$old" "boards/$new"
 sed -i "s/$old/$new/g" "boards/$new"/*
-# Step 4: presets for configure, build and test.
+# Step 4: presets.
 python3 - "$old" "$new" <<'END'
 import json, sys
 old, new = sys.argv[1:]

@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
-# self_test.sh GATE ROOT [COMPILER NM OBJDUMP]: plants violations one at a time and checks that the gate names each. A
-# gate that misses a planted fault is worse than no gate.
+# self_test.sh GATE ROOT [COMPILER NM OBJDUMP]: plants violations one at a time and checks that the gate names each.
 set -euo pipefail
 
 gate=$1 root=$2 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -8,7 +7,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 failed=0 planted=0
 
-expect() { # what reason command...: the command must fail and say the reason (empty reason: it must pass)
+expect() { # what reason command...: the command must fail and say the reason (empty: pass)
   local what=$1 reason=$2 output status=0
   shift 2
   planted=$((planted + 1))
@@ -53,7 +52,7 @@ test_layers() {
   layers_case 'a folder nobody planned' 'no rule for this folder' common/magic/a.cpp 'int a();'
 }
 
-golden_case() { # what reason version digest table: in a repository whose last commit has versions 4 and 5
+golden_case() { # what reason version digest table: the last commit has versions 4 and 5
   local tree=$scratch/golden
   rm -rf "$tree"
   mkdir -p "$tree/tests/golden" "$tree/common/model"
@@ -122,7 +121,7 @@ test_symbols() {
   symbols_case 'a general product' 'general products' '' 'void gebp() {}'
 }
 
-# A stub disassembler that prints one line of another core's code.
+# A stub disassembler prints one line of another core.
 disassembly_case() { # what reason line
   printf '#!/bin/sh\n[ "$1" != -d ] || echo "%s"\n' "$3" >"$scratch/objdump"
   chmod +x "$scratch/objdump"
@@ -139,7 +138,7 @@ test_format() {
   expect 'unformatted code' 'clang-format' "$here/format.sh" "$scratch"
 }
 
-# Adds a board as boards/README.md says. Until the last step is done, the gate names the next one.
+# Adds a board step by step; the gate names the next one.
 test_boards() {
   local tree=$scratch/tree old=nucleo_f446re new=my_board gate=("$here/boards.sh" "$scratch/tree")
   mkdir -p "$tree/host/boards/flash" "$tree/tests/host/stm32_boards"
@@ -166,7 +165,7 @@ test_boards() {
   expect 'every step done' '' "${gate[@]}"
 }
 
-# A project in which nothing is built: what tests/run would do, and the sources that name tests.
+# A project without a build: what tests/run would do, and the test sources.
 merge_case() { # what reason [file sed-expression]
   local tree=$scratch/tree
   [[ -e $tree ]] || { mkdir -p "$tree" && tar -cf - tests boards CMakePresets.json host/boards/board/cost_promise.hpp | tar -C "$tree" -xf -; }

@@ -7,11 +7,11 @@
 #  - no fused multiply-add and no double-precision instruction: both would change bits between machines
 #  - no Arm vectors of floats: they flush subnormals
 set -euo pipefail
-shopt -s lastpipe # so that `complain` at the end of a pipe can set `bad`
+shopt -s lastpipe # a pipe's `complain` can set `bad`
 
 archive=$1 nm=$2 objdump=$3 float=${4:-hard}
 bad=0
-complain() { # reason, then the offending lines on stdin; nothing on stdin is no complaint
+complain() { # reason; offending lines on stdin, if any
   local lines
   lines=$(head -n 5)
   [[ -n $lines ]] || return 0
@@ -21,7 +21,7 @@ complain() { # reason, then the offending lines on stdin; nothing on stdin is no
 
 allowed='memcpy|memmove|memset|memcmp|_GLOBAL_OFFSET_TABLE_|__aeabi_mem(cpy|move|set|clr)[48]?'
 allowed+='|__aeabi_(u?idiv(mod)?|u?ldivmod|lmul|l(lsl|lsr|asr)|u?lcmp|u?l2f|f2u?lz)'
-allowed+='|__(u?divdi3|u?moddi3|muldi3|(ashl|ashr|lshr)di3|(clz|ctz|bswap|popcount)[sd]i2)' # the same helpers on RISC-V
+allowed+='|__(u?divdi3|u?moddi3|muldi3|(ashl|ashr|lshr)di3|(clz|ctz|bswap|popcount)[sd]i2)' # for RISC-V
 [[ $float != soft ]] || allowed+='|__((add|sub|mul|div|neg)sf3|(eq|ne|lt|le|gt|ge|unord)sf2|float(un)?sisf|fix(uns)?sfsi)'
 [[ $float != soft ]] || allowed+='|sqrtf|__aeabi_(c?f(add|sub|rsub|mul|div|neg|cmp(eq|lt|le|ge|gt|un)|cmple|rcmple|cmpeq)|u?i2f|f2u?iz)'
 

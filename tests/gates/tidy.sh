@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# tidy.sh ROOT BUILD: runs clang-tidy with .clang-tidy on the core, with the flags in BUILD/compile_commands.json.
+# tidy.sh ROOT BUILD: clang-tidy on the core, with the flags in BUILD/compile_commands.json.
 set -euo pipefail
 
 cd "$1"

@@ -58,7 +58,7 @@ def commands_in(text):
         try:
             words = list(lexer)
         except ValueError:
-            continue  # a quote that goes on in the next line
+            continue  # a quote goes on in the next line
         for first, word in enumerate(words):
             if word in ("./verp", "verp"):
                 ends = [i for i in range(first, len(words)) if set(words[i]) <= set("&|;<>")]
@@ -80,7 +80,7 @@ def unknown_word(program, words):
             break
         path.append(word)
     if path and help_of(program, path[0]) is None:
-        return None  # a program of its own, which is not built here
+        return None  # a program that is not built here
     known = "".join(help_of(program, *path[:length]) or "" for length in range(len(path) + 1))
     for word in words:
         option = word.partition("=")[0]

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# launcher_test.sh ROOT: checks the promises of ./verp on a scratch project where every outside command is a stub.
+# launcher_test.sh ROOT: checks ./verp on a scratch project where every outside command is a stub.
 set -uo pipefail
 
 root=$1
@@ -12,12 +12,12 @@ stub() { # name script
   chmod +x "$scratch/bin/$1"
 }
 
-# A project that builds a program that echoes its arguments and exits with 7. g++ is missing until apt-get installs it.
+# Its program echoes its arguments and exits with 7. g++ is missing until apt-get installs it.
 fresh_project() {
   rm -rf "${scratch:?}"/*
   mkdir -p "$scratch/bin" "$scratch/toolchains" "$scratch/tests" "$scratch/boards/b1" "$scratch/boards/shared"
   touch "$scratch/boards/b1/memory.ld"
-  sed '/^PATH=/d' "$root/verp" >"$scratch/verp" && chmod +x "$scratch/verp" # or Debian's own tools hide the stubs
+  sed '/^PATH=/d' "$root/verp" >"$scratch/verp" && chmod +x "$scratch/verp" # Debian's own tools would hide the stubs
   cp "$root/toolchains/compile" "$scratch/toolchains/"
   printf 'run cmake why\nrun g++ why\nfw gcc-arm why\nbench libbench why\ntest clang why\npython python3-cffi why\nmanual mkdocs why\n' >"$scratch/toolchains/packages.txt"
   echo '{}' >"$scratch/CMakePresets.json"
@@ -54,7 +54,7 @@ check() { # what status output-on-stdout part-of-stderr
   failed=1
 }
 
-# Help answers before anything is installed, built or waited for.
+# Help answers before anything is installed or built.
 fresh_project
 mkdir -p "$scratch/build" && exec 7>"$scratch/build/.lock" && flock 7
 for word in --help -h; do
@@ -146,7 +146,6 @@ touch "$scratch/build/.packages-run"
 sleep 0.01 && touch "$scratch/toolchains/packages.txt"
 configured_for 'after packages came or went all is found anew, with the tests' '--fresh -DVERP_TESTS=ON --preset host-release' walk
 
-# libverp in Python.
 fresh_project
 echo g++ >>"$scratch/installed"
 echo 'import os, sys; print(sys.argv[1:], sys.executable, os.environ["PYTHONPATH"]); sys.exit(7)' >"$scratch/a.py"
@@ -161,14 +160,14 @@ launch manual --yes
 check 'the manual gets its package and says where it is' 0 "$scratch/build/manual/site/index.html" 'missing: mkdocs'
 grep -q 'host-release manual$' "$scratch/built" || { echo "FAILED: manual built: $(<"$scratch/built")" && failed=1; }
 
-# A cache that cannot be written is named where it was missed.
+# A read-only cache is named where it was missed.
 fresh_project
 echo g++ >>"$scratch/installed"
 stub ninja "echo '[1/1] Building CXX object a.o'; mkdir -p build/host-release/host/apps/tool; ln -sf /bin/echo build/host-release/host/apps/tool/verp"
 CCACHE_DIR=/proc/nowhere launch walk
 check 'what ccache could not keep is compiled all the same' 0 walk 'without ccache: its folder /proc/nowhere cannot be written'
 
-# The launcher finds Debian's tools before others.
+# Debian's tools come first.
 fresh_project
 cp "$root/verp" "$scratch/" && mkdir -p "$scratch/host/trace/record"
 stub cmake "echo taken >'$scratch/foreign'"
@@ -205,7 +204,7 @@ for each in 1 2 3; do (launch "$each" && check 'copies at the same time' 0 "$eac
 for each in 1 2 3; do wait -n || failed=1; done
 [[ ! -e $scratch/overlap ]] || { echo 'FAILED: two builds at once' && failed=1; }
 
-# Tests tests/run on a scratch project whose ctest and cmake are stubs.
+# tests/run with stubs for ctest and cmake.
 cd "$root" || exit 1
 for words in '--only nonesuch' '--only' '--on=' '--on nonesuch' '--filter (' '--nonesuch'; do
   # shellcheck disable=SC2086
@@ -234,13 +233,13 @@ output=$(cd "$scratch" && PATH="$scratch/bin:/usr/bin:/bin" tests/run --filter '
   { echo "FAILED: of a failed test its own lines are not shown: status $status, $output" && failed=1; }
 grep -q -- '-R ^unit' "$scratch/asked" || { echo "FAILED: --filter did not reach ctest: $(<"$scratch/asked")" && failed=1; }
 
-# On a terminal, for which `script` stands in, tests/run shows a progress line.
+# On a terminal (`script`), tests/run shows a progress line.
 stub ninja 'echo "[7/9] Building b.o"; sleep 1.5'
 stub ctest 'echo " 2/2 Test  #2: unit.b1 ........   Passed    0.10 sec"; sleep 1.5'
 output=$(cd "$scratch" && PATH="$scratch/bin:/usr/bin:/bin" script -qec 'tests/run --filter x' /dev/null </dev/null)
 [[ $output == *'build, '*'[7/9]'* ]] || { echo "FAILED: no progress on a terminal: $output" && failed=1; }
 
-# A stage over its budget is reported as late but does not fail.
+# A late stage is reported but does not fail.
 stub ninja 'sleep 1.5'
 sed -i 's/^    preset "$each" 900 /    preset "$each" 0 /' "$scratch/tests/run"
 output=$(cd "$scratch" && PATH="$scratch/bin:/usr/bin:/bin" tests/run --filter x 2>&1)

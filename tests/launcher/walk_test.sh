@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
-# walk_test.sh ROOT: `./verp walk --for 20 --json` succeeds, does not fall, and writes exactly one JSON object to
-# stdout.
+# walk_test.sh ROOT: `./verp walk --for 20 --json` succeeds, does not fall, and writes one JSON object to stdout.
 set -euo pipefail
 
 scratch=$(mktemp -d)

@@ -5,7 +5,7 @@ namespace {
 
 using namespace verp::hal::stm32;
 
-/// The clock cannot give this rate exactly; compilation fails, not the robot.
+/// Compilation fails, not the robot.
 #ifndef BROKEN
 constexpr std::uint32_t kRate = 1'000'000;
 #else

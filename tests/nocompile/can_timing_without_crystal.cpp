@@ -5,8 +5,7 @@ namespace {
 
 using namespace verp::hal::stm32;
 
-/// The internal oscillator is too inaccurate for CAN, so a board without a crystal has no bit
-/// timing.
+/// The internal oscillator is too inaccurate for CAN.
 #ifndef BROKEN
 constexpr std::uint32_t kCrystal_hz = 8'000'000;
 #else

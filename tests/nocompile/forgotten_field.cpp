@@ -3,7 +3,7 @@
 
 namespace {
 
-/// A field missing from its list would be neither digested nor recorded.
+/// Such a field would be neither digested nor recorded.
 struct Tilt {
   float roll_rad = 0;
   float pitch_rad = 0;

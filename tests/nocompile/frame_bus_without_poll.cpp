@@ -3,7 +3,7 @@
 
 namespace {
 
-/// If a backend lacks a member of its contract, the compiler must name it.
+/// The compiler must name the missing member.
 struct Bus {
   bool send(const std::uint8_t*, std::size_t) { return true; }
 #ifndef BROKEN

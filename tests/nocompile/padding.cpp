@@ -3,7 +3,7 @@
 
 namespace {
 
-/// Padding bytes differ from run to run; they must be fields.
+/// Padding differs from run to run.
 struct Sample {
   std::uint8_t flags = 0;
 #ifndef BROKEN

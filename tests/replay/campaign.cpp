@@ -31,13 +31,12 @@ using Script = std::vector<Episode>;
 constexpr Request kRelax = Request::kRelax, kStand = Request::kStand, kWalk = Request::kWalk;
 constexpr std::uint8_t kItsTime = Episode::kItsTime;
 
-/// Writes a value in one tick and keeps the request.
+/// In one tick; the request stays.
 Episode write(int id, float value, Request request = kStand) {
   return {1, kItsTime, request, 0, 0, 0, kWrite, id, value};
 }
 
-/// From any mode to standing, ready to walk. Short rises and sittings leave more ticks for the
-/// rest.
+/// Ready to walk. Short rises leave more ticks for the rest.
 void get_up(Script& script) {
   script.insert(script.end(), {{150, kUntilRelaxed, kRelax},
                                write(safety_id(offsetof(SafetyTuning, rise_s)), 0.3F, kRelax),
@@ -71,7 +70,7 @@ void wander(Script& script) {
   stop_walking(script);
 }
 
-/// Other gaits: each value applies while walking begins or continues.
+/// Values apply while walking begins or continues.
 void other_gaits(Script& script, const Params& params) {
   const float leg_m = params.leg[0].thigh_m + params.leg[0].shank_m;
   const Episode changes[] = {
@@ -104,7 +103,7 @@ void other_gaits(Script& script, const Params& params) {
                                write(gait_id(offsetof(GaitTuning, joint_delay_s)), 0.0F, kStand)});
 }
 
-/// Soles that would overlap, before a walk and during one.
+/// Soles would overlap, before a walk and during one.
 void cross_feet(Script& script) {
   const Episode narrow = write(gait_id(offsetof(GaitTuning, half_stance_m)), 0.015F, kWalk);
   start_walking(script);
@@ -116,8 +115,7 @@ void cross_feet(Script& script) {
                                {400, kItsTime, kStand, 0, 0, 0, kRestore}});
 }
 
-/// A margin wider than the sole: strides shrink until the plan is refused, until the operator
-/// withdraws the walk.
+/// A margin wider than the sole: strides shrink until the plan is refused.
 void refuse(Script& script) {
   start_walking(script);
   script.push_back(write(gait_id(offsetof(GaitTuning, support_margin_m)), 0.030F, kWalk));
@@ -133,7 +131,7 @@ void silences(Script& script) {
                                {500, kUntilStanding, kStand},
                                {300, kItsTime, kStand}});
   start_walking(script);
-  // The operator falls silent, and the walk ends by itself.
+  // The walk ends by itself.
   script.push_back({3000, kUntilStanding, kWalk, 800, 0, 0, kQuietOperator});
   script.push_back(write(safety_id(offsetof(SafetyTuning, command_release_s)), 0.6F));
   script.push_back({1200, kUntilRelaxed, kStand, 0, 0, 0, kQuietOperator});
@@ -152,7 +150,7 @@ void alarms(Script& script) {
   for (const std::uint32_t each : {kHot | 0U, kLowVoltage | 0U, kServoAlarm | 0U}) {
     start_walking(script);
     script.push_back({2500, kUntilRelaxed, kWalk, 800, 0, 0, each});
-    script.push_back({100, kItsTime, kStand, 0, 0, 0, kLate});  // stays down after the fault
+    script.push_back({100, kItsTime, kStand, 0, 0, 0, kLate});  // stays down
     get_up(script);
   }
   script.push_back({400, kUntilRelaxed, kRelax});

@@ -6,7 +6,7 @@
 #include "common/model/params.hpp"
 #include "tests/support/random_inputs.hpp"
 
-/// The operator's orders and the faults, episode by episode.
+/// Orders and faults, episode by episode.
 namespace verp::replay {
 
 /// Active throughout an episode.
@@ -15,27 +15,27 @@ enum Event : std::uint32_t {
   kSilentImu = 1 << 1,
   kQuietOperator = 1 << 2,
   kPressStop = 1 << 3,
-  kTip = 1 << 4,    ///< tilts towards lying on its nose
+  kTip = 1 << 4,    ///< onto its nose
   kRight = 1 << 5,  ///< tilts back
   kTremble = 1 << 6,
   kHot = 1 << 7,
   kLowVoltage = 1 << 8,
   kServoAlarm = 1 << 9,
   kLate = 1 << 10,       ///< the tick before overran
-  kFeetInAir = 1 << 11,  ///< the foot sensors bear no weight
-  kFeetGone = 1 << 12,   ///< the foot sensors do not answer
-  kYawDrift = 1 << 13,   ///< the gyro shows an unrequested turn
+  kFeetInAir = 1 << 11,  ///< the sensors bear no weight
+  kFeetGone = 1 << 12,   ///< the sensors do not answer
+  kYawDrift = 1 << 13,   ///< an unrequested turn
   kWrite = 1 << 14,      ///< the first tick writes Episode::value
-  kRestore = 1 << 15,    ///< restores one tuning value per tick
-  kScan = 1 << 16,       ///< writes one value per tick: too high, too low, NaN
+  kRestore = 1 << 15,    ///< one tuning value per tick
+  kScan = 1 << 16,       ///< one value per tick: too high, too low, NaN
   kFrozenImu = 1 << 17,  ///< repeats its last reading
-  kBent = 1 << 18,       ///< a joint stands beyond its limits
+  kBent = 1 << 18,       ///< a joint is beyond its limits
 };
 
 struct Episode {
   static constexpr std::uint8_t kItsTime = 0xFF;
-  std::uint32_t ms;               ///< at most this long,
-  std::uint8_t until = kItsTime;  ///< or until the controller is in this mode
+  std::uint32_t ms;               ///< at most,
+  std::uint8_t until = kItsTime;  ///< or until this mode
   Request request = Request::kStand;
   std::int16_t vx_tenth_mm_s = 0;
   std::int16_t vy_tenth_mm_s = 0;
@@ -45,12 +45,12 @@ struct Episode {
   float value = 0;
 };
 
-/// Starts over when it ends, each time with other velocities.
+/// Starts over at its end, with other velocities.
 class Campaign {
  public:
   Campaign(const Params& params, std::uint32_t seed);
 
-  /// Fills in the operator's part of the tick; returns the active Event bits.
+  /// Returns the active Event bits.
   std::uint32_t advance(const Outputs& last, Inputs& in);
 
  private:
@@ -63,7 +63,7 @@ class Campaign {
   test::SmallRandom random_;
   std::vector<Episode> episodes_;
   std::size_t at_ = 0;
-  std::uint32_t ticks_ = 0;  ///< since the episode began
+  std::uint32_t ticks_ = 0;  ///< of the episode
   std::uint32_t round_ = 0;
   Command order_;
 };

@@ -7,18 +7,17 @@
 #include "tests/replay/divergence.hpp"
 #include "tests/replay/trace_file.hpp"
 
-/// replay_digest FILE: runs the core over the inputs of FILE. Prints the last link of each
-/// segment's digest chain, one for all, the core's version, and some of the legs' goals, which show
-/// what changed behind a digest. Exit status 1 if a digest differs from the recorded one; stderr
-/// names the first such tick and stage. Needs only the core and this file, so any compiler can
-/// build it.
+/// replay_digest FILE: runs the core over FILE's inputs. Prints the last link of each segment's
+/// digest chain, one for all, the core's version, and some leg goals. Exit status 1 if a digest
+/// differs from the recorded one; stderr names the first such tick and stage. Needs only the core
+/// and this file, so any compiler can build it.
 namespace {
 
 using namespace verp;
 
 constexpr std::size_t kSummaryTicks = 5;  ///< per segment
 
-/// Mode and both legs' goal angles, mrad, hip to ankle.
+/// Mode and both legs' goals, mrad, hip to ankle.
 std::string legs(const Params& params, const Outputs& outputs) {
   std::string text = safety::kModeNames[outputs.mode];
   for (const LegParams& leg : params.leg) {
@@ -36,7 +35,7 @@ std::string legs(const Params& params, const Outputs& outputs) {
   return text;
 }
 
-/// Replaces the recorded digests' last link by this core's and appends the summary.
+/// Replaces the last link by this core's and appends the summary.
 bool replay_here(replay::Segment& segment, std::string& summary) {
   const std::size_t pace = segment.ticks.size() / kSummaryTicks;
   State state;

@@ -10,7 +10,7 @@ inline bool same(const TickDigest& a, const TickDigest& b) {
   return __builtin_memcmp(&a, &b, sizeof a) == 0;
 }
 
-/// Names the first tick and stage in which this core differs from the recording.
+/// Names the first tick and stage that differ.
 inline void complain(const Segment& segment, const TickRecord& recorded, const TickDigest& now) {
   int stage = 0;
   while (stage < kStages - 1 && recorded.digest.stage[stage] == now.stage[stage]) ++stage;

@@ -8,7 +8,7 @@
 namespace verp::replay {
 namespace {
 
-/// A triangle wave between -height and height.
+/// Triangle wave within +-height.
 std::int32_t wave(std::uint32_t tick, std::uint32_t period, std::int32_t height) {
   const auto at = static_cast<std::int32_t>(tick % period);
   const auto half = static_cast<std::int32_t>(period / 2);
@@ -69,7 +69,7 @@ void EchoPlant::feel_motion(std::uint32_t events, Inputs& in) {
         narrow(accel[i] + wave(in.tick, 45, 40) + random_.around_zero(30) + (i == 0 ? 60 : 0));
     in.gyro_count[i] = narrow(wave(in.tick + 7, 45, one / 50) + random_.around_zero(one / 200 + 1));
   }
-  // Waveforms in the IMU's own frame suffice: angles and rates only have to come and go.
+  // Angles and rates only have to come and go.
   const auto add = [&](int axis, std::int32_t rate) {
     in.gyro_count[axis] = narrow(in.gyro_count[axis] + rate);
   };
@@ -96,7 +96,7 @@ void EchoPlant::remember_motion(bool frozen, Inputs& in) {
 
 void EchoPlant::feel_ground(std::uint32_t events, Inputs& in) {
   const bool in_air = (events & kFeetInAir) != 0;
-  // The pressure moves round the sole, sometimes so near an edge that the foot stands on it.
+  // The pressure moves round the sole, sometimes to an edge.
   const std::uint32_t turn = 4 * (in.tick / 20);
   const std::int32_t fore = wave(turn, 32, foot_count_ * 5 / 8);
   const std::int32_t aside = wave(turn + 8, 32, foot_count_ * 5 / 8);

@@ -5,13 +5,13 @@
 
 namespace verp::replay {
 
-/// A robot without physics: joints stand at their goals of the previous tick, and sensors follow
-/// waveforms of small integers.
+/// Without physics: joints are at the previous tick's goals, sensors follow waveforms of small
+/// integers.
 class EchoPlant {
  public:
   EchoPlant(const Params& params, std::uint32_t seed);
 
-  /// Fills in all readings of tick `in.tick`; `events` are bits of Event.
+  /// `events` are bits of Event.
   void sense(const Outputs& last, std::uint32_t events, Inputs& in);
 
  private:
@@ -25,10 +25,10 @@ class EchoPlant {
   test::SmallRandom random_;
   std::int32_t position_count_[kMaxJoints] = {};
   std::int32_t gyro_count_per_rad_s_;
-  std::int32_t rest_count_[3];  ///< accelerometer, standing
-  std::int32_t nose_count_[3];  ///< accelerometer, lying on the nose
-  std::int32_t bent_count_;     ///< moves a joint beyond its limits from anywhere
-  std::int32_t foot_count_;     ///< one corner's share of the weight on one foot
+  std::int32_t rest_count_[3];                             ///< accelerometer, standing
+  std::int32_t nose_count_[3];                             ///< lying on the nose
+  std::int32_t bent_count_;                                ///< moves any joint beyond its limits
+  std::int32_t foot_count_;                                ///< one corner's share on one foot
   std::int16_t gyro_count_[3] = {}, accel_count_[3] = {};  ///< last readings
 };
 

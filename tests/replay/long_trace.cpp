@@ -8,8 +8,7 @@
 namespace verp::replay {
 namespace {
 
-/// Alternately sets random bits in every field but the tick, and damages one word in some ticks.
-/// `nth` counts the run's ticks.
+/// Random bits in every field but the tick, or one damaged word. `nth` counts the run's ticks.
 void damage(std::uint32_t nth, test::SmallRandom& random, Inputs& in) {
   constexpr std::uint32_t kTurn = 200;
   std::uint32_t words[sizeof(Inputs) / 4];
@@ -24,7 +23,7 @@ void damage(std::uint32_t nth, test::SmallRandom& random, Inputs& in) {
   in.tick = tick;
 }
 
-/// Periods to the next tick: one. A damaged clock sometimes gives several, zero or any number.
+/// One. A damaged clock gives several, zero or any number.
 std::uint32_t periods(bool damaged, test::SmallRandom& random) {
   if (!damaged || random.bits() % 256 != 0) return 1;
   const std::uint32_t bits = random.bits();

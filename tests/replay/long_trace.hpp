@@ -6,11 +6,11 @@
 #include "common/model/params.hpp"
 #include "common/record/tick_record.hpp"
 
-/// Recorded runs of several robots that together reach every gait phase, safety row and branch of
-/// step() that inputs can reach. unreached.txt lists the rest with reasons.
+/// Runs of several robots that together reach every gait phase, safety row and branch of step();
+/// unreached.txt lists exceptions.
 namespace verp::replay {
 
-/// Inputs follow from the controller's own outputs, as a robot's would, and from integers.
+/// Inputs follow from the controller's outputs and from integers.
 struct Segment {
   std::string name;
   Params params;
@@ -21,11 +21,9 @@ struct Segment {
 
 inline constexpr std::uint32_t kLongTraceTicks = 100'000;
 
-/// `robot` has closed-form legs; the other robots derive from it. `ticks` is the sum over all
-/// segments.
+/// `robot` has closed-form legs; the others derive from it. `ticks` is the sum over all segments.
 std::vector<Segment> make_long_trace(const Params& robot, std::uint32_t ticks = kLongTraceTicks);
 
-/// One number for all segments.
 std::uint64_t digest_of(const std::vector<Segment>& trace);
 
 }  // namespace verp::replay

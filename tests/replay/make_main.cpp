@@ -6,7 +6,7 @@
 #include "host/robot/model/params.hpp"
 #include "tests/replay/trace_file.hpp"
 
-/// replay_make FILE [TICKS]: makes the long trace of generic21 with this build's core.
+/// replay_make FILE [TICKS]: makes generic21's long trace with this core.
 int main(int count, char** argument) {
   using namespace verp;
   if (count < 2) {

@@ -1,4 +1,4 @@
-# The core with one gait constant changed by one unit in the last place: the microsecond that times steps. Its own
+# The core with the microsecond that times steps changed by one unit in the last place. Its own
 # namespace lets one program hold both cores.
 set(planted_header ${CMAKE_SOURCE_DIR}/common/gait/types.hpp)
 set(planted_from "static_cast<float>(duration_us()) * 1e-6F")
@@ -15,7 +15,7 @@ file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/planted_core/common/gait/types
 get_target_property(planted_sources verp_core SOURCES)
 list(FILTER planted_sources EXCLUDE REGEX "/common/protocol/")
 add_library(verp_planted_core STATIC ${planted_sources} planted_step.cpp)
-# BEFORE puts the changed header ahead of the source tree's.
+# BEFORE: the changed header goes first.
 target_include_directories(verp_planted_core BEFORE PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/planted_core)
 target_include_directories(verp_planted_core SYSTEM PRIVATE ${VERP_EIGEN_DIR})
 target_compile_definitions(verp_planted_core PRIVATE verp=verp_planted)

@@ -1,7 +1,7 @@
 #include "common/control/boot_check.hpp"
 #include "common/control/step.hpp"
 
-// Compiled with another namespace, so only plain memory crosses.
+// Another namespace: only plain memory crosses.
 extern "C" void planted_step(const void* params, void* state, const void* inputs, void* outputs);
 
 extern "C" void planted_step(const void* params, void* state, const void* inputs, void* outputs) {

@@ -8,7 +8,7 @@
 #include "host/trace/record/replay.hpp"
 #include "tests/replay/long_trace.hpp"
 
-// The core of planted.cmake: one gait constant is off by one unit in the last place.
+// The core of planted.cmake.
 extern "C" void planted_step(const void* params, void* state, const void* inputs, void* outputs);
 extern "C" int planted_boot_verdict();
 
@@ -45,8 +45,7 @@ TEST(PlantedUlp, OfOneGaitConstantIsCaughtWithTickStageAndField) {
   std::printf("%s\n", line.c_str());
 }
 
-// The planted change is caught, not the second core: before the first step is planned, both give
-// the same bits.
+// Until a step is planned, both cores give the same bits.
 TEST(PlantedUlp, DoesNotShowBeforeTheFirstStep) {
   const record::Trace trace = recording();
   const auto result = record::replay(trace, nullptr, planted);
@@ -61,7 +60,7 @@ TEST(PlantedUlp, DoesNotShowBeforeTheFirstStep) {
   EXPECT_GT(state.gait.queued, 0);
 }
 
-// A bad flash cell or a wrong compiler may change code by so little; it gets no torque.
+// Such code, from a bad flash cell or a wrong compiler, gets no torque.
 TEST(PlantedUlp, IsFoundByTheBootCheckBeforeAnyRobotIsLookedAt) {
   EXPECT_EQ(planted_boot_verdict(), static_cast<int>(control::BootVerdict::kCode));
   Params robot;

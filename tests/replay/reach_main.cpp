@@ -5,11 +5,11 @@
 #include "tests/replay/trace_file.hpp"
 #include "tests/unit/control/falling_loop.hpp"
 
-/// replay_reach FILE: runs the core, compiled to count lines and branches, over the inputs of FILE.
-/// Prints how often each gait phase, mode, safety row and fault was reached. Exit status 1 if one
-/// never was, or if a digest differs from the recorded one.
+/// replay_reach FILE: runs a core that counts lines and branches over FILE's inputs. Prints how
+/// often each gait phase, mode, safety row and fault was reached. Exit status 1 if one never was,
+/// or if a digest differs.
 ///
-/// Linked with --wrap for safety::next_mode, which makes the rows visible.
+/// --wrap of safety::next_mode makes the rows visible.
 namespace verp::replay {
 namespace {
 
@@ -47,8 +47,8 @@ bool run(const Segment& segment) {
   return good;
 }
 
-// The trace has no actions, so a standing robot plays these: there and back with a repeat, a way
-// out, each condition, and a half-stiff joint.
+// The trace has no actions, so a standing robot plays these: a repeat, a way out, each condition, a
+// half-stiff joint.
 void act() {
   action::test::Shelf shelf;
   for (int i = 0; i < 3; ++i) {
@@ -85,7 +85,7 @@ void follow(control::test::Loop& loop, int ticks) {
   }
 }
 
-// It falls when toppled, gets up on request (first in vain), and holds and rises when knocked. Then
+// It falls when toppled, gets up on request (first in vain), holds and rises when knocked. Then
 // robots lie on each side, with and without an action for it.
 void fall() {
   using control::test::FallingLoop;
@@ -166,7 +166,7 @@ bool print_faults() {
 }  // namespace verp::replay
 
 extern "C" {
-// The real safety::next_mode, and the linker's replacement.
+// The real function, and the linker's replacement.
 verp::safety::Mode __real__ZN4verp6safety9next_modeENS0_4ModeEj(verp::safety::Mode, std::uint32_t);
 verp::safety::Mode __wrap__ZN4verp6safety9next_modeENS0_4ModeEj(verp::safety::Mode mode,
                                                                 std::uint32_t conditions) {

@@ -10,8 +10,7 @@ Params newton(Params params) {
   return params;
 }
 
-/// The same robot with every joint's axis reversed, every third one as a general axis, and the
-/// right leg solved by Newton.
+/// Every axis reversed, every third one as a general axis, the right leg solved by Newton.
 Params mirrored(Params params) {
   constexpr AxisKind kReverse[] = {AxisKind::kMinusX, AxisKind::kMinusY, AxisKind::kMinusZ,
                                    AxisKind::kX,      AxisKind::kY,      AxisKind::kZ,
@@ -34,8 +33,8 @@ Params mirrored(Params params) {
   return params;
 }
 
-/// `of_first` and `of_second` turn the joints `first` and `second`, which have no servos, the other
-/// way. Those are last in the list, wherever they are in the tree.
+/// `of_first` and `of_second` turn `first` and `second`, which have no servos, the other way. Those
+/// are last in the list.
 Params coupled(const Params& robot, int first, int of_first, int second, int of_second) {
   Params params = robot;
   const int count = robot.joint_count;
@@ -68,17 +67,17 @@ Params coupled(const Params& robot, int first, int of_first, int second, int of_
   return params;
 }
 
-/// One motor for both hip yaws, and one for an arm's joint and its neighbour.
+/// One motor for both hip yaws, one for two arm joints.
 Params coupled_hips(const Params& robot) {
   const int left = robot.leg[0].joint[0], right = robot.leg[1].joint[0];
-  int arm = 0;  // not of head, legs or trunk, and carries something
+  int arm = 0;  // carries something; not head, legs or trunk
   while (robot.joint[arm].parent != 0 || arm == left || arm == right || arm == robot.head_pan)
     ++arm;
   return coupled(robot, right, left, arm, arm + 1);
 }
 
-/// Control periods longer than the time between two key points; feet so heavy that their swing
-/// nearly lifts the robot; thighs longer than the shanks can fold against; no head, no force cells.
+/// Periods longer than the time between key points; feet so heavy that their swing nearly lifts the
+/// robot; thighs too long to fold; no head, no force cells.
 Params slow_and_heavy(Params params) {
   params.period_us = 20'000;
   params.head_pan = params.head_tilt = 0xFF;
@@ -90,8 +89,7 @@ Params slow_and_heavy(Params params) {
   return params;
 }
 
-/// Joints off their parents' axes, and sole frames half a turn from what the legs can reach: Newton
-/// never converges.
+/// Joints off their parents' axes, and soles half a turn out of reach: Newton never converges.
 Params fast_and_twisted(Params params) {
   params = newton(params);
   params.period_us = 4'000;
@@ -105,8 +103,8 @@ Params fast_and_twisted(Params params) {
   return params;
 }
 
-/// Five joints, no legs, no mass, a servo that reports nothing, swapped limits, arms that turn
-/// without bound, and steps that would.
+/// Five joints, no legs, no mass, a servo that reports nothing, swapped limits, arms and steps
+/// without bound.
 Params limbless(Params params) {
   params.joint_count = 5;
   params.body_mass_kg = 0;

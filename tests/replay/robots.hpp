@@ -4,14 +4,14 @@
 
 #include "common/model/params.hpp"
 
-/// The robots of the long trace: one real one, and variants of what others may be.
+/// One real robot, and variants.
 namespace verp::replay {
 
 struct Robot {
   const char* name;
-  std::uint32_t percent;  ///< share of the trace's ticks
+  std::uint32_t percent;  ///< of the trace's ticks
   std::uint32_t seed;
-  bool damaged;  ///< sometimes its inputs hold random bits
+  bool damaged;  ///< some inputs are random bits
   Params params;
 };
 

@@ -4,7 +4,7 @@
 
 #include "tests/replay/long_trace.hpp"
 
-/// The long trace as a file of plain structs: writer and readers share their source.
+/// Plain structs: writer and readers share their source.
 namespace verp::replay {
 
 inline constexpr std::uint32_t kTraceFileMagic = 0x3147'4E4C;  // "LNG1"
@@ -16,7 +16,7 @@ struct TraceFileHead {
   std::uint32_t segments = 0;
 };
 
-/// False if the file cannot be written.
+/// False if it cannot be written.
 inline bool write_trace_file(const std::string& path, const std::vector<Segment>& trace) {
   std::ofstream file(path, std::ios::binary);
   const auto put = [&](const auto& value) {

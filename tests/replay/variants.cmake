@@ -1,5 +1,5 @@
-# Compiles the core with every compiler and optimisation level that must agree, and links each with the program that
-# prints its digests. One more build counts the lines and branches that the trace reaches.
+# Every compiler and optimisation level that must agree. One more build counts the lines and branches that the trace
+# reaches.
 get_target_property(core_sources verp_core SOURCES)
 list(FILTER core_sources EXCLUDE REGEX "/(protocol/.*|model/image|control/golden|control/self_test|control/boot_check|control/built_in_robot)\\.cpp$")
 get_target_property(contract verp_floating_point INTERFACE_COMPILE_OPTIONS)
@@ -19,16 +19,16 @@ else()
   set(VERP_CLANG_RUNS ON)
 endif()
 
-# The whole core as one file: each compiler reads the headers once and may inline across files.
+# As one file: headers are read once, and calls inline across files.
 set(whole_core ${CMAKE_CURRENT_BINARY_DIR}/whole_core/core.cpp)
 list(TRANSFORM core_sources REPLACE "(.+)" "#include \"\\1\"\n" OUTPUT_VARIABLE whole_core_text)
 list(JOIN whole_core_text "" whole_core_text)
 file(CONFIGURE OUTPUT ${whole_core} CONTENT "${whole_core_text}" @ONLY)
 
-# Compiles one file into `folder`; appends the object to `list`.
+# The object is appended to `list`.
 function(compile_one list folder compiler source)
   file(RELATIVE_PATH object ${CMAKE_SOURCE_DIR} ${source})
-  string(REPLACE "../" "" object ${object}) # for a build tree outside the source tree
+  string(REPLACE "../" "" object ${object}) # a build tree outside the source tree
   set(object ${CMAKE_CURRENT_BINARY_DIR}/${folder}/${object}.o)
   cmake_path(GET object PARENT_PATH parent)
   file(MAKE_DIRECTORY ${parent})
@@ -39,8 +39,7 @@ function(compile_one list folder compiler source)
   set(${list} ${${list}} ${object} PARENT_SCOPE)
 endfunction()
 
-# Links program `folder`/`main` from the core's files (`core`), compiled with the given flags, and
-# tests/replay/main.cpp. Adds it to `programs`.
+# Links `folder`/`main` from the core's files (`core`) and tests/replay/main.cpp. Adds it to `programs`.
 function(link_variant folder compiler main core link_flags)
   set(objects)
   foreach(source ${${core}})
@@ -56,7 +55,7 @@ function(link_variant folder compiler main core link_flags)
 endfunction()
 
 set(programs)
-# An unoptimised run takes minutes. replay.coverage runs such a build and checks its digests.
+# -O0 takes minutes: only replay.coverage runs it.
 link_variant(gcc_O3 ${CMAKE_CXX_COMPILER} digest_main whole_core "" -O3)
 link_variant(gcc_O3_native ${CMAKE_CXX_COMPILER} digest_main whole_core "" -O3 -march=native)
 if(VERP_CLANG_RUNS)
@@ -74,8 +73,7 @@ add_test(NAME replay.matrix
 set_tests_properties(replay.matrix PROPERTIES LABELS replay FIXTURES_REQUIRED long_trace)
 
 get_target_property(core_sources verp_core SOURCES)
-# With one section per function, the linker keeps what step() can call. Compiled file by file, because the linker cannot
-# wrap calls within a file.
+# The linker keeps the sections that step() can call. File by file, because it cannot wrap calls within a file.
 set(programs)
 find_program(VERP_GCOV NAMES gcov-12 gcov)
 link_variant(counted ${CMAKE_CXX_COMPILER} reach_main core_sources
@@ -87,8 +85,7 @@ add_test(NAME replay.coverage
     ${VERP_GCOV} ${CMAKE_NM})
 set_tests_properties(replay.coverage PROPERTIES LABELS replay FIXTURES_REQUIRED long_trace REQUIRED_FILES ${programs})
 
-# Tests the boot check on a core whose products are not rounded. The x87 keeps products in 80 bits, as a fused
-# multiply-add keeps them whole, and every x86-64 has an x87.
+# The boot check must refuse a core whose products are not rounded. The x87 keeps them in 80 bits.
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL x86_64)
   add_executable(replay_contracted contracted_main.cpp ${CMAKE_SOURCE_DIR}/common/math/contraction.cpp)
   target_compile_options(replay_contracted PRIVATE -O2 -mfpmath=387)

@@ -3,8 +3,7 @@
 namespace verp::scenario {
 namespace {
 
-// Besides the demo's own criterion, bands set by hand around a few runs, well inside it and with a
-// ceiling.
+// Bands set by hand around a few runs, inside the demo's own criterion.
 TEST(Demos, AColumnKeepsItsFormation) {
   const demos::Run run = good("column", 1);
   expect_fact(run, "guide's way", 3.4, 4.2);
@@ -27,7 +26,7 @@ TEST(Demos, FollowersKeepToTheLeadersWay) {
 TEST(Demos, OneFindsItsGoalThroughRooms) {
   const demos::Run run = good("goal", 1);
   expect_fact(run, "from the goal at the end", 0.005, 0.2);
-  expect_fact(run, "way", 5.5, 9);  // straight through two walls it would be 3.1 m
+  expect_fact(run, "way", 5.5, 9);  // straight through two walls: 3.1 m
 }
 
 #ifdef VERP_HAS_CAMERA
@@ -38,7 +37,7 @@ TEST(Demos, TwoBringABallToAGoal) {
 }
 #endif
 
-// So the radio is what makes it work.
+// The radio is what makes it work.
 TEST(Demos, FailWithoutRadio) {
   demos::Options options;
   options.robots = 2;

@@ -14,8 +14,7 @@ TEST(GettingUp, FromItsBackItStandsAndWalks) {
   expect_between(0.1, number(lying, "distance_m"), 0.4, "distance, m");
 }
 
-// It rolls over its left side onto its back and continues from there. 23 s suffice for one try and
-// the walk, not for two.
+// It rolls over its left side. 23 s suffice for one try and the walk, not for two.
 TEST(GettingUp, FromItsFrontItRollsOntoItsBackAndGetsUp) {
   const Walk lying = walk("generic21 --for 3 --physics-step 2 --start lying:front");
   expect_walked(lying);
@@ -32,7 +31,7 @@ TEST(GettingUp, FromEitherSideItTipsOntoItsBackAndGetsUp) {
   }
 }
 
-// The promise: 97 of a hundred random robots; of a few, all but one.
+// The promise: 97 of a hundred; of a few, all but one.
 TEST(GettingUp, RandomOnesDoItToo) {
   for (const std::string side : {"back", "front"}) {
     const Walk seeds =
@@ -41,7 +40,7 @@ TEST(GettingUp, RandomOnesDoItToo) {
   }
 }
 
-// Its strong arms push it up without a roll; its sides tip it onto the back.
+// Strong arms push it up; its sides tip it onto the back.
 TEST(GettingUp, Op3DoesItFromEverySide) {
   for (const std::string side : {"back", "front", "left", "right"}) {
     const Walk lying = walk("op3 --for 3 --physics-step 2 --start lying:" + side);
@@ -50,8 +49,7 @@ TEST(GettingUp, Op3DoesItFromEverySide) {
   }
 }
 
-// Its arms are too short to lift it over drawn-in feet, so it squats between hands and soles; its
-// sides tip it onto the back.
+// Its arms are too short to lift it over drawn-in feet, so it squats between hands and soles.
 TEST(GettingUp, DarwinOpDoesItFromEverySideAtTheFirstTry) {
   for (const std::string side : {"back", "front", "left", "right"}) {
     const Walk lying = walk("darwin_op --for 3 --physics-step 2 --start lying:" + side);
@@ -85,7 +83,7 @@ TEST(GettingUp, UnaskedItStaysDown) {
   EXPECT_EQ(count(pushed, "get_ups"), 0);
 }
 
-// One tour, twice: lies, gets up, walks, is pushed over, gets up, walks on.
+// Lies, gets up, walks, is pushed over, gets up, walks on.
 TEST(GettingUp, IsRepeatableToTheBit) {
   const std::string tour =
       "generic21 --for 4 --physics-step 2 --start lying:back --push '1: trunk -60,0,0 N for 0.15'";

@@ -10,8 +10,7 @@ namespace {
 
 class Seed : public ::testing::TestWithParam<int> {};
 
-// The paper's walk: 4 cm steps in 450 ms cycles, 0.173 m/s, for a minute.
-// many_random_robots_test.cpp runs ten seeds with --full.
+// The paper's walk: 4 cm steps in 450 ms cycles, 0.173 m/s, for a minute. --full runs ten seeds.
 TEST_P(Seed, WalksAMinuteInsideThePapersBands) {
   const Walk minute =
       walk("generic21 --step 0.04 --cycle 0.45 --for 60 --seed " + std::to_string(GetParam()));
@@ -33,7 +32,7 @@ TEST(Generic21, FiveSeedsGiveFiveDigests) {
   EXPECT_EQ(digests.size(), 5u);
 }
 
-// Standing, it trembles in yaw at 12 Hz. That is no motion, so the gyro's bias can be learnt.
+// It trembles in yaw at 12 Hz, yet the gyro's bias can be learnt.
 TEST(Generic21, ATremblingRobotStartsToWalk) {
   expect_walked(walk("generic21 --for 5 --seed 17"));
   expect_walked(walk("generic21 --for 5 --seed 1 --physics-step 0.25"));
@@ -47,7 +46,7 @@ TEST(Generic21, SameSeedIsTheSameWalkToTheLastBit) {
   EXPECT_EQ(once.result, again.result);
 }
 
-// Without the correction for the legs' mass the bias grows with the step, as in the paper.
+// Without it the bias grows with the step, as in the paper.
 TEST(Generic21, MultibodyCorrectionTakesAwayTheBiasThatGrowsWithTheStep) {
   const Walk sweep = walk("generic21 --for 20 --physics-step 2 --sweep-step 0.02:0.06:0.01");
   const json& rows = sweep.result.value("sweep", json::array());
@@ -81,7 +80,7 @@ TEST(Generic21, EachPartOfBalanceLowersTheZmpBias) {
   EXPECT_GT(mean_bias_mm(" --no-zeros"), all_mm);
 }
 
-// 12 s, one of them standing. The bands are a quarter of the ordered way to both sides.
+// 12 s, one of them standing. The bands are a quarter of the ordered way.
 TEST(Generic21, WalksSideways) {
   const Walk left = walk("generic21 --for 12 --physics-step 2 --velocity=0,0.05,0");
   expect_walked(left);
@@ -106,7 +105,7 @@ TEST(Generic21, WalksInCirclesAndTurnsOnTheSpot) {
   EXPECT_EQ(number(circle, "self_contact_ticks"), 0);
   expect_between(0.09, number(circle, "speed_steady_m_s"), 0.12, "steady speed, m/s");
   expect_between(140, number(circle, "yaw_drift_deg"), 230, "turn, degrees");
-  // 2 v / w across the circle, of which it walks half.
+  // 2 v / w across the circle; it walks half.
   expect_between(0.4, number(circle, "lateral_drift_m"), 0.9, "way to the left, m");
   const Walk turn = walk("generic21 --for 12 --physics-step 2 --velocity=0,0,-0.4");
   expect_walked(turn);
@@ -115,8 +114,7 @@ TEST(Generic21, WalksInCirclesAndTurnsOnTheSpot) {
   expect_between(0, number(turn, "distance_m"), 0.2, "way, m");
 }
 
-// Forward and turning at speed. Straight swings once crossed the other sole, and the feet met in 25
-// and 32 ticks of ten seconds.
+// Straight swings would cross the other sole: feet met in 25 and 32 ticks of ten seconds.
 TEST(Generic21, KeepsItsFeetApartInFastCurves) {
   for (const char* arguments : {"1 --seed 2", "-1 --seed 3"}) {
     const Walk curve =
@@ -128,9 +126,8 @@ TEST(Generic21, KeepsItsFeetApartInFastCurves) {
   }
 }
 
-// 8 cm in 400 ms, 0.40 m/s: legs swing as fast as their servos turn, and too far. Until landings
-// were learnt (balance/landing.hpp) it walked 0.53 m/s and fell. It walked 0.44 while feet moved
-// half a millimetre off their plan taught nothing. --full walks a minute of it.
+// 8 cm in 400 ms, 0.40 m/s: legs swing as fast as their servos turn, and too far. Without learnt
+// landings (balance/landing.hpp) it walks 0.53 m/s and falls. --full walks a minute.
 TEST(Generic21, WalksFastAndNoFasterThanAsked) {
   for (const char* seed : {"1", "2", "3"}) {
     const Walk fast = walk(
@@ -141,9 +138,7 @@ TEST(Generic21, WalksFastAndNoFasterThanAsked) {
   }
 }
 
-// At 0.42 m/s, one of fourteen seeds once scraped a swinging foot over the ground and spun on it.
-// 0.36 was then the limit, and 62 degrees a second that of a turn. Headings wander by 7 degrees in
-// a minute: the band is what they do, not what they should (5).
+// Headings wander by 7 degrees in a minute: the band is what they do, not what they should (5).
 TEST(Generic21, WalksFastAnyWay) {
   struct Way {
     const char* velocity;
@@ -160,20 +155,19 @@ TEST(Generic21, WalksFastAnyWay) {
   }
   const Walk turn = walk("generic21 --for 20 --physics-step 2 --velocity=0,0,1.5708");
   expect_walked(turn);
-  // Less what it loses until it turns at full speed.
+  // Less than asked until it turns at full speed.
   expect_between(0.96 * number(turn, "asked_turn_deg"), number(turn, "yaw_drift_deg"),
                  1.005 * number(turn, "asked_turn_deg"), "turn, degrees");
 }
 
-// Short steps in the shortest cycle: two of four seeds once fell at the start.
+// Two of four seeds once fell at the start.
 TEST(Generic21, WalksInTheShortestCycle) {
   const Walk quick = walk("generic21 --step 0.06 --cycle 0.3 --for 10 --physics-step 2 --seed 1");
   expect_walked(quick);
   expect_between(0.28, number(quick, "speed_steady_m_s"), 0.36, "steady speed, m/s");
 }
 
-// Fifteen centimetres in a cycle of 0.34 s once made the robot fall after three seconds. Now the
-// walk reports that it shortens.
+// Fifteen centimetres in 0.34 s would make the robot fall. The walk reports that it shortens.
 TEST(Generic21, StepsThatItsServosCannotFollowAreShortened) {
   const Walk result =
       walk("generic21 --step 0.15 --cycle 0.34 --set gait.max_step_m=0.3 --for 8 --physics-step 2");
@@ -194,7 +188,7 @@ TEST(Generic21, WalksSlowlyAndWithShortSteps) {
   expect_between(0, number(on_the_spot, "distance_m"), 0.1, "way, m");
 }
 
-// One table describes the robot; only its thighs change.
+// Only the table's thighs change.
 TEST(Generic21, WalksWithThighsATenthLonger) {
   namespace fs = std::filesystem;
   const fs::path folder =

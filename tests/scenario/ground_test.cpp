@@ -2,8 +2,8 @@
 
 #include "tests/scenario/walk.hpp"
 
-// 20 s on ground unknown to the robot, at 4 cm in 450 ms. Some seeds fail over plates, and over one
-// as high as feet are lifted (shares: common/worlds/README.md).
+// 20 s on ground unknown to the robot, 4 cm in 450 ms. Some seeds fail over plates, and over one as
+// high as feet are lifted (shares: common/worlds/README.md).
 namespace verp::scenario {
 namespace {
 
@@ -21,7 +21,7 @@ TEST(Ground, FiveDegreesUpAndDownItWalks) {
   expect_walk_there("--world hill", 4, 2.7);
 }
 
-// It stays upright. The turn into the slope once passed for the gyro's bias: 1.7 degrees.
+// The turn into the slope must not pass for the gyro's bias.
 TEST(Ground, AcrossFiveDegreesItWalksAndKnowsItsTilt) {
   const Walk seeds = expect_walk_there("--world bank", 4, 2.7);
   for (const json& each : seeds.result.at("walks")) {
@@ -39,8 +39,7 @@ TEST(Ground, UpAndDownACentimetreItWalks) {
   expect_walk_there("--world ledge", 3, 1.6);
 }
 
-// With both feet's toes on the edge it tilts back, and once took that for falling: these seeds
-// stayed there, after 0.7 and 1.0 m.
+// With its toes on the edge it tilts back and must not take that for falling; these seeds once did.
 TEST(Ground, WithItsToesOnAnEdgeItGoesOn) {
   for (const char* seed : {"17", "21"}) {
     const Walk over =
@@ -50,7 +49,7 @@ TEST(Ground, WithItsToesOnAnEdgeItGoesOn) {
   }
 }
 
-// A mat that yields by a centimetre under its weight.
+// A mat that yields by a centimetre.
 TEST(Ground, OnASoftFloorItWalks) {
   expect_walk_there("--at '0: ground.contact_stiffness_n_m=5000'", 4, 2.9);
 }

@@ -23,7 +23,7 @@ TEST(ManyDemos, BallsComeToAGoal) {
 }
 #endif
 
-// A third of all messages is lost, with occasional half seconds of silence.
+// A third of all messages is lost, with half seconds of silence.
 TEST(ManyDemos, ABadRadioIsBorne) {
   demos::Options options;
   options.radio.loss = 0.33;

@@ -4,8 +4,7 @@
 
 #include "tests/scenario/walk.hpp"
 
-// The paper's gait is a file of 16 states. Recorded from a walk and played as an action, it walks
-// as fast as the original.
+// 16 states, recorded from a walk and played as an action.
 namespace verp::scenario {
 namespace {
 
@@ -20,7 +19,7 @@ class PaperGait : public ::testing::Test {
   struct Way {
     double m = 0, s = 0;
   };
-  /// Records `cycles` of the trace's gait as an action, reads it back and plays it.
+  /// Records `cycles` of the trace's gait and plays them.
   Way play(const std::string& trace, int cycles, unsigned seed) const {
     const std::string action = file("gait" + std::to_string(cycles) + ".action");
     const std::string program = VERP_PROGRAM;
@@ -49,7 +48,7 @@ TEST_F(PaperGait, OfSixteenStatesWalksForTenSecondsAsFastAsTheGaitItWasTakenFrom
     const Walk walked = walk("generic21 --step 0.04 --cycle 0.45 --for 8 --seed " +
                              std::to_string(seed) + " --record " + trace);
     expect_walked(walked);
-    // Subtracts the start and the end, which three cycles have too.
+    // Subtracts start and end, which three cycles have too.
     const Way little = play(trace, 3, seed), much = play(trace, 26, seed);
     EXPECT_GT(much.s - little.s, 10);
     const double speed_m_s = (much.m - little.m) / (much.s - little.s);

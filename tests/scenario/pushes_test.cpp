@@ -3,9 +3,9 @@
 
 #include "tests/scenario/walk.hpp"
 
-// Pushed at the trunk for 50 ms while walking, generic21 steps where the push sends it. It
-// withstands 1.2 N s ahead and backward and 0.8 N s sideways, at any phase of its gait. These tests
-// use four of the 16 phases; `verp walk --map push` tries all and finds the limits.
+// Pushed at the trunk for 50 ms, generic21 steps where the push sends it. It withstands 1.2 N s
+// ahead and back and 0.8 N s sideways at any phase. These tests use four of 16 phases; `verp walk
+// --map push` tries all.
 namespace verp::scenario {
 namespace {
 
@@ -26,7 +26,7 @@ TEST(Pushed, AheadItWalksOn) {
   expect_walks_on(1.2, 0);
 }
 
-// Without such steps it ends on its back, at all phases.
+// Without such steps it falls at all phases.
 TEST(Pushed, BackwardItWalksOn) {
   expect_walks_on(-1.2, 0);
 }
@@ -39,14 +39,14 @@ TEST(Pushed, ToTheRightItWalksOn) {
   expect_walks_on(0, -0.8);
 }
 
-// With feedback and steps off it falls, so its survival is no luck.
+// So its survival is no luck.
 TEST(Pushed, BackwardItFallsWithoutFeedback) {
   const Walk pushed = walk(
       "generic21 --for 6 --physics-step 2 --no-feedback --push '2.5: trunk -24,0,0 N for 0.05'");
   EXPECT_EQ(pushed.result.value("fallen", false), true);
 }
 
-// As hard as while walking: it steps where the push sends it, then stands again.
+// As hard as while walking; then it stands again.
 std::map<double, double> hardest_where_it_stands(const std::string& how) {
   const Walk map = walk("generic21 --map stand --map-grid 4 --physics-step 2" + how);
   EXPECT_EQ(map.status, 0);
@@ -66,7 +66,7 @@ TEST(PushedWhereItStands, FromAllSidesItStandsAgain) {
   EXPECT_GE(hardest_n_s[-90], 0.8) << "to the right";
 }
 
-// Without steps its soles hold it only as far as they reach.
+// Its soles hold it only as far as they reach.
 TEST(PushedWhereItStands, WithoutStepsItFallsEarlier) {
   std::map<double, double> hardest_n_s = hardest_where_it_stands(" --no-feedback");
   EXPECT_LT(hardest_n_s[0], 1.2) << "ahead";

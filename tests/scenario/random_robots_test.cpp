@@ -3,9 +3,8 @@
 namespace verp::scenario {
 namespace {
 
-// Many runs use this physics step at half the price. Measured earlier: 0.4 % of speed between steps
-// of 0.5, 1 and 2 ms; it may cost 1 % and 1 mm. Three seeds, because chance moves one walk's bias
-// by a millimetre.
+// Many runs use this step at half the price. Steps of 0.5, 1 and 2 ms differ by 0.4 % of speed; it
+// may cost 1 % and 1 mm. Three seeds, because chance moves a walk's bias by a millimetre.
 TEST(PhysicsStep, TwoMillisecondsWalkLikeOne) {
   constexpr int kSeeds = 3;
   double speed_m_s[3] = {}, bias_mm[3] = {};  // by step in ms
@@ -23,7 +22,7 @@ TEST(PhysicsStep, TwoMillisecondsWalkLikeOne) {
   EXPECT_NEAR(bias_mm[2], bias_mm[1], 1.0);
 }
 
-// The controller does not know of the random variation (host/twin/sim/vary.hpp).
+// The controller does not know the variation (host/twin/sim/vary.hpp).
 TEST(RandomRobots, NineteenOfTwentyWalk) {
   const Walk seeds = walk("generic21 --vary --for 20 --physics-step 2 --seeds 1-20");
   EXPECT_GE(number(seeds, "survived"), 19);

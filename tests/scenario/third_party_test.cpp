@@ -7,7 +7,7 @@
 namespace verp::scenario {
 namespace {
 
-// Other people's robots walk and get somewhere.
+// They walk and get somewhere.
 void expect_walks(const char* model) {
   const Walk result = walk(std::string(model) + " --for 20 --physics-step 2");
   expect_walked(result);
@@ -18,7 +18,7 @@ TEST(ThirdParty, Op3Walks) {
   expect_walks("op3");
 }
 
-// Four seeds: one seed's joint zeros and accelerometer move its bias by 2 mm.
+// Four seeds: joint zeros and accelerometer move the bias by 2 mm.
 TEST(ThirdParty, Op3WalksWithItsZmpUnderItsSoles) {
   double sum_mm = 0;
   for (int seed = 1; seed <= 4; ++seed) {
@@ -29,7 +29,7 @@ TEST(ThirdParty, Op3WalksWithItsZmpUnderItsSoles) {
   expect_between(2.0, sum_mm / 4, 15.0, "mean ZMP bias, mm");
 }
 
-// Its feet have no sensors, yet its encoders' zeros are learnt. Seed 1 once limped with 32 mm.
+// Without foot sensors. Seed 1 once limped with 32 mm.
 TEST(ThirdParty, Op3LearnsItsZeros) {
   const double learnt_mm = number(walk("op3 --for 20 --physics-step 2"), "zmp_bias_mean_mm");
   EXPECT_LT(learnt_mm,
@@ -41,7 +41,7 @@ TEST(ThirdParty, DarwinOpWalks) {
 }
 
 // Knees bent the wrong way at zero, axes that do not meet, one motor for both hip yaws, fingers,
-// massless links, and a wrapper without gait, gains or pose.
+// massless links, no gait, gains or pose.
 TEST(ThirdParty, OddRobotWalksFromTheLeastWrapper) {
   const Walk result =
       walk(VERP_SOURCE_DIR "/tests/host/model/odd_robot/robot.sdf --for 30 --physics-step 2");
@@ -50,7 +50,7 @@ TEST(ThirdParty, OddRobotWalksFromTheLeastWrapper) {
   EXPECT_EQ(result.result.value("notes", "").find("out of reach"), std::string::npos);
 }
 
-/// The odd robot with other hips: replaces each first text by the second in a new folder.
+/// Replaces each first text by the second.
 std::string odd_robot(const std::string& name,
                       const std::vector<std::pair<std::string, std::string>>& changes) {
   namespace fs = std::filesystem;
@@ -82,7 +82,7 @@ TEST(ThirdParty, WalksWithHipAxesThatAreFarApart) {
   expect_between(0.19, number(result, "speed_steady_m_s"), 0.21, "steady speed, m/s");
 }
 
-// One motor turns both hips about axes that lean by 45 degrees, as in NAO.
+// Hip axes lean by 45 degrees on one motor, as in NAO.
 TEST(ThirdParty, WalksAndTurnsWithLeaningHipAxesOnOneMotor) {
   const std::string left = "0.037 -0.085\"/>\n    <axis xyz=\"";
   const std::string right = "-0.037 -0.085\"/>\n    <axis xyz=\"";
@@ -93,12 +93,12 @@ TEST(ThirdParty, WalksAndTurnsWithLeaningHipAxesOnOneMotor) {
   expect_walked(ahead);
   expect_between(0.19, number(ahead, "speed_steady_m_s"), 0.21, "steady speed, m/s");
   expect_walked(walk(robot + " --velocity 0.1,0,0.3 --for 20 --physics-step 2"));
-  // With light rotors or stiff gears these once diverged within 0.2 s.
+  // Light rotors or stiff gears once diverged within 0.2 s.
   for (const char* seed : {"20", "26"})
     expect_walked(walk(robot + " --vary --for 3 --physics-step 2 --seed " + seed));
 }
 
-// Supplies of 24 V, and of 5 V for small servos: once all servos reported an input voltage error.
+// 24 V, and 5 V for small servos: no input voltage error.
 TEST(ThirdParty, WalksOnTheSupplyThatItsServosAreMadeFor) {
   std::stringstream text;
   text << std::ifstream(VERP_SOURCE_DIR "/common/robots/generic21/robot.sdf").rdbuf();

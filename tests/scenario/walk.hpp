@@ -8,17 +8,17 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-/// Runs `verp walk` as a user does and returns its output.
+/// Runs `verp walk` as a user does.
 namespace verp::scenario {
 
 using nlohmann::json;
 
 struct Walk {
-  int status = -1;  ///< exit status; -1: killed
-  json result;      ///< empty when there was no JSON
+  int status = -1;  ///< -1: killed
+  json result;      ///< empty without JSON
 };
 
-/// The last one for gates in seeds.txt.
+/// As in seeds.txt.
 inline constexpr unsigned long kLastGateSeed = 100;
 
 inline Walk walk(const std::string& arguments) {
@@ -57,7 +57,7 @@ inline void expect_walked(const Walk& walk) {
   EXPECT_EQ(walk.result.value("fallen", true), false) << walk.result.value("failure", "");
 }
 
-/// Too good is as suspicious as too bad: the test has lost its grip.
+/// A result that is too good means that the test has lost its grip.
 inline void expect_between(double low, double value, double high, const char* what) {
   EXPECT_GE(value, low) << what;
   EXPECT_LE(value, high) << what;

@@ -11,8 +11,8 @@
 #include "host/boards/board/qemu.hpp"
 #include "host/os/link/can_port.hpp"
 
-// A board's own CAN driver in the emulator, with frames of this PC's vcan0. Run it inside
-// tests/support/with-can. VERP_TEST_BOARD names the board; its image is boards/mps2/can_main.cpp.
+// A board's CAN driver in the emulator, on vcan0. Run it inside tests/support/with-can.
+// VERP_TEST_BOARD names the board; its image is boards/mps2/can_main.cpp.
 namespace verp::board {
 namespace {
 
@@ -35,7 +35,7 @@ class Echo {
 
   bool send(const CanFrame& frame) { return port_.send(frame); }
   bool take(CanFrame& frame) { return port_.poll(frame, kPatience_us); }
-  /// Ends the image and returns its counts.
+  /// Returns the image's counts.
   CanFrame end() {
     CanFrame frame;
     frame.id = kEnd;
@@ -56,7 +56,7 @@ class Echo {
   QemuProcess firmware_;
 };
 
-/// Random frame; not the two special identifiers, and room for one more.
+/// Without the two special identifiers, with room for one more.
 CanFrame any_frame(std::mt19937& random) {
   CanFrame frame;
   frame.extended = random() % 4 == 0;
@@ -86,7 +86,7 @@ TEST(CanBoard, AnswersFramesOfEveryKindWholeAndOnce) {
   expect_no_errors(board.end());
 }
 
-// Like a group of drives that answers a SYNC: five frames at a time.
+// Five frames at a time, like drives that answer a SYNC.
 TEST(CanBoard, LosesNoneOfAGroupsAnswers) {
   Echo board;
   std::mt19937 random(5);

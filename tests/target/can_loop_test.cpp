@@ -16,7 +16,7 @@
 #include "host/twin/sim/world.hpp"
 #include "tests/target/can_run.hpp"
 
-// Control loop in the board, drives in the twin, CAN frames over vcan0. Run it inside
+// The loop is in the board, the drives in the twin, frames on vcan0. Run it inside
 // tests/support/with-can. VERP_TEST_BOARD names the board, VERP_TEST_TICKS the length.
 namespace verp::board {
 namespace {
@@ -28,8 +28,8 @@ std::string setting(const char* name) {
 
 using test::CanTwin;
 
-constexpr double kStanding_s = 9;     ///< time to get up and stand still at the end (twin_run.cpp)
-constexpr double kLeast_m_s = 0.089;  ///< half of the operator's order
+constexpr double kStanding_s = 9;     ///< to get up, and to stand at the end (twin_run.cpp)
+constexpr double kLeast_m_s = 0.089;  ///< half of the order
 
 std::vector<TickRecord> walk_here(std::uint32_t ticks) {
   CanTwin twin;
@@ -56,7 +56,7 @@ void expect_same(const std::vector<TickRecord>& here, const std::vector<TickReco
   }
 }
 
-/// The result of a `verp shadow` that listens meanwhile; it first asks for a State.
+/// Of a `verp shadow` that listens; it first asks for a State.
 void expect_same_bits_live(const shadow::LiveCheck& check, std::uint32_t ticks) {
   constexpr std::uint32_t kFirstState = 200;
   EXPECT_FALSE(check.over()) << (check.differs() ? "not the same bits" : check.refusal());
@@ -65,8 +65,7 @@ void expect_same_bits_live(const shadow::LiveCheck& check, std::uint32_t ticks) 
   EXPECT_GE(check.compared() + kFirstState, ticks) << "what the board tells of its ticks";
 }
 
-// Digests of every stage in every tick, their inputs, and those that the board publishes on the bus
-// while it walks.
+// Digests of every stage in every tick, their inputs, and those on the bus.
 TEST(CanLoop, WalksInTheTwinWithTheBitsOfSoftwareInTheLoop) {
   const std::string board = setting("VERP_TEST_BOARD"), length = setting("VERP_TEST_TICKS");
   ASSERT_FALSE(board.empty() || length.empty()) << "set VERP_TEST_BOARD and VERP_TEST_TICKS";
@@ -98,7 +97,7 @@ TEST(CanTour, HasTheBitsOfSoftwareInTheLoop) {
   expect_same(records, run.records);
 }
 
-/// A foreign tool that asks the board's node for its mode without pause, and sometimes to relax.
+/// Asks the board's node for its mode without pause, and sometimes to relax.
 class Poller {
  public:
   ~Poller() { end(); }

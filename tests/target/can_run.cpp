@@ -20,7 +20,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kSilence{60};
-constexpr std::uint32_t kLook_us = 100'000;  ///< how often a silent emulator is checked
+constexpr std::uint32_t kLook_us = 100'000;  ///< between checks of a silent emulator
 constexpr std::chrono::seconds kEnd{10};
 
 struct Keeper {
@@ -52,7 +52,7 @@ std::vector<TickRecord> read_records(const std::filesystem::path& path) {
   return records;
 }
 
-/// What the clock's end observes during a run.
+/// What the clock's end sees.
 struct Watch {
   Clock::time_point first, last;
   std::uint64_t frames = 0, frames_before = 0;
@@ -66,7 +66,7 @@ struct Watch {
     };
     hooks.sent = [this](const CanFrame&) { ++frames; };
     hooks.polled = [this](const std::vector<CanFrame>& burst, std::uint64_t) {
-      frames += burst.size() + 2;  // the question and its answer
+      frames += burst.size() + 2;  // question and answer
     };
     return hooks;
   }
@@ -74,7 +74,7 @@ struct Watch {
 
 const link::Endpoint kInterface{.kind = link::Endpoint::Kind::kCan, .place = "vcan0"};
 
-/// Passes the frames on vcan0 to the live check, which may ask the controller, as in `verp hil`.
+/// Passes vcan0's frames to the live check, which may ask the controller.
 class Listener {
  public:
   explicit Listener(shadow::LiveCheck& check) : check_(check) {}

@@ -10,15 +10,15 @@
 #include "host/twin/can/virtual_can.hpp"
 #include "tests/target/twin_run.hpp"
 
-/// Control loop on an emulated board, drives and sensors on a virtual bus, CAN frames on vcan0.
-/// Needs CAN sockets: tests/support/with-can.
+/// The loop is on an emulated board, drives and sensors on a virtual bus, frames on vcan0. Needs
+/// tests/support/with-can.
 namespace verp::test {
 
 struct CanRun {
   std::vector<TickRecord> records;
   can::LockstepServer::Counters counters;
-  double ticks_per_s = 0;      ///< wall time from the first tick to the last, without bring-up
-  double frames_per_tick = 0;  ///< on vcan0, with the clock's frames
+  double ticks_per_s = 0;      ///< wall time, without bring-up
+  double frames_per_tick = 0;  ///< on vcan0, with the clock's
 };
 
 struct CanTwin {
@@ -29,15 +29,15 @@ struct CanTwin {
   Hands hands{world, body};
 };
 
-/// Runs the script on the board. Throws BoardError if it does not end well or frames were lost
-/// here. `check`, if given, listens on vcan0.
+/// Throws BoardError if the script does not end well or frames were lost here. `check` listens on
+/// vcan0.
 CanRun run_over_can(const std::string& board, CanTwin& twin, const Script& script,
                     shadow::LiveCheck* check = nullptr);
-/// With any plant behind the bus.
+/// With any plant.
 CanRun run_over_can(const std::string& board, const Params& params, can::VirtualCan& bus,
                     const Script& script, shadow::LiveCheck* check = nullptr);
 
-/// Software in the loop over the same CANopen binding. Empty if it did not come up.
+/// In this process, over the same CANopen binding. Empty if it did not come up.
 std::vector<TickRecord> run_can_here(CanTwin& twin, const Script& script);
 
 }  // namespace verp::test

@@ -5,7 +5,7 @@
 
 #include "tests/target/twin_run.hpp"
 
-// A firmware build's ctest sets VERP_TEST_BOARD to the emulated board.
+// A firmware build's ctest sets VERP_TEST_BOARD.
 namespace verp::test {
 namespace {
 
@@ -22,7 +22,7 @@ void expect_same(const TwinRun& here, const TwinRun& there) {
   }
 }
 
-// 20 s of walking between standing up and standing still, generic21 at 10 ms a tick.
+// 20 s of walking, generic21 at 10 ms a tick.
 TEST(ClosedLoop, WalksTheSameBitsInTheBoardAndOnThePc) {
   const char* board = std::getenv("VERP_TEST_BOARD");
   ASSERT_NE(board, nullptr) << "set VERP_TEST_BOARD";

@@ -8,7 +8,7 @@ import os
 
 import gdb
 
-BEGIN = {5: 0x08020000, 6: 0x08040000, 7: 0x08060000}  # RM0090 3.3, table 5; 128 KB each
+BEGIN = {5: 0x08020000, 6: 0x08040000, 7: 0x08060000}  # RM0090 3.3, table 5; 128 KB
 BYTES = 128 * 1024
 home, cut = int(os.environ["FLASH_HOME"]), int(os.environ["FLASH_CUT"])
 erase, program = int(os.environ["FLASH_ERASE"], 16), int(os.environ["FLASH_PROGRAM"], 16)

@@ -3,10 +3,10 @@
 namespace verp::can {
 namespace {
 
-// Filters, so that this socket does not receive its own frames.
+// So this socket does not receive its own frames.
 const std::vector<link::CanFilter> kAll = {{.id = 0, .mask = 0, .extended = false},
                                            {.id = 0, .mask = 0, .extended = true}};
-/// Only the controller's messages: bell_ would receive those that frames_ sends.
+/// The controller's messages, without those that frames_ sends.
 constexpr std::uint32_t kKind = 0x1FFFFFF8;
 const std::vector<link::CanFilter> kClock = {
     {.id = lockstep::kCanHelloId, .mask = kKind, .extended = true},
@@ -16,7 +16,7 @@ static_assert(((lockstep::kCanHelloId + lockstep::kCanHelloParts - 1) & kKind) =
 static_assert((lockstep::kCanHelloReplyId & kKind) == lockstep::kCanHelloReplyId);
 static_assert((lockstep::kCanAdvancedId & kKind) == lockstep::kCanAdvancedId);
 
-/// Both sockets receive a frame at nearly the same time.
+/// Both sockets receive a frame within this time.
 constexpr std::uint32_t kMoment_us = 1000;
 
 }  // namespace
@@ -40,7 +40,7 @@ bool LockstepPort::serve(LockstepServer& server, std::uint32_t wait_us) {
     ++taken_;
     while (bell_.await(frame, 0)) ++rung_;
     if (rung_ <= taken_) break;  // later frames belong to the next one
-    // This PC was late and is asked for the same again. Two answers at once overflow a small FIFO.
+    // This PC was late. Two answers at once overflow a small FIFO.
     answer_.clear();
   }
   // The controller asks again for frames that cannot leave.

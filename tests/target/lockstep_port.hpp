@@ -9,9 +9,8 @@
 
 namespace verp::can {
 
-/// A lockstep controller at the other end of a SocketCAN interface. This PC sleeps until the
-/// controller asks for time; a second socket, which receives only its clock messages, wakes it.
-/// Answers leave in one call.
+/// A lockstep controller behind a SocketCAN interface. This PC sleeps until the controller's clock
+/// message on a second socket. Answers leave in one call.
 class LockstepPort {
  public:
   /// Throws LinkError.
@@ -21,15 +20,15 @@ class LockstepPort {
   /// False if none came in time.
   bool serve(LockstepServer& server, std::uint32_t wait_us);
 
-  /// The interface is up. Current after serve().
+  /// Current after serve().
   bool connected() const { return frames_.connected(); }
   hal::CanErrors errors() const;
 
  private:
   link::CanPort frames_;
   link::CanPort bell_;
-  std::uint32_t rung_ = 0;   ///< clock messages received by bell_
-  std::uint32_t taken_ = 0;  ///< clock messages received by frames_
+  std::uint32_t rung_ = 0;   ///< by bell_
+  std::uint32_t taken_ = 0;  ///< by frames_
   std::vector<CanFrame> answer_;
 };
 

@@ -7,7 +7,7 @@
 #include "tests/replay/long_trace.hpp"
 #include "tests/target/twin_run.hpp"
 
-// A firmware build's ctest sets VERP_TEST_BOARD and VERP_TEST_TICKS (the trace's length).
+// A firmware build's ctest sets VERP_TEST_BOARD and VERP_TEST_TICKS.
 namespace verp::board {
 namespace {
 
@@ -28,7 +28,7 @@ void expect_same(const replay::Segment& segment, const TargetReplay& there) {
   }
 }
 
-// The board reaches every phase, safety row and branch that tests/replay reaches on the PC.
+// Every phase, safety row and branch that tests/replay reaches.
 TEST(LongTrace, GivesTheSameDigestsInTheBoard) {
   const std::string board = setting("VERP_TEST_BOARD");
   const std::string ticks = setting("VERP_TEST_TICKS");

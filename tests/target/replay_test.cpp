@@ -8,7 +8,7 @@
 #include "host/boards/board/replay_on_target.hpp"
 #include "tests/support/random_inputs.hpp"
 
-// A firmware build's ctest sets VERP_TEST_BOARD to the emulated board.
+// A firmware build's ctest sets VERP_TEST_BOARD.
 namespace verp::board {
 namespace {
 
@@ -57,7 +57,6 @@ void expect_same(const TargetReplay& here, const TargetReplay& there) {
   }
 }
 
-// The project's first promise.
 TEST(TargetReplay, PlausibleInputsGiveTheSameDigests) {
   const Params params = plain_robot();
   const auto inputs = test::plausible_inputs(5000, 1, 981, params);

@@ -20,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Longer than a boot check on a busy machine.
+/// a boot check on a busy machine
 constexpr std::uint32_t kPatience_us = 3'000'000;
 constexpr std::chrono::seconds kStart{20};
 /// A controller asks again within a second of its own clock, which stutters in an emulator.
@@ -38,7 +38,7 @@ const bus::NamedRegister& named(const char* name) {
 
 bus::Client connect(const link::Endpoint& endpoint) {
   const auto deadline = Clock::now() + kStart;
-  // The socket's file exists a moment before the socket listens.
+  // The socket's file exists before it listens.
   for (;;) {
     try {
       return bus::Client(endpoint, kPatience_us);
@@ -117,7 +117,7 @@ std::vector<std::uint8_t> actions_image(const Robot& robot) {
 
 namespace {
 
-/// Writes the order to registers request to walk_wz at once, and to action_request.
+/// Registers request to walk_wz at once, and action_request.
 void give(SerialBoard& board, const app::OperatorOrder& order, std::uint16_t& action) {
   const Command& command = order.command;
   if (action != order.action) board.write("action_request", action = order.action);
@@ -129,13 +129,13 @@ void give(SerialBoard& board, const app::OperatorOrder& order, std::uint16_t& ac
   board.operator_port().write(dxl::controller::kDefaultId, named("request").address, bytes);
 }
 
-/// The cable between the twin and the board's servo port, with its faults.
+/// From the twin to the servo port, with faults.
 class Cable {
  public:
   Cable(SerialBoard& board, const SerialTrouble& trouble)
       : board_(board), trouble_(trouble), spoiler_(trouble.seed), link_(board.servo_port()) {}
 
-  /// Trouble begins with the loop's first tick: earlier it could end the start for good.
+  /// Trouble begins with the first tick: earlier it could end the start.
   void serve(bus::LockstepServer& server, const SerialRun& run) {
     std::vector<std::uint8_t> chunk(4096), heard, answer;
     while (!server.stopped()) {
@@ -191,7 +191,7 @@ SerialRun run_over_serial(SerialBoard& board, const Robot& robot, const Script& 
   Hands hands(world, body);
   hands.take(script);
   const std::uint32_t ticks = script.ticks;
-  std::uint16_t action = 0;  // last requested action
+  std::uint16_t action = 0;
   SerialRun run;
   bus::ShadowLoop shadow(robot.params,
                          [&](const TickRecord& record, const State&, const Outputs&) {

@@ -13,17 +13,17 @@
 #include "tests/support/link_faults.hpp"
 #include "tests/target/twin_run.hpp"
 
-/// The image loop_<board> in QEMU, with a socket at each serial port.
+/// loop_<board> in QEMU, a socket at each serial port.
 namespace verp::test {
 
 class SerialBoard {
  public:
-  /// Boots with these images in flash, where the board's memory.ld puts them; empty: without.
+  /// Images go where the board's memory.ld puts them; empty: without.
   SerialBoard(const std::string& board, const std::vector<std::uint8_t>& params_image,
               const std::vector<std::uint8_t>& actions_image = {});
 
   link::Endpoint servo_port() const { return endpoint("servo.sock"); }
-  /// The operator's end: registers of the controller as integers.
+  /// Registers of the controller as integers.
   bus::Client& operator_port() { return operator_port_; }
   std::uint64_t read(const char* name);
   void write(const char* name, std::int64_t value);
@@ -41,39 +41,37 @@ class SerialBoard {
   bus::Client operator_port_;
 };
 
-/// The flash content of `robot`'s controller.
+/// The flash content of `robot`.
 std::vector<std::uint8_t> params_image(const Robot& robot);
-/// The flash content of its actions.
 std::vector<std::uint8_t> actions_image(const Robot& robot);
 
-/// Faults of the servo port's cable once the loop ticks.
+/// On the servo port's cable, once the loop ticks.
 struct SerialTrouble {
   LinkFaults to_board, from_board;
-  int cut_every = 0;  ///< pulls the cable after so many answers of the twin; that answer is lost
+  int cut_every = 0;  ///< pulls the cable after so many answers; that answer is lost
   std::uint32_t seed = 1;
-  /// The twin waits before this tick until `pause` returns. 0: never.
+  /// The twin waits before this tick for `pause`. 0: never.
   std::uint32_t pause_before = 0;
   std::function<void()> pause{};
 };
 
 struct SerialRun {
   TwinRun twin;
-  std::uint64_t digest = 0;  ///< reported by the controller
-  std::uint32_t tick = 0;    ///< reported by the controller
+  std::uint64_t digest = 0;  ///< the controller's
+  std::uint32_t tick = 0;    ///< the controller's
   std::string difference;    ///< see bus::ShadowLoop
-  double ticks_per_s = 0;    ///< in wall time
-  std::uint64_t faults = 0;  ///< damaged bytes on the cable
+  double ticks_per_s = 0;    ///< wall time
+  std::uint64_t faults = 0;  ///< on the cable
   int cuts = 0;
-  std::uint32_t bus_timeouts = 0;  ///< reported to the operator
-  std::uint32_t bus_noise = 0;     ///< reported to the operator
+  std::uint32_t bus_timeouts = 0;  ///< the operator's
+  std::uint32_t bus_noise = 0;     ///< the operator's
   bus::LockstepServer::Counters lockstep;
 };
 
-/// The twin is in lockstep at the board's servo port, the script's operator at the other. Throws
-/// BoardError or DeviceError.
+/// The twin is at the servo port, the script's operator at the other. Throws BoardError or
+/// DeviceError.
 SerialRun run_over_serial(SerialBoard& board, const Robot& robot, const Script& script,
                           const SerialTrouble& trouble = {});
-/// With the orders of ScriptedOperator.
 SerialRun run_over_serial(SerialBoard& board, const Robot& robot, std::uint32_t ticks,
                           const SerialTrouble& trouble = {});
 

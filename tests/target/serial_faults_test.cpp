@@ -4,9 +4,8 @@
 
 #include "tests/target/serial_board.hpp"
 
-// The firmware image in QEMU, in lockstep over a faulty cable. Lockstep has no wall clock: lost
-// data are requested again or lost on the simulated bus, and both ends know which. VERP_TEST_BOARD
-// and VERP_TEST_TICKS as in serial_loop_test.cpp.
+// In lockstep over a faulty cable. Lost data are requested again or lost on the simulated bus, and
+// both ends know which. VERP_TEST_BOARD and VERP_TEST_TICKS as in serial_loop_test.cpp.
 namespace verp::test {
 namespace {
 
@@ -31,7 +30,7 @@ class SerialFaults : public ::testing::Test {
                 there.lockstep.damaged, there.bus_timeouts);
     return there;
   }
-  /// The run finished, and this PC knows every bit of the controller's work.
+  /// This PC knows every bit.
   void expect_known(const SerialRun& there) const {
     EXPECT_EQ(there.difference, "");
     ASSERT_EQ(there.twin.records.size(), ticks);
@@ -47,7 +46,7 @@ class SerialFaults : public ::testing::Test {
     EXPECT_EQ(there.bus_timeouts, 0u);
   }
 
-  /// The robot stands up; repeated requests take wall time.
+  /// The robot stands up.
   static constexpr std::uint32_t kStandsUp = 500;
   std::uint32_t ticks = 0;
   Robot robot;
@@ -71,7 +70,7 @@ TEST_F(SerialFaults, LoseNoBitWhenTheCableIsPulledAndPutBack) {
   EXPECT_GE(there.lockstep.repeats, static_cast<std::uint32_t>(there.cuts));
 }
 
-// The controller's bytes are the bus itself: a lost one is lost for good.
+// The bytes are the bus itself: a lost one is lost for good.
 TEST_F(SerialFaults, LetItWalkOnWithOneByteInAThousandLost) {
   const SerialRun there =
       run({.to_board = {.lost = 1e-3}, .from_board = {.lost = 1e-3}, .seed = 3});
@@ -84,7 +83,7 @@ TEST_F(SerialFaults, LetItWalkOnWithOneByteInAThousandLost) {
   EXPECT_NEAR(there.twin.distance_m, here.distance_m, 0.1 * here.distance_m);
 }
 
-// Three bytes in a thousand, both ways: nothing hangs and nothing is misunderstood.
+// Three bytes in a thousand, both ways.
 TEST_F(SerialFaults, EndInOrderOnALineFullOfNoise) {
   constexpr LinkFaults kAwful{.lost = 1e-3, .doubled = 1e-3, .flipped = 1e-3};
   ticks = 150;

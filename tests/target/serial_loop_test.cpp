@@ -9,7 +9,7 @@
 #include "host/author/action/send.hpp"
 #include "tests/target/serial_board.hpp"
 
-// A firmware build's ctest sets VERP_TEST_BOARD and VERP_TEST_TICKS (a walk's length).
+// A firmware build's ctest sets VERP_TEST_BOARD and VERP_TEST_TICKS.
 namespace verp::test {
 namespace {
 
@@ -26,7 +26,7 @@ std::uint32_t test_ticks() {
   return ticks == nullptr ? 0 : static_cast<std::uint32_t>(std::strtoul(ticks, nullptr, 10));
 }
 
-// After the boot check, with or without a twin, the port reports how the start went.
+// After the boot check the port reports how the start went.
 TEST(SerialLoop, AnswersItsOperatorAsDevice200) {
   SerialBoard board(test_board(), params_image(load_robot("generic21")));
   const auto identity = board.operator_port().ping(dxl::controller::kDefaultId);
@@ -53,10 +53,10 @@ TEST(SerialLoop, TellsItsOperatorWhyItRefusesTorque) {
   EXPECT_EQ(board.read("torque_enable"), 0u);
 }
 
-// The fault is reported; the board does not retry by endless resets.
+// The board does not retry by endless resets.
 TEST(SerialLoop, TellsItsOperatorThatTheServoPortDoesNotOpen) {
   Robot robot = load_robot("generic21");
-  robot.entity.baud = 50'000'000;  // no divider of the chip gives this
+  robot.entity.baud = 50'000'000;  // no divider gives this
   SerialBoard board(test_board(), params_image(robot));
   ASSERT_TRUE(board.operator_port().ping(dxl::controller::kDefaultId).has_value());
   EXPECT_EQ(board.read("self_test"), static_cast<std::uint64_t>(SelfTest::kPassed));
@@ -67,7 +67,7 @@ TEST(SerialLoop, TellsItsOperatorThatTheServoPortDoesNotOpen) {
   EXPECT_EQ(board.read("torque_enable"), 0u);
 }
 
-// The bus is on one USART, the orders on another; every stage of every tick is compared.
+// Bus and orders have a USART each; every stage of every tick is compared.
 TEST(SerialLoop, WalksTheSameBitsThroughItsUsartsAndInThisProcess) {
   const std::uint32_t ticks = test_ticks();
   ASSERT_GT(ticks, 0u) << "set VERP_TEST_TICKS";
@@ -129,7 +129,7 @@ TEST(SerialLoop, TellsItsOperatorWhyItsActionsDoNotCount) {
   EXPECT_EQ(fault_of(params_image(robot)), action::KeptFault::kNotALibrary);
 }
 
-/// Reads the current image through the window.
+/// Through the window.
 std::vector<std::uint8_t> actions_in_force(SerialBoard& board) {
   board.write("window_kind", 2);
   std::vector<std::uint8_t> bytes;
@@ -144,7 +144,7 @@ std::vector<std::uint8_t> actions_in_force(SerialBoard& board) {
   return bytes;
 }
 
-// Only a debugger (write_flash) can write the emulated chip's flash.
+// Only a debugger (write_flash) can write the emulated flash.
 TEST(SerialLoop, SaysWhyItTakesNoActionsAndKeepsThoseThatItHas) {
   const Robot robot = load_robot("generic21");
   const std::vector<std::uint8_t> image = actions_image(robot);
@@ -172,7 +172,7 @@ TEST(SerialLoop, SaysWhyItTakesNoActionsAndKeepsThoseThatItHas) {
   EXPECT_EQ(board.read("start_fault"), 0u);
 }
 
-/// Waits longer than a twin may be silent.
+/// Longer than a twin may be silent.
 void wait_for_no_torque(SerialBoard& board) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   while (board.read("torque_enable") != 0 && std::chrono::steady_clock::now() < end) {

@@ -29,7 +29,7 @@ constexpr Walk kStraight = {1778, 0, 0};  // two 4 cm steps in 0.450 s
 constexpr Walk kWanders[] = {kStraight,    {900, 300, 0},  {-700, 0, 200},
                              {0, 0, -400}, {1778, 0, 300}, {600, -300, -200}};
 
-/// A run without its controller.
+/// Without its controller.
 struct Twin {
   explicit Twin(const Robot& robot) : body(world, robot.entity), bus(robot.params, body) {}
   TwinRun ended(TwinRun run) {
@@ -53,7 +53,7 @@ struct Keeper {
   }
 };
 
-/// The order from this second on.
+/// From this second on.
 struct Order {
   double from_s;
   Request request;
@@ -106,7 +106,7 @@ Script walk_script(const Params& params, std::uint32_t ticks, bool wandering) {
 
 namespace {
 
-/// Follows these orders until `end_s`.
+/// Until `end_s`.
 Script script_of(const Robot& robot, std::span<const Order> from, double end_s,
                  std::vector<Hand> hands) {
   const auto folder = action::folder_of(robot.entity.file);

@@ -14,20 +14,19 @@
 #include "host/twin/sim/robot.hpp"
 #include "host/twin/sim/world.hpp"
 
-/// A robot in the twin whose operator follows the tick alone: the run is the same with any
-/// controller.
+/// The operator follows the tick alone, so the run is the same with any controller.
 namespace verp::test {
 
 struct TwinRun {
   std::vector<TickRecord> records;
-  std::vector<safety::Mode> modes;  ///< in order; only of a run in this process
-  double distance_m = 0;            ///< from start to end, over ground
+  std::vector<safety::Mode> modes;  ///< in order; only of runs in this process
+  double distance_m = 0;            ///< over ground
   std::vector<double> pushed_m;     ///< from the start to where hands pushed it
   bool fallen = false;
 };
 
-/// Stands up in six seconds, walks until three seconds before the end, then stands still. Walks in
-/// 4 cm steps or, if `wandering`, another way every three seconds.
+/// Stands up in six seconds, walks until three seconds before the end, then stands. 4 cm steps or,
+/// if `wandering`, another way every three seconds.
 class ScriptedOperator {
  public:
   ScriptedOperator(const Params& params, std::uint32_t ticks, bool wandering)
@@ -40,14 +39,14 @@ class ScriptedOperator {
   bool wandering_;
 };
 
-/// A hand that pushes the trunk.
+/// Pushes the trunk.
 struct Hand {
-  double at_s = 0;  ///< world time: the controller's ticks begin about 0.7 s later
+  double at_s = 0;  ///< world time: ticks begin about 0.7 s later
   sim::Vec3 force_world_n = sim::Vec3::Zero();
   double for_s = 0;
 };
 
-/// A run's events: orders by the tick alone, hands by the world's time.
+/// Orders by the tick alone, hands by the world's time.
 struct Script {
   std::uint32_t ticks = 0;
   std::function<app::OperatorOrder(std::uint32_t tick)> order;
@@ -60,8 +59,7 @@ struct Orders {
   app::OperatorOrder order(std::uint32_t tick) const { return script.order(tick); }
 };
 
-/// The script's hands, by the world's time: they push at the same step, however often the world is
-/// read.
+/// They push at the same step, however often the world is read.
 class Hands : private sim::Actor {
  public:
   Hands(sim::World& world, sim::TwinRobot& body)
@@ -73,7 +71,7 @@ class Hands : private sim::Actor {
   Hands(const Hands&) = delete;
   Hands& operator=(const Hands&) = delete;
   void take(const Script& script) { waiting_ = {script.hands.begin(), script.hands.end()}; }
-  /// Distance from the start over ground, at each push.
+  /// From the start over ground, at each push.
   const std::vector<double>& pushed_m() const { return pushed_m_; }
   double distance_m() const { return (body_.truth().com_world_m - start_).head<2>().norm(); }
 
@@ -100,30 +98,28 @@ struct Robot {
   model::Entity entity;
   Params params;
 };
-/// With the bus of that name; empty: its first.
+/// Empty: its first bus.
 Robot load_robot(const std::string& name, const std::string& bus = {});
 
-/// With the orders of ScriptedOperator.
 Script walk_script(const Params& params, std::uint32_t ticks, bool wandering = false);
 
-/// All that a robot does on a field, in 42 s: it walks, turns, is pushed, is pushed over although
-/// it steps, gets up, kicks and waves.
+/// 42 s: walks, turns, is pushed, is pushed over, gets up, kicks and waves.
 Script tour_script(const Robot& robot);
-/// The controller's modes from its first tick on.
+/// From its first tick on.
 inline constexpr safety::Mode kTourModes[] = {
     safety::Mode::kRising,   safety::Mode::kStanding,  safety::Mode::kWalking,
     safety::Mode::kStanding, safety::Mode::kWalking,   safety::Mode::kFalling,
     safety::Mode::kFallen,   safety::Mode::kGettingUp, safety::Mode::kStanding,
     safety::Mode::kActing,   safety::Mode::kStanding,  safety::Mode::kActing,
     safety::Mode::kStanding};
-/// Stands, is pushed over and gets up with the robot's own actions, in 15 s.
+/// Is pushed over and gets up with the robot's own actions, in 15 s.
 Script fall_script(const Robot& robot);
 inline constexpr safety::Mode kFallModes[] = {safety::Mode::kRising,    safety::Mode::kStanding,
                                               safety::Mode::kFalling,   safety::Mode::kFallen,
                                               safety::Mode::kGettingUp, safety::Mode::kStanding};
 std::string modes_text(const std::vector<safety::Mode>& modes);
 
-/// Software in the loop: controller, bus and physics in this process.
+/// All in this process.
 TwinRun run_here(const Robot& robot, const Script& script);
 TwinRun run_here(const Robot& robot, std::uint32_t ticks, bool wandering);
 TwinRun run_on_board(const std::string& board, const Robot& robot, const Script& script);

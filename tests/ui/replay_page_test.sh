@@ -9,7 +9,7 @@ trap 'rm -rf "$scratch"' EXIT
 browser=$(command -v chromium) || { echo "FAILED: no chromium (apt-get install chromium)"; exit 1; }
 failed=0
 
-# Before the page's scripts: collects their complaints. After them: acts as a user and records the result.
+# Before the page's scripts: collects complaints. After them: acts as a user and records the result.
 probe() { # page: prints a copy with both
   sed 's|<head>|<head><script>window.said=[];window.onerror=function(m){said.push(String(m))};console.error=console.warn=function(m){said.push(String(m))};</script>|' "$1"
   cat <<'JS'
@@ -67,7 +67,7 @@ cd "$scratch" || exit 1
 look report report/index.html
 look page page.html
 
-# The check must fail for an empty run, in which nothing moves.
+# The check must fail for an empty run.
 sed 's/"frames":"[^"]*"/"frames":""/; s/"count":[0-9]*/"count":0/' page.html >empty.html
 ( failed=0; look empty empty.html >/dev/null; [[ $failed == 1 ]] ) || { echo "FAILED: an empty run passes"; failed=1; }
 exit "$failed"

@@ -1,12 +1,12 @@
-// rate.exe TIMES: control ticks per second of CPU time from C#, one call per tick, over a walk's
-// inputs. One line each time.
+// rate.exe TIMES: control ticks per second of CPU time, one call per tick, over a walk's inputs.
+// One line each time.
 using System;
 using System.Collections.Generic;
 using System.Diagnostics;
 using Verp;
 
 static class Rate {
-  const int kPasses = 100;  // the CPU clock counts hundredths of a second
+  const int kPasses = 100;  // the clock counts hundredths
 
   static int Main(string[] args) {
     var saw = new List<verp_inputs>();

@@ -3,7 +3,7 @@
 #include "tests/contract/chip_models.hpp"
 #include "tests/contract/fakes.hpp"
 
-/// Backends on an emulated board. It runs register models slowly, so only one chip.
+/// Register models are slow there, so only one chip.
 namespace verp::test {
 
 using FrameBuses = ::testing::Types<Scripted, ScriptedInPieces, UsartBus>;

@@ -13,7 +13,6 @@
 #include "tests/contract/pc/virtual_wire.hpp"
 #include "tests/contract/usb_pair.hpp"
 
-/// The backends on the PC.
 namespace verp::test {
 
 struct System {

@@ -21,7 +21,7 @@
 #include "tests/support/link_pump.hpp"
 #include "tests/support/link_stream.hpp"
 
-/// FrameBus backends that only the PC has, prepared as in fakes.hpp.
+/// Only on the PC, prepared as in fakes.hpp.
 namespace verp::test {
 
 struct Virtual : SimulatedTime {
@@ -31,7 +31,7 @@ struct Virtual : SimulatedTime {
   bus::VirtualBus bus{params, plant};
 };
 
-/// The virtual bus over FIFOs, as an emulated microcontroller reaches it.
+/// Over FIFOs, as an emulated microcontroller.
 struct Remote : SimulatedTime {
   explicit Remote(int) {
     server = std::thread(
@@ -53,7 +53,7 @@ struct Remote : SimulatedTime {
   app::RemoteBus<PipeEnd, PipeEnd> bus{in, out};
 };
 
-/// ... and over any ByteLink.
+/// Over any ByteLink.
 template <class Pair>
 struct RemoteOver : SimulatedTime {
   using Stream = app::LinkStream<link::Link>;
@@ -83,7 +83,7 @@ struct RemoteOver : SimulatedTime {
   app::RemoteBus<Stream, Stream> bus{near, near};
 };
 
-/// ... and in lockstep, as a board with a serial port is served.
+/// In lockstep, as a board with a serial port.
 template <class Pair>
 struct LockstepOver : SimulatedTime {
   explicit LockstepOver(int) {
@@ -110,7 +110,7 @@ struct LockstepOver : SimulatedTime {
   app::LockstepBus<link::Link, Idle> bus{pair.near(), Idle{}};
 };
 
-/// A servo in real time at the far end of a ByteLink.
+/// In real time at a ByteLink's far end.
 template <class Pair>
 struct LinkBusOver {
   static constexpr std::uint32_t kPlenty_us = 300'000;

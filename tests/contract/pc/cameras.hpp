@@ -12,10 +12,9 @@
 #include "host/twin/sim/world.hpp"
 #include "tests/support/video_device.hpp"
 
-/// The PC's cameras as backends of the suite.
 namespace verp::test {
 
-/// The V4L2 driver, with the test as its device.
+/// The test is the device.
 template <std::uint32_t kCode>
 struct KernelEyeOf {
   static constexpr std::uint32_t kWidth = 16, kHeight = 8;
@@ -51,7 +50,7 @@ struct KernelEyeOf {
 using KernelEye = KernelEyeOf<V4L2_PIX_FMT_YUYV>;
 using KernelEyeOfFiles = KernelEyeOf<V4L2_PIX_FMT_MJPEG>;
 
-/// Replaces the renderer: draws the number of the moment.
+/// Draws the number of the moment.
 class NumberDrawer {
  public:
   void expose(const camera::Moment& moment) { waiting_.push_back(moment); }
@@ -72,7 +71,7 @@ class NumberDrawer {
   std::uint32_t made_ = 0;
 };
 
-/// generic21's camera; tests/host/camera tests its renderer.
+/// tests/host/camera tests the renderer.
 struct TwinEye {
   static constexpr std::uint32_t kWidth = 320, kHeight = 240;
   static constexpr bool kBreaks = false;

@@ -13,10 +13,10 @@
 
 #include "host/os/link/can_port.hpp"
 
-/// The PC's CAN sockets as a backend. Needs tests/support/with-can.
+/// Needs tests/support/with-can.
 namespace verp::test {
 
-/// Another node on an interface: plain sockets, none of our code.
+/// Another node: plain sockets, none of our code.
 class RawNode {
  public:
   explicit RawNode(const std::string& interface)
@@ -43,7 +43,7 @@ class RawNode {
     std::memcpy(raw.data, frame.data, sizeof raw.data);
     send_raw(raw, frame.fd ? CANFD_MTU : CAN_MTU);
   }
-  /// An error frame as a driver reports it; vcan carries it like any other.
+  /// As a driver reports it; vcan carries it.
   void send_error(std::uint32_t kinds, std::uint8_t controller = 0) {
     canfd_frame raw{};
     raw.can_id = CAN_ERR_FLAG | kinds;
@@ -51,8 +51,7 @@ class RawNode {
     raw.data[1] = controller;
     send_raw(raw, CAN_MTU);
   }
-  /// The next frame it received. Kernel threads carry frames between sockets, which may take a
-  /// while.
+  /// Kernel threads carry frames, which may take a while.
   bool take(CanFrame& frame) {
     canfd_frame raw{};
     pollfd one{socket_, POLLIN, 0};
@@ -80,7 +79,7 @@ class RawNode {
 struct Vcan {
   static constexpr std::uint32_t kPlenty_us = 100'000;
   static constexpr std::uint64_t kSlack_us = 50'000;  // the virtual machine may be late
-  static constexpr bool kBusOff = false;              // no wire, so nothing ever waits
+  static constexpr bool kBusOff = false;              // no wire, so nothing waits
   void far_send(const CanFrame& frame) { far.send(frame); }
   bool far_take(CanFrame& frame) { return far.take(frame); }
   void fill_and_bus_off(const CanFrame&, int) {}

@@ -11,7 +11,7 @@
 #include "host/twin/sim/world.hpp"
 #include "tests/support/scip_sensor.hpp"
 
-/// The PC's lasers as backends: 1 m ahead in the middle, nothing on the left.
+/// 1 m ahead in the middle, nothing on the left.
 namespace verp::test {
 
 struct ScipLaser {
@@ -44,7 +44,7 @@ struct ScipLaser {
   std::uint32_t time_ms = 0;
 };
 
-/// generic21's laser, a metre before a wall.
+/// A metre before a wall.
 struct TwinLaser {
   static constexpr std::size_t kSteps = 21;
   static constexpr bool kBreaks = false;

@@ -11,11 +11,10 @@
 #include "host/os/link/link.hpp"
 #include "host/os/link/system_clock.hpp"
 
-/// Both ends of every real ByteLink of the PC. near() is the end under test; cut() removes the far
-/// end, mend() restores it.
+/// Both ends of each ByteLink. near() is under test; cut() removes the far end, mend() restores it.
 namespace verp::test {
 
-/// A folder that the test's end deletes.
+/// Deleted at the test's end.
 class Folder {
  public:
   Folder() {
@@ -33,7 +32,7 @@ class Folder {
   char path_[32] = "/tmp/verp-link-XXXXXX";
 };
 
-/// `Server` is the end that is there first; kNearServes says whether it is under test.
+/// `Server` is there first; kNearServes: it is under test.
 template <bool kNearServes>
 class HostPair {
  public:
@@ -42,7 +41,7 @@ class HostPair {
       : server_text_(server), client_text_(client) {
     server_.emplace(link::parse_endpoint(server));
     if (client_text_.empty()) client_text_ = server_->place();
-    if (server_->place().starts_with("tcp:")) {  // return to the same port
+    if (server_->place().starts_with("tcp:")) {  // the same port
       server_text_ = "tcp-listen" + server_->place().substr(3);
     }
     client_.emplace(link::parse_endpoint(client_text_));
@@ -69,10 +68,10 @@ class HostPair {
   link::SystemClock clock_;
 };
 
-/// libserial on one end of a pseudo-terminal.
+/// On one end of a pseudo-terminal.
 template <bool kNearServes>
 struct SerialPair : Folder, HostPair<kNearServes> {
-  static constexpr bool kKeepsBytesOnLoss = kNearServes;  // unplugging a device discards them
+  static constexpr bool kKeepsBytesOnLoss = kNearServes;  // unplugging discards them
   SerialPair() : HostPair<kNearServes>("pty:" + link(), "serial:" + link() + "@2000000") {}
 };
 template <bool kNearServes>

@@ -8,7 +8,7 @@
 
 namespace verp::test {
 
-/// The twin's bus without its robot, with one node for raw frames.
+/// Without a robot, with one node for raw frames.
 class VirtualWire : public SimulatedTime {
   class Far final : public can::Node {
    public:
