@@ -11,7 +11,7 @@ namespace verp::model {
 namespace {
 
 constexpr std::uint8_t kNone = 0xFF;
-// Limit for arms that are too light or too near the body's middle; they compensate less.
+// Arms too light or too near the middle compensate less.
 constexpr double kMost_rad_per_m = 6;
 
 std::uint8_t swinging_joint(const Entity& entity, const Params& params, const char* limb) {
@@ -24,11 +24,11 @@ std::uint8_t swinging_joint(const Entity& entity, const Params& params, const ch
   return kNone;
 }
 
-/// The robot in its stand pose: link frames relative to the body.
+/// Link frames relative to the body, in the stand pose.
 class Standing {
  public:
   explicit Standing(const Entity& entity) : entity_(entity), link_(entity.nodes.size()) {
-    // A follower joint may precede its parents, so repeat once per level of depth.
+    // A follower may precede its parents.
     link_[0] = Transform::Identity();
     std::vector<bool> placed(link_.size());
     placed[0] = true;
@@ -44,7 +44,7 @@ class Standing {
     }
   }
 
-  /// Angular momentum about the vertical through the body's origin while joint j turns at 1 rad/s.
+  /// About the vertical through the body's origin, joint j at 1 rad/s.
   double turned_by(std::size_t j) const {
     const Vec3 axis = link_[j + 1].linear() * entity_.joints[j].axis;
     double sum = 0;
@@ -57,7 +57,7 @@ class Standing {
     return sum;
   }
 
-  /// The same for a leg whose foot moves backward at 1 m/s; lower links move faster.
+  /// A leg's, with its foot moving backward at 1 m/s.
   double turned_by_leg(const LegParams& leg, const Limb& limb) const {
     const auto foot = static_cast<std::size_t>(limb.joints.back()) + 1;
     const double hip_m = static_cast<double>(leg.hip_body_m.z);
@@ -95,7 +95,7 @@ void find_arms(const Entity& entity, Params& params) {
                                                swinging_joint(entity, params, "right_arm")};
   if (!leg[0] || !leg[1] || arm[0] == kNone || arm[1] == kNone) return;
   const Standing robot(entity);
-  // One foot moves ahead and the other back, each at half their relative speed.
+  // One foot ahead, one back, at half their relative speed each.
   const double legs =
       (robot.turned_by_leg(params.leg[0], *leg[0]) - robot.turned_by_leg(params.leg[1], *leg[1])) /
       2;

@@ -116,7 +116,7 @@ class Assembler {
     }
   }
 
-  /// Controllers have room for 23 characters; tables, plots and traces have one line per name.
+  /// Controllers have 23 characters; tables and traces one line.
   void check_names() const {
     std::vector<std::string> names = {e_.name};
     for (const Joint& joint : e_.joints) names.push_back(joint.name);
@@ -133,8 +133,7 @@ class Assembler {
     }
   }
 
-  /// Servos without a P gain in the file get the one that fits the robot, and an eighth of it as D
-  /// gain.
+  /// P gain that fits the robot, and an eighth as D gain, where the file gives none.
   void fit_gains() {
     std::map<std::string, std::uint16_t> fitted;
     for (const ServoFact& fact : facts_.bus().servos) {

@@ -8,9 +8,9 @@
 
 namespace verp::model {
 
-/// Makes an Entity from a model read by libsdformat and its facts. Lumps fixed joints, transforms
-/// all frames to the body's axes at the zero pose, assigns servos to joints and finds the limbs.
-/// `names`: the import's renamings. Throws LoadError.
+/// Entity from libsdformat's model and the facts. Lumps fixed joints, transforms frames to the
+/// body's axes at the zero pose, assigns servos and finds limbs. `names`: import's renamings.
+/// Throws LoadError.
 Entity assemble(const XmlSource& source, const Facts& facts, const sdf::Model& model,
                 const UrdfNames& names);
 

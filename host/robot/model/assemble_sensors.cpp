@@ -47,14 +47,14 @@ class SensorAssembler {
           e_.force_torques.push_back(
               read_force_torque(sensor, place.node, link_pose, place.pose, wrong(sensor)));
         }
-        // Without a topic it only marks a position, as the force cells of <verp:feet> do.
+        // Without a topic it only marks a position, as for <verp:feet>.
         if (sensor.Type() == sdf::SensorType::CONTACT && !sensor.Topic().empty())
           e_.contacts.push_back(read_contact(sensor, place.node, wrong(sensor)));
       }
     }
   }
 
-  /// The sensor of <verp:imu>: on a link, or an SDF sensor found before.
+  /// On a link, or an SDF sensor.
   void require_imu() {
     if (facts_.imu && facts_.imu->sensor.empty()) {
       const LinkTree::Located place = tree_.locate(facts_.imu->link, facts_.imu->at);
@@ -73,7 +73,7 @@ class SensorAssembler {
       for (std::uint64_t i = 0; i < joint.SensorCount(); ++i) {
         const sdf::Sensor& sensor = *joint.SensorByIndex(i);
         const LinkTree::Located place = tree_.locate(child, facts_.body->at);
-        // libsdformat 12 has no frames in joints, so the pose is in the joint's frame.
+        // libsdformat 12 has no frames in joints.
         if (!sensor.PoseRelativeTo().empty())
           wrong(sensor)("its <pose> has a relative_to", "give it in the joint's frame");
         const Transform pose =
@@ -90,7 +90,6 @@ class SensorAssembler {
     }
   }
 
-  /// Reports an error at the sensor's declaration.
   WrongSensor wrong(const sdf::Sensor& sensor) const {
     return [this, &sensor](const std::string& what, const std::string& fix) {
       fail_at(source_, sensor.Name(), sensor.TypeStr() + " '" + sensor.Name() + "': " + what, fix);

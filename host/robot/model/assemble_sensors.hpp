@@ -8,8 +8,8 @@
 
 namespace verp::model {
 
-/// Adds all sensors of a robot whose nodes exist: SDF's on links and in joints, and the facts of
-/// <verp:imu>, <verp:feet>, <verp:truth> and <verp:latency>. Throws LoadError.
+/// All sensors, after the nodes: SDF's, and <verp:imu>, <verp:feet>, <verp:truth> and
+/// <verp:latency>. Throws LoadError.
 void assemble_sensors(const XmlSource& source, const Facts& facts, const sdf::Model& model,
                       const LinkTree& tree, Entity& entity);
 

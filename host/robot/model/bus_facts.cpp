@@ -76,7 +76,7 @@ ServoFact read_servo(const XmlElement& e, const std::vector<ServoType>& types, B
   fact.gives_d_gain = e.has("d_gain");
   s.i_gain = gain(e, "i_gain", 0);
   s.d_gain = gain(e, "d_gain", 0);
-  // One period, so that straight lines join the goals.
+  // Straight lines then join the goals.
   const int joined_ms = can ? 0 : static_cast<int>(period_us / 1000);
   s.profile_ms = static_cast<std::uint16_t>(e.integer("profile_ms", 0, 1000, joined_ms));
   if (s.p_gain == 0)
@@ -86,8 +86,7 @@ ServoFact read_servo(const XmlElement& e, const std::vector<ServoType>& types, B
   return fact;
 }
 
-// CiA 301's bit rates without 800 kbit/s, which bxCAN cannot make from 42, 45 or 54 MHz. At the
-// lowest rates no robot's tick fits its period; another check reports this.
+// CiA 301's without 800 kbit/s, which bxCAN cannot make from 42, 45 or 54 MHz.
 std::uint32_t read_baud(const XmlElement& e, BusProtocol protocol) {
   if (protocol == BusProtocol::kDynamixel2) {
     return static_cast<std::uint32_t>(e.integer("baud", 9600, 4500000, 2000000));

@@ -24,7 +24,7 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-/// Bounding box of all collision shapes and joint centres at the zero pose.
+/// Box around collision shapes and joint centres, zero pose.
 Vec3 measures(const Entity& entity) {
   const auto origins = node_origins(entity);
   Eigen::AlignedBox3d box;
@@ -81,7 +81,7 @@ std::string leg_text(const Limb& limb, const LegGeometry& g) {
       1000 * (limb.sole_max_m.y() - limb.sole_min_m.y()), -1000 * limb.tip.translation().z());
 }
 
-/// Gearbox friction torque when the motor stalls against the gearbox alone.
+/// Friction when the motor stalls against the gearbox.
 double stall_friction_n_m(const Servo& servo) {
   const Gearbox& g = servo.gearbox;
   return g.f_base_n_m + g.f_strib_n_m + servo.stall_torque_n_m * (g.l_base + g.l_strib);
@@ -112,7 +112,7 @@ std::string joint_rows(const Entity& entity) {
   return text;
 }
 
-/// One line per servo type: facts about rotor and gears, and their source.
+/// One line per type, with the source.
 std::string servo_type_rows(const Entity& entity) {
   std::map<std::string, const Servo*> used;
   for (const Joint& joint : entity.joints) used.insert({joint.servo.type, &joint.servo});

@@ -5,13 +5,12 @@
 
 namespace verp::model {
 
-/// Output of `verp check` for a robot: limbs, links, masses, limits, servos, leg solver, bus load.
-/// For people, or as one JSON object.
+/// `verp check` of a robot: limbs, links, masses, limits, servos, leg solver, bus load; as text or
+/// one JSON object.
 std::string describe(const Entity& entity);
 std::string describe_json(const Entity& entity);
 
-/// `verp check MODEL [--json]`: prints to standard output and returns 0. Throws LoadError for an
-/// invalid robot; the caller prints it and exits with 2.
+/// Prints and returns 0. Throws LoadError, for exit 2.
 int check_command(const std::string& name_or_path, const std::string& bus, bool json);
 
 }  // namespace verp::model

@@ -11,7 +11,7 @@
 namespace verp::model {
 namespace {
 
-constexpr double kLeastRatio = 0.01, kMostRatio = 100;  // far beyond gears of one stage
+constexpr double kLeastRatio = 0.01, kMostRatio = 100;  // beyond one stage
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -29,7 +29,7 @@ const Joint& driver_of(const Entity& entity, const Joint& follower) {
   return entity.joints[static_cast<std::size_t>(follower.follows)];
 }
 
-/// Index of a joint in its leg, 0 at the hip; -1: not in the leg.
+/// 0 at the hip; -1: not in the leg.
 int place_in_leg(const Entity& entity, const char* name, int joint) {
   const Limb* const leg = find_limb(entity, name);
   if (leg == nullptr) return -1;
@@ -37,7 +37,7 @@ int place_in_leg(const Entity& entity, const char* name, int joint) {
   return found == leg->joints.end() ? -1 : static_cast<int>(found - leg->joints.begin());
 }
 
-/// Intersects both limits, in the driver's angle, and applies the result to both joints.
+/// In the driver's angle; applies to both joints.
 void join_limits(const MimicFact& mimic, Joint& driver, Joint& follower) {
   double low = (follower.lower_rad - follower.offset_rad) / follower.ratio;
   double high = (follower.upper_rad - follower.offset_rad) / follower.ratio;
@@ -127,7 +127,7 @@ void join_followers(const Facts& facts, Entity& entity) {
   }
   for (Joint& joint : entity.joints) {
     if (joint.follows < 0) continue;
-    // With several followers, the last one may have narrowed the first one's limits.
+    // A later follower may have narrowed the limits.
     const Joint& driver = driver_of(entity, joint);
     joint.velocity_limit_rad_s = std::abs(joint.ratio) * driver.velocity_limit_rad_s;
     joint.lower_rad = joint.ratio * driver.lower_rad + joint.offset_rad;
@@ -150,7 +150,7 @@ void check_coupled_legs(const Facts& facts, const Entity& entity) {
                           ": a leg's joints need a motor each, but for the first ones of both legs",
                       kOtherWays);
       }
-      // In a turn, one foot goes left of the trunk's heading and the other right.
+      // In a turn the feet turn opposite ways.
       const double own = joint.axis.z(), driver = driver_of(entity, joint).axis.z();
       if (std::min(std::abs(own), std::abs(driver)) < 0.3 || joint.ratio * own * driver >= 0) {
         mimic.at.fail(

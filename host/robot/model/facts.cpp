@@ -13,7 +13,7 @@
 namespace verp::model {
 namespace {
 
-/// The optional <pose>x y z roll pitch yaw</pose> child, as in SDF.
+/// A <pose> child, as in SDF.
 Transform read_pose(const XmlElement& element) {
   const auto poses = element.children("pose");
   if (poses.empty()) return Transform::Identity();
@@ -33,7 +33,7 @@ Transform read_pose(const XmlElement& element) {
   return pose;
 }
 
-/// More than a second is probably another unit.
+/// Longer is probably another unit.
 constexpr double kMostLatency_s = 1;
 
 double read_latency_s(const XmlElement& e) {

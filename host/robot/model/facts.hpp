@@ -6,9 +6,8 @@
 #include "host/robot/model/entity.hpp"
 #include "host/robot/model/xml_source.hpp"
 
-/// The verp: elements of a robot's <model>, read and range-checked, each with its XML element for
-/// error messages. load.cpp resolves the names. robot-file.md of the guide lists every element and
-/// attribute.
+/// A <model>'s verp: elements, range-checked, with their XML elements for errors. load.cpp resolves
+/// names; robot-file.md of the guide lists them all.
 namespace verp::model {
 
 struct BodyFact {
@@ -25,7 +24,7 @@ struct ServoFact {
   std::string joint;
   Servo servo;
   std::optional<double> lower_rad, upper_rad;
-  bool gives_p_gain = true;  ///< otherwise the type's, until the robot is known
+  bool gives_p_gain = true;  ///< else the type's
   bool gives_d_gain = true;  ///< otherwise none, until then
 };
 struct ImuFact {
@@ -41,7 +40,7 @@ struct LatencyFact {
 struct TruthFact {
   XmlElement at;
   std::string link;
-  TruthSensor truth;  ///< pose in that link's frame
+  TruthSensor truth;  ///< in that link's frame
 };
 struct FeetFact {
   XmlElement at;
@@ -61,21 +60,21 @@ struct InertiaFact {
   XmlElement at;
   std::string link;  ///< "*": all
   double scale = 1;
-  std::optional<Vec3> com_m;  ///< replaces the file's, in the link's frame; never for "*"
+  std::optional<Vec3> com_m;  ///< replaces the file's, link frame; never for "*"
 };
 struct BoxFact {
   XmlElement at;
   std::string frame;
   Collision box;
 };
-/// A part of the file that is declared as ignored.
+/// A part of the file that is ignored.
 struct DropFact {
   XmlElement at;
   std::string what;  ///< mesh_collision, collision, massless_link, mimic
-  std::string name;  ///< link or joint; "*": all
+  std::string name;  ///< "*": all
 };
 
-/// A moving joint of the file that is declared as fixed.
+/// A moving joint of the file that is fixed.
 struct FixFact {
   XmlElement at;
   std::string joint;  ///< a final * matches any ending
@@ -83,7 +82,7 @@ struct FixFact {
   bool fixes(const std::string& name) const;
 };
 
-/// A joint turned by another joint's motor.
+/// Moved by another joint's motor.
 struct MimicFact {
   XmlElement at;
   std::string joint, driver;
@@ -95,7 +94,7 @@ struct NoCollideFact {
   std::string link, other;
 };
 
-/// One way to reach all servos; the robot's sensors have the same ids on each bus.
+/// Sensors have the same ids on each bus.
 struct BusFact {
   XmlElement at;
   std::string name;
@@ -110,7 +109,7 @@ struct Facts {
   std::optional<BodyFact> body;
   std::vector<LimbFact> limbs;
   std::vector<BusFact> buses;  ///< at least one
-  std::size_t used = 0;        ///< index of the bus in use
+  std::size_t used = 0;        ///< in use
   std::optional<ImuFact> imu;
   std::optional<FeetFact> feet;
   std::vector<LatencyFact> latencies;
@@ -121,17 +120,17 @@ struct Facts {
   std::vector<BoxFact> boxes;
   std::vector<DropFact> drops;
   std::vector<FixFact> fixes;
-  std::vector<MimicFact> mimics;  ///< includes the URDF's once they are read
+  std::vector<MimicFact> mimics;  ///< with the URDF's, once read
   std::vector<NoCollideFact> no_collides;
 
   const BusFact& bus() const { return buses[used]; }
   bool is_dropped(const std::string& what, const std::string& name) const;
   const FixFact* fix_of(const std::string& joint) const;      ///< nullptr: it may turn
-  const MimicFact* mimic_of(const std::string& joint) const;  ///< nullptr: it has a servo
+  const MimicFact* mimic_of(const std::string& joint) const;  ///< nullptr: own servo
 };
 
-/// Throws LoadError for an unknown or missing element or attribute, a bad number, or a duplicate
-/// id. `bus` names the bus to use; empty: the first. All buses are checked.
+/// Throws LoadError for an unknown or missing element or attribute, a bad number, a duplicate id.
+/// `bus`: to use, empty: the first; all are checked.
 Facts read_facts(const XmlElement& model, const std::string& bus);
 
 }  // namespace verp::model

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Folders of a variable such as PATH.
+/// Folders separated as in PATH.
 std::vector<std::string> folders_in(const char* variable) {
   std::vector<std::string> folders;
   std::string rest = variable == nullptr ? "" : variable;
@@ -28,7 +28,7 @@ std::vector<std::string> folders_in(const char* variable) {
   return folders;
 }
 
-/// A file in the working folder must not replace the project's robot, so "." is last.
+/// "." is last: a file there must not replace the project's robot.
 std::vector<fs::path> robot_folders() {
   std::vector<fs::path> folders;
   for (const std::string& each : folders_in(std::getenv("VERP_ROBOT_PATH")))

@@ -3,8 +3,7 @@
 #include "host/robot/model/load_error.hpp"
 #include "host/robot/model/robot_table.hpp"
 
-/// verp_generate_robot TABLE: writes the robot's SDF to standard output. Exit status 0, or 2 with
-/// one line on standard error.
+/// verp_generate_robot TABLE: prints the robot's SDF. Exit status 0, or 2 with one line of error.
 int main(int argc, char** argv) {
   if (argc != 2) {
     std::fputs("usage: verp_generate_robot TABLE > robot.sdf\n", stderr);

@@ -13,7 +13,7 @@ struct Point {
   double x, y, z;
 };
 
-/// A link is one box of uniform density; com is its centre of mass, usually its middle.
+/// A box of uniform density; com is usually its middle.
 struct Part {
   std::string name;
   double mass_kg;
@@ -33,7 +33,7 @@ struct Hinge {
   int direction;
 };
 
-/// Writes one humanoid. `side` is +1 on the left and -1 on the right.
+/// `side`: +1 left, -1 right.
 class HumanoidWriter {
  public:
   explicit HumanoidWriter(RobotTable& table) : t_(table) {}
@@ -186,8 +186,7 @@ class HumanoidWriter {
 
   void arm(int side) {
     const std::string p = side > 0 ? "l_" : "r_";
-    const int id =
-        side > 0 ? 1 : 0;  // even ids left, odd ids right, as ROBOTIS numbers its humanoids
+    const int id = side > 0 ? 1 : 0;  // as ROBOTIS numbers its humanoids
     const double upper = number("upper_arm_m");
     const double fore = number("forearm_m");
     hinge({p + "shoulder_pitch",
@@ -238,8 +237,7 @@ class HumanoidWriter {
           {p + "hip_yaw_link", mass("hip_yaw"), {0.03, 0.03, 0.03}, {0, 0, 0}, {0, 0, 0}});
     hinge({p + "hip_roll", p + "hip_yaw_link", {0, 0, 0}, "1 0 0", inward, outward, 9 + id, 1},
           {p + "hip_cross", mass("hip_roll"), cross, {-0.01, 0, 0}, {-0.01, 0, 0}});
-    // A link's box leaves 23 mm free for the joints at its ends; the knee servo is in the lower
-    // thigh.
+    // A box leaves 23 mm for the joints at its ends; the knee servo is in the lower thigh.
     const Point thigh_com{0, 0, -thigh_ * 0.54};
     hinge({p + "hip_pitch", p + "hip_cross", {0, 0, 0}, "0 1 0", -1.9, 0.7, 11 + id, side},
           {p + "thigh", mass("thigh"), {0.04, 0.04, thigh_ - 0.023}, thigh_com, thigh_com});
@@ -302,8 +300,7 @@ class HumanoidWriter {
 
   void poses() {
     const double height = number("hip_height_per_leg") * (thigh_ + shank_);
-    // The stand pose bends the knee until the hip is at its walking height above the ankle (law of
-    // cosines).
+    // The hip stands at its walking height (law of cosines).
     const double knee =
         std::acos((height * height - thigh_ * thigh_ - shank_ * shank_) / (2 * thigh_ * shank_));
     pose("stand", knee);

@@ -16,7 +16,7 @@ double distance(const Line& line, const Vec3& point) {
   return (d - d.dot(line.axis) * line.axis).norm();
 }
 
-/// The point with the least sum of squared distances from the lines.
+/// Least squares of the distances to the lines.
 Vec3 meeting_point(const std::vector<Line>& lines) {
   Mat3 sum = Mat3::Zero();
   Vec3 right = Vec3::Zero();
@@ -34,7 +34,7 @@ double largest_distance(const std::vector<Line>& lines, const Vec3& point) {
   return largest;
 }
 
-/// Angle about +y that turns straight down onto this vector of the sagittal plane.
+/// Turns straight down onto this vector of the sagittal plane.
 double pitch_of(const Vec3& v) {
   return std::atan2(-v.x(), -v.z());
 }
@@ -117,7 +117,7 @@ LegGeometry classify_leg(const Entity& entity, const Limb& leg) {
   const Vec3 shank = in_sagittal_plane(g.ankle_m - line[3].point);
   g.thigh_m = thigh.norm();
   g.shank_m = shank.norm();
-  // At the zero pose the foot is parallel to the body, so the three pitches sum to zero.
+  // The foot is parallel to the body at zero: the pitches sum to zero.
   g.offset_rad = {0, 0, pitch_of(thigh), pitch_of(shank) - pitch_of(thigh), -pitch_of(shank), 0};
   g.closed_form = g.reason.empty();
   return g;
@@ -135,7 +135,7 @@ void gather_leg_frames(Entity& entity) {
       const Vec3 axis = entity.joints[static_cast<std::size_t>(node - 1)].axis;
       shift_frame(entity, node, axis * axis.dot((k < 3 ? g.hip_m : g.ankle_m) - origin));
     }
-    // The knee moves to where thigh and shank lie in the leg's plane.
+    // The knee moves into the leg's plane.
     const int knee = leg->joints[3] + 1;
     const Vec3 origin = node_origins(entity)[static_cast<std::size_t>(knee)];
     shift_frame(entity, knee, Vec3(0, g.hip_m.y() - origin.y(), 0));

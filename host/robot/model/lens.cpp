@@ -23,7 +23,7 @@ Vector2d pixel_of(const CameraSensor& camera, const Vector2d& direction) {
   return {camera.fx_px * at.x() + camera.cx_px, camera.fy_px * at.y() + camera.cy_px};
 }
 
-/// Newton's method with numeric slopes: the polynomial has no closed-form inverse.
+/// Newton with numeric slopes: there is no closed-form inverse.
 std::optional<Vector2d> direction_of(const CameraSensor& camera, const Vector2d& pixel) {
   constexpr int kMostSteps = 30;
   constexpr double kClose = 1e-10, kSlope = 1e-6, kLeastSlope = 1e-3;

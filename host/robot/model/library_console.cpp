@@ -8,8 +8,7 @@
 namespace verp::model {
 namespace {
 
-/// On first use libsdformat creates ~/.sdformat/sdformat.log, and complains if it cannot. Without
-/// HOME it does not try.
+/// libsdformat creates ~/.sdformat/sdformat.log and complains if it cannot; not without HOME.
 void start_without_a_log() {
   std::optional<std::string> home;
   if (const char* value = std::getenv("HOME")) home = value;

@@ -5,7 +5,7 @@
 
 namespace verp::model {
 
-/// Discards what libraries print to std::cerr while it lives, so that users get only our one line.
+/// Libraries' std::cerr is discarded: users get only our line.
 class LibraryConsole {
  public:
   LibraryConsole();

@@ -146,7 +146,7 @@ bool LinkTree::is_fixed(const sdf::Joint& joint) const {
          facts_.fix_of(names_.joint_name(joint.Name())) != nullptr;
 }
 
-/// Joints without a servo come last: a bus sees only the others, as one block.
+/// A bus sees the others as one block.
 void LinkTree::put_followers_last() {
   std::vector<std::size_t> order;  // old joint indices
   for (const bool follower : {false, true}) {
@@ -180,7 +180,7 @@ void LinkTree::put_followers_last() {
   origin_ = std::move(origin);
 }
 
-/// Transform of everything beyond a fixed joint; `turned` is the transform of the joint itself.
+/// Everything beyond a fixed joint; `turned`: the joint itself.
 Transform LinkTree::turn_of(const sdf::Joint& joint, const Transform& turned) const {
   const FixFact* const fix = facts_.fix_of(names_.joint_name(joint.Name()));
   if (fix == nullptr || fix->rad == 0) return turned;
@@ -189,7 +189,7 @@ Transform LinkTree::turn_of(const sdf::Joint& joint, const Transform& turned) co
          Eigen::Translation3d(-at);
 }
 
-/// Node 0 is the body's link with all links fixed to it; then depth first, in file order.
+/// Node 0: the body and links fixed to it; then depth first, in file order.
 void LinkTree::place_links() {
   std::string top = facts_.body->link;
   while (parent_joint_.contains(top)) {
@@ -289,8 +289,7 @@ void LinkTree::add_node(const std::string& name, const Vec3& origin) {
   origin_.push_back(origin);
 }
 
-/// Third-party files write pi as 3.14159, so an axis within 0.1 mrad of a body axis becomes that
-/// axis.
+/// Files write pi as 3.14159: within 0.1 mrad an axis is a body axis.
 Vec3 LinkTree::snapped(const Vec3& axis) {
   constexpr double kTolerance = 1e-4;
   for (int i = 0; i < 3; ++i) {

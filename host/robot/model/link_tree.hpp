@@ -15,15 +15,15 @@ namespace verp::model {
 
 class PictureFiles;
 
-/// Throws LoadError where `about` is defined.
+/// At the definition of `about`.
 [[noreturn]] void fail_at(const XmlSource& source, const std::string& about,
                           const std::string& message, const std::string& fix);
 
-/// Makes nodes and joints from a model's links: lumps fixed links, transforms all frames to the
-/// body's axes at the zero pose, attaches collision shapes and checks masses. Throws LoadError.
+/// Nodes and joints from links: lumps fixed links, transforms frames to the body's axes at the zero
+/// pose, attaches collision shapes and checks masses. Throws LoadError.
 class LinkTree {
  public:
-  /// All arguments must outlive the tree.
+  /// The arguments outlive the tree.
   LinkTree(const XmlSource& source, const Facts& facts, const sdf::Model& model,
            const UrdfNames& names, Entity& entity)
       : source_(source), facts_(facts), model_(model), names_(names), e_(entity) {}
@@ -34,15 +34,15 @@ class LinkTree {
     int node;
     Transform pose;  ///< in the node's frame
   };
-  /// A link or frame by name; fails at `at` if it does not exist.
+  /// Link or frame; without it an error at `at`.
   Located locate(const std::string& name, const XmlElement& at) const;
 
  private:
-  /// A link before lumping, in the body frame at the zero pose.
+  /// Before lumping, body frame, zero pose.
   struct RawLink {
     const sdf::Link* sdf = nullptr;
     Transform pose = Transform::Identity();
-    Transform turned = Transform::Identity();  ///< by fixed joints between it and the body
+    Transform turned = Transform::Identity();  ///< by fixed joints from the body
     double mass_kg = 0;
     Vec3 com_m = Vec3::Zero();
     Mat3 inertia_kg_m2 = Mat3::Zero();
@@ -85,7 +85,7 @@ class LinkTree {
   std::map<std::string, RawLink> links_;
   std::map<std::string, const sdf::Joint*> parent_joint_;
   std::map<std::string, std::vector<std::pair<const sdf::Joint*, std::string>>> children_;
-  std::vector<Vec3> origin_;  ///< of each node, in the body frame at the zero pose
+  std::vector<Vec3> origin_;  ///< body frame, zero pose
 };
 
 }  // namespace verp::model

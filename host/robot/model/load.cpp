@@ -31,8 +31,8 @@ namespace {
 
 using Text = std::optional<std::string>;  // none: the file's content
 
-/// While it lives, this thread's working directory has no file with a robot's name. If a container
-/// forbids a directory per thread, this applies to all threads.
+/// This thread's working directory then has no robot files. Without a directory per thread
+/// (containers) it applies to all threads.
 class NoFilesHere {
  public:
   NoFilesHere() {
@@ -55,8 +55,8 @@ class NoFilesHere {
   int before_ = -1;
 };
 
-/// libsdformat looks for a relative <uri> in the working directory before it asks us. A user in the
-/// robot's folder would then get another robot than other users.
+/// libsdformat looks for a relative <uri> in the working directory first: a user in a robot's
+/// folder would get another robot.
 void where_no_file_is(const std::function<void()>& work) {
   std::exception_ptr failure;
   std::thread([&] {
@@ -70,8 +70,7 @@ void where_no_file_is(const std::function<void()>& work) {
   if (failure) std::rethrow_exception(failure);
 }
 
-/// libsdformat's strictest reading. Settings are global because an <include> ignores those given to
-/// Load().
+/// Strictest reading. Settings are global: an <include> ignores Load()'s.
 sdf::Errors read(const XmlSource& source, const Text& text, const PreparedUrdfs& urdfs,
                  sdf::Root& root) {
   const std::string path = source.path();
@@ -140,7 +139,7 @@ void cross_check(const XmlSource& source, const Facts& facts, const sdf::Model& 
   for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
     mass_kg += model.LinkByIndex(i)->Inertial().MassMatrix().Mass();
   }
-  // The wrapper may add links and joints, but not remove any.
+  // The wrapper may add links and joints, not remove them.
   if (moving_joints < expected.moving_joints || mass_kg < expected.mass_kg * (1 - 1e-6)) {
     source.urdfs().front().fail(
         "libsdformat's import lost joints or mass: " + std::to_string(moving_joints) + " of " +
@@ -160,7 +159,7 @@ Entity load_robot(const std::string& path, const std::string& bus) {
 
 namespace {
 
-/// Without these the robot cannot walk, and no message would explain why.
+/// Otherwise the robot cannot walk, and nothing would explain it.
 void require_legs_and_imu(const XmlElement& model, const Facts& facts) {
   for (const std::string leg : {"left_leg", "right_leg"}) {
     const bool has = std::any_of(facts.limbs.begin(), facts.limbs.end(),

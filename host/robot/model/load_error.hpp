@@ -5,8 +5,8 @@
 
 namespace verp::model {
 
-/// An error in a user's file, its place and the remedy. what() is one line: `FILE:LINE: MESSAGE;
-/// FIX`, or without `:LINE` if no line is meant.
+/// A user's file, with place and remedy. what() is one line: `FILE:LINE: MESSAGE; FIX`, or without
+/// `:LINE`.
 class LoadError : public std::runtime_error {
  public:
   LoadError(std::string file_name, int line_number, std::string what_is_wrong, std::string remedy)
@@ -19,12 +19,12 @@ class LoadError : public std::runtime_error {
         fix(std::move(remedy)) {}
 
   std::string file;
-  int line;  ///< from 1; 1 also for a file's content as a whole; 0: no content
+  int line;  ///< from 1; 1 also for the whole content; 0: no content
   std::string message;
   std::string fix;
 
  private:
-  // The message quotes the file, so remove control bytes that a terminal would obey.
+  // The message quotes the file: remove control bytes.
   static std::string one_line(std::string text) {
     for (char& c : text) {
       if (c == '\n' || c == '\r' || c == '\t') c = ' ';

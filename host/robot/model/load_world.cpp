@@ -19,7 +19,7 @@ Color to_color(const ignition::math::Color& c) {
           static_cast<double>(c.A())};
 }
 
-/// Loads one world from libsdformat's classes, and from the XML where it has none.
+/// From libsdformat's classes, or the XML where it lacks one.
 class WorldLoader {
  public:
   explicit WorldLoader(const std::string& path) : xml_(path) { out_.file = path; }
@@ -265,7 +265,7 @@ class WorldLoader {
          "give its path from here");
   }
 
-  /// Also turns `pose` to a plane's normal, and moves it to a heightfield's place.
+  /// `pose` turns to a plane's normal and moves to a heightfield.
   Shape read_world_shape(const sdf::Geometry& geometry, const std::string& about, Transform& pose) {
     Shape out;
     if (const auto* plane = geometry.PlaneShape()) {

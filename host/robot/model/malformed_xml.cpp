@@ -96,15 +96,15 @@ class Tags {
     }
   }
 
-  // These two rely on the usual indentation.
-  /// The first later tag that is indented no more than `unclosed`.
+  // Both rely on the usual indentation.
+  /// Next tag indented no more than `unclosed`.
   std::size_t should_be_closed_at(const Tag& unclosed) const {
     for (const std::size_t at : tags_) {
       if (at > unclosed.at && is_first(at) && column(at) <= column(unclosed.at)) return at;
     }
     return unclosed.at;
   }
-  /// The first tag of the more indented block before `end`.
+  /// First tag of the more indented block before `end`.
   std::size_t should_be_opened_at(const Tag& end) const {
     std::size_t begin = end.at;
     for (auto at = tags_.rbegin(); at != tags_.rend() && is_first(end.at); ++at) {
@@ -132,7 +132,7 @@ class Tags {
 
 Malformed find_malformed(const std::string& text) {
   Malformed found = Tags(text).check();
-  // Hide control bytes of a binary file from the terminal.
+  // A binary file's control bytes.
   std::replace_if(
       found.why.begin(), found.why.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   return found;

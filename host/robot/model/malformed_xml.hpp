@@ -5,15 +5,15 @@
 
 namespace verp::model {
 
-/// Place and reason of malformed XML, in a user's terms. For a missing end, tinyxml2 names the line
-/// of the enclosing element: for a robot, the first line.
+/// Place and reason for the user. tinyxml2 names a missing end by the enclosing element's line: for
+/// a robot, the first.
 struct Malformed {
-  int line = 0;  ///< 0: the tags are correct
+  int line = 0;  ///< 0: tags are correct
   std::string why;
 };
 Malformed find_malformed(const std::string& text);
 
-/// Throws a LoadError for a text that tinyxml2 could not read into `document`.
+/// Throws LoadError; tinyxml2 could not read the text.
 [[noreturn]] void refuse_malformed(const std::string& path, const std::string& text,
                                    const tinyxml2::XMLDocument& document);
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kMostTriangles = 200'000;
 constexpr std::size_t kMostBytes = 64u << 20;
-constexpr int kMostSamples = 2049;  // a side of a heightfield
+constexpr int kMostSamples = 2049;  // heightfield's side
 constexpr double kMostCorner_m = 1e4;
 
 std::string bytes_of(const std::string& path) {
@@ -31,7 +31,7 @@ std::string bytes_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Collects triangles and merges equal corners.
+/// Merges equal corners.
 class MeshBuilder {
  public:
   MeshBuilder(const std::string& path, const Vec3& scale) : scale_(scale) { mesh_.file = path; }
@@ -123,7 +123,7 @@ Vec3 obj_corner(std::istream& words) {
   return corner;
 }
 
-/// "7", "7/2/5" or "-1", which counts from the last.
+/// "7", "7/2/5" or "-1", from the end.
 const Vec3& obj_named(const std::string& word, const std::vector<Vec3>& corners) {
   const auto value = parse_number(word.substr(0, word.find('/')));
   const double count = static_cast<double>(corners.size());
@@ -133,7 +133,7 @@ const Vec3& obj_named(const std::string& word, const std::vector<Vec3>& corners)
   return corners[static_cast<std::size_t>(at)];
 }
 
-/// Reads faces with more than three corners as fans, like any reader of flat convex faces.
+/// More than three corners: a fan, for flat convex faces.
 void read_obj(const std::string& bytes, MeshBuilder& out) {
   std::istringstream in(bytes);
   std::vector<Vec3> corners;

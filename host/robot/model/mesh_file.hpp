@@ -6,12 +6,10 @@
 
 namespace verp::model {
 
-/// Reads an .stl file (text or binary) or an .obj file and scales its corners. Throws
-/// std::runtime_error with the reason.
+/// .stl (text or binary) or .obj, scaled. Throws std::runtime_error with the reason.
 std::shared_ptr<const Mesh> read_mesh_to_touch(const std::string& path, const Vec3& scale);
 
-/// Reads a portable graymap (.pgm, P2 or P5): black is 0, white is size_z_m. Its first row is at
-/// +y.
+/// .pgm, P2 or P5: black is 0, white size_z_m. Its first row is at +y.
 std::shared_ptr<const Heightfield> read_pgm(const std::string& path, const Vec3& size_m);
 
 }  // namespace verp::model

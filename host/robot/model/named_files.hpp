@@ -7,13 +7,13 @@ namespace verp::model {
 
 bool is_file(const std::filesystem::path& path);
 
-/// Robot or world files, given as a path or as a NAME that means NAME/KIND.sdf in one of `folders`.
+/// A path, or NAME: NAME/KIND.sdf in one of `folders`.
 struct NamedFiles {
   std::string kind;
   std::vector<std::filesystem::path> folders;
 
   std::vector<std::string> names() const;
-  /// Throws LoadError with the reason and the existing names.
+  /// Throws LoadError with the existing names.
   std::string find(const std::string& name_or_path) const;
 };
 

@@ -24,7 +24,7 @@ std::optional<double> parse_number(std::string_view text) {
   double value = 0;
   const char* end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, value);
-  // Reject numbers beyond the robot's float32.
+  // Rejects numbers beyond float32.
   if (result.ec != std::errc() || result.ptr != end || !(std::abs(value) <= kLargestFloat)) {
     return std::nullopt;
   }

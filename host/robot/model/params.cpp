@@ -59,7 +59,7 @@ std::uint8_t profile_index(const Entity& entity, const Servo& servo, Params& par
                   "use the same type, gains and profile_ms for more joints");
 }
 
-/// Servo counts and compliance, seen through the coupling.
+/// Counts and compliance through the coupling.
 void follow(const Joint& joint, JointParams& p) {
   const double counts_per_rad =
       joint.servo.direction * joint.servo.counts_per_rev / (2 * std::numbers::pi);

@@ -8,16 +8,15 @@
 
 namespace verp::model {
 
-/// The controller's constants of this robot: single precision, fixed capacity, all defaults filled
-/// in. Throws LoadError for more than 4 kinds of servo settings, names over 23 characters, or an
-/// unknown or out-of-range tuning value.
+/// Controller's constants: single precision, fixed capacity, defaults filled in. Throws LoadError
+/// beyond 4 kinds of servo settings or 23 characters a name, and for unknown or out-of-range
+/// tuning.
 Params make_params(const Entity& entity);
 
-/// Stiffness of the servo's position loop, N m/rad: duty grows by p/128 of 1/885 a count, and
-/// torque follows duty.
+/// N m/rad: duty grows by p/128 of 1/885 a count, and torque follows.
 double servo_stiffness_n_m_rad(const Servo& servo);
 
-/// Index of a tuning value ("gait.lift_m") in field order (tuning_ranges.hpp).
+/// By name ("gait.lift_m"), in field order (tuning_ranges.hpp).
 std::optional<int> tuning_id(const std::string& name);
 /// All names in that order.
 const std::vector<std::string>& tuning_names();

@@ -8,7 +8,7 @@
 namespace verp::model {
 namespace {
 
-/// Sets the latency of all sensors with that name; false if there is none.
+/// For all sensors of that name; false: there are none.
 template <class Sensors>
 bool give_latency(Sensors& sensors, const LatencyFact& fact) {
   bool found = false;
@@ -42,7 +42,6 @@ bool give_latency(Sensors& sensors, const LatencyFact& fact) {
                names.empty() ? "remove it" : "name one of: " + names);
 }
 
-/// True for a valid ROS topic name.
 bool is_topic(const std::string& topic) {
   return !topic.empty() && std::isdigit(static_cast<unsigned char>(topic[0])) == 0 &&
          std::all_of(topic.begin(), topic.end(), [](unsigned char each) {
@@ -69,13 +68,13 @@ void add_truths_and_latencies(const Facts& facts, const LinkTree& tree, Entity& 
 }
 
 void check_channels(const XmlSource& source, const Facts& facts, const Entity& entity) {
-  // Channels that host/trace/record writes in every trace, plus lasers and cameras by name.
+  // Every trace's channels; lasers and cameras join by name.
   std::set<std::string> taken = {"joint_states", "joint_goals", "imu",
                                  "tf",           "tf_static",   "control",
                                  "objects",      "changed",     "robot_description"};
   for (const LaserSensor& each : entity.lasers) taken.insert(each.name);
   for (const CameraSensor& each : entity.cameras) taken.insert(each.name);
-  /// Returns the error, or an empty text.
+  /// The error, or empty.
   const auto take = [&](const std::string& topic) -> std::string {
     if (!is_topic(topic)) return "'" + topic + "' is no name of a channel";
     return taken.insert(topic).second ? "" : "another channel is called /" + topic;

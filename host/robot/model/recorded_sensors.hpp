@@ -4,13 +4,12 @@
 #include "host/robot/model/link_tree.hpp"
 #include "host/robot/model/xml_source.hpp"
 
-/// Sensor facts for which SDF has no elements.
 namespace verp::model {
 
-/// Applies <verp:truth> and <verp:latency>. Throws LoadError.
+/// <verp:truth> and <verp:latency>. Throws LoadError.
 void add_truths_and_latencies(const Facts& facts, const LinkTree& tree, Entity& entity);
 
-/// Requires a separate trace channel for each recorded sensor. Throws LoadError.
+/// Each recorded sensor needs its own trace channel. Throws LoadError.
 void check_channels(const XmlSource& source, const Facts& facts, const Entity& entity);
 
 }  // namespace verp::model

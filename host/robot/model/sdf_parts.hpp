@@ -12,22 +12,22 @@
 
 #include "host/robot/model/entity.hpp"
 
-/// Conversions from libsdformat's types, and geometry checks that need no file.
+/// From libsdformat's types, and geometry checks without a file.
 namespace verp::model {
 
 Vec3 to_vector(const ignition::math::Vector3d& v);
 Mat3 to_matrix(const ignition::math::Matrix3d& m);
 Transform to_transform(const ignition::math::Pose3d& pose);
 
-/// A pose seen from frame `from`. Throws std::runtime_error, not LoadError, if libsdformat cannot
-/// resolve it; its own checks exclude this.
+/// Seen from `from`. Throws std::runtime_error if libsdformat cannot resolve it; its own checks
+/// exclude this.
 Transform resolved(const sdf::SemanticPose& pose, const std::string& from);
 inline Transform model_pose(const sdf::SemanticPose& pose) {
   return resolved(pose, "__model__");
 }
 
-/// Reads a box, sphere, cylinder or capsule, with its size as in Collision; false: another shape.
-/// Kind is one of our enumerations with these four values.
+/// Box, sphere, cylinder or capsule, sized as in Collision; false: another shape. Kind: an
+/// enumeration with these values.
 template <class Kind>
 bool read_solid(const sdf::Geometry& geometry, Kind& kind, Vec3& size_m) {
   if (const auto* box = geometry.BoxShape()) {
@@ -48,23 +48,22 @@ bool read_solid(const sdf::Geometry& geometry, Kind& kind, Vec3& size_m) {
   return true;
 }
 
-/// Child by name; null if it is missing or `parent` is null.
+/// Null: missing, or `parent` is null.
 sdf::ElementPtr inner(const sdf::ElementPtr& parent, const char* name);
-/// Reads its value, if it exists, where libsdformat 12 has no class.
+/// Where libsdformat 12 has no class.
 void read_leaf(const sdf::ElementPtr& parent, const char* name, double& value);
 
-/// Shape, size and surface; false for shapes unusable for contacts (meshes, planes, ellipsoids).
+/// False for meshes, planes, ellipsoids, which have no contacts.
 bool read_shape(const sdf::Collision& sdf, Collision& collision);
 
-/// Smallest extent of a shape: edge, radius or length.
+/// Edge, radius or length.
 double least_measure(const Collision& collision);
 
-/// Error in a node's mass and inertia, or empty. `extent_m`: the robot's diagonal, an upper bound
-/// for each link's radius of gyration.
+/// Error in mass and inertia, or empty. `extent_m`: the robot's diagonal, an upper bound of
+/// gyration radii.
 std::string implausible(const Node& node, double extent_m);
 
-/// Extends `sole` by the lower face of a box (in the sole's frame) if that face lies in the sole's
-/// plane.
+/// By a box's lower face (sole's frame) that lies in the sole's plane.
 void extend_sole(Eigen::AlignedBox3d& sole, const Transform& box_sole, const Vec3& size_m);
 
 }  // namespace verp::model

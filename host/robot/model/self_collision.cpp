@@ -17,11 +17,11 @@ struct Shape {
   int node;
 };
 
-/// Collision shapes without physics; ODE tests whether two of them touch.
+/// Shapes without physics; ODE tests for contact.
 class Shapes {
  public:
   Shapes() {
-    static const int kReady = dInitODE2(0);  // never closed, because worlds come and go
+    static const int kReady = dInitODE2(0);  // never closed: worlds come and go
     static_cast<void>(kReady);
   }
   ~Shapes() {

@@ -12,7 +12,7 @@ namespace verp::model {
 namespace {
 
 constexpr double kFastest_hz = 1000;
-constexpr double kWidest = 11.5;  // tangent of 85 degrees, half of the widest lens
+constexpr double kWidest = 11.5;  // tangent of 85 degrees
 
 double rate_of(const sdf::Sensor& sensor, double if_none_hz, const WrongSensor& wrong) {
   const double rate_hz = sensor.UpdateRate() == 0 ? if_none_hz : sensor.UpdateRate();
@@ -21,7 +21,7 @@ double rate_of(const sdf::Sensor& sensor, double if_none_hz, const WrongSensor& 
   return rate_hz;
 }
 
-/// The cost to render, send and store a picture grows with its size.
+/// A picture's cost grows with its size.
 void read_size(const sdf::Camera& lens, CameraSensor& camera, const WrongSensor& wrong) {
   constexpr unsigned kLeast = 8, kMost = 4096;
   if (lens.ImageWidth() < kLeast || lens.ImageWidth() > kMost || lens.ImageHeight() < kLeast ||
@@ -66,7 +66,7 @@ void read_lens(const sdf::Camera& lens, CameraSensor& camera, const WrongSensor&
     wrong("its <clip> is none", "give <near> of at least 0.001 m and a <far> beyond it");
 }
 
-/// Each point of the picture's edge must have a direction; distortion is milder inside.
+/// At the edge, where distortion is strongest.
 void check_distortion(const CameraSensor& camera, const WrongSensor& wrong) {
   constexpr int kParts = 64;
   const double right = camera.width_px - 1.0, bottom = camera.height_px - 1.0;
@@ -104,7 +104,7 @@ CameraSensor::Kind kind_of(const sdf::Sensor& sensor) {
   }
 }
 
-/// Channel name from the file, without a leading slash.
+/// The topic without a leading slash.
 std::string topic_of(const sdf::Sensor& sensor) {
   const std::string topic = sensor.Topic();
   return topic.starts_with('/') ? topic.substr(1) : topic;

@@ -7,10 +7,10 @@
 
 namespace verp::model {
 
-/// Throws LoadError at the sensor with the error and the remedy.
+/// At the sensor, with the remedy.
 using WrongSensor = std::function<void(const std::string& what, const std::string& fix)>;
 
-/// `pose` is in the link frame of `node`.
+/// `pose`: in `node`'s link frame.
 LaserSensor read_laser(const sdf::Sensor& sensor, int node, const Transform& pose,
                        const WrongSensor& wrong);
 
@@ -18,7 +18,7 @@ bool is_camera(const sdf::Sensor& sensor);
 CameraSensor read_camera(const sdf::Sensor& sensor, int node, const Transform& pose,
                          const WrongSensor& wrong);
 
-/// `link` is the link's own frame in that of `node`; SDF uses its axes by default.
+/// `link`: its own frame in that of `node`, whose axes SDF uses by default.
 ForceTorqueSensor read_force_torque(const sdf::Sensor& sensor, int node, const Transform& link,
                                     const Transform& pose, const WrongSensor& wrong);
 

@@ -12,13 +12,13 @@ namespace verp::model {
 namespace {
 
 constexpr double kRevMin = 60 / (2 * std::numbers::pi);
-// Bounds from watch servos to horse-sized ones; values outside are typing errors.
+// From watch servos to horse-sized ones.
 constexpr double kMostTorque_n_m = 1e4;
 constexpr double kMostArmature_kg_m2 = 100;
-constexpr double kMostLoad = 0.99;  // share lost to friction: at 1 the gears would lock
+constexpr double kMostLoad = 0.99;  // at 1 the gears would lock
 constexpr double kMostSpeed_rev_min = 1e5;
 
-/// Numbers of one element; missing ones come from the type it is like, if any.
+/// Missing ones come from the type it is like.
 class Reader {
  public:
   Reader(const XmlElement& e, const ServoType* like) : e_(e), like_(like) {}
@@ -52,15 +52,14 @@ void read_motor(const XmlElement& e, ServoType& type) {
         e.number_within("stall_torque_n_m", 1e-6, kMostTorque_n_m, " N m, like 3.0");
     type.no_load_rev_min =
         e.number_within("no_load_rev_min", 1e-3, kMostSpeed_rev_min, " rev/min, like 77");
-    // An ideal machine converts all power that it does not heat to motion: kt is V s as well as N
-    // m/A.
+    // An ideal machine turns all power but heat into motion: kt is V s and N m/A.
     type.stall_current_a = type.stall_torque_n_m * type.no_load_rev_min / kRevMin / type.nominal_v;
   }
   type.stall_current_a =
       e.number_within("stall_current_a", 1e-6, 1e4, " A, like 2.3", type.stall_current_a);
 }
 
-// An own number has no band by default; an inherited one keeps its band.
+// Own numbers have no band; inherited ones keep theirs.
 void read_bands(const XmlElement& e, ServoType& type) {
   const auto given = [&](std::initializer_list<const char*> names) {
     return std::any_of(names.begin(), names.end(), [&](const char* name) { return e.has(name); });

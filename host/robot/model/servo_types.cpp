@@ -9,9 +9,8 @@ namespace verp::model {
 
 namespace {
 
-// Common to all MX(2.0) and X-series servos. Encoder (e-Manual): ams AS5045; its data sheet gives
-// 0.03 degrees rms and 384 us of propagation delay in slow mode. The loop's rate is an estimate:
-// the firmware's gains are per millisecond.
+// All MX(2.0) and X-series servos. ams AS5045: 0.03 degrees rms, 384 us delay in slow mode (data
+// sheet). The loop's rate is an estimate: gains are per millisecond.
 ServoType dynamixel(const char* name, const char* title, std::uint16_t model_number) {
   ServoType type;
   type.name = name;
@@ -21,7 +20,7 @@ ServoType dynamixel(const char* name, const char* title, std::uint16_t model_num
   return type;
 }
 
-// Table "identified parameters" of the paper, seen from the joint.
+// "identified parameters" of the paper, seen from the joint.
 ServoType identified(ServoType type, double kt_n_m_a, double resistance_ohm, const Gearbox& gears) {
   type.stall_current_a = type.nominal_v / resistance_ohm;
   type.stall_torque_n_m = kt_n_m_a * type.stall_current_a;
@@ -31,10 +30,9 @@ ServoType identified(ServoType type, double kt_n_m_a, double resistance_ohm, con
   return type;
 }
 
-// No parameters of these motors are published. The motor's line is the data sheet's (e-Manual, at
-// 12 V), friction on top. For the identified MX-64 the sheet gives 6.0 N m and its line 6.3. Rotor
-// and friction are means of the identified metal gears, MX-64 and MX-106, as shares of what scales
-// them:
+// No parameters of these motors are published. Line: data sheet (e-Manual, at 12 V), friction on
+// top. For the identified MX-64 the sheet gives 6.0 N m and its line 6.3. Rotor and friction are
+// means of the identified MX-64 and MX-106, as shares of what scales them:
 //   rotor      0.95, 1.05 (XL-330: 1.10) e-5 kg m2 per N m of stall torque at the rotor, seen
 //              through the gear ratio
 //   f_base     0.98, 0 % of stall torque; f_strib 0.38, 0.93 %
@@ -71,9 +69,8 @@ ServoType x_series(ServoType type, std::uint16_t p_gain = 800) {
   return type;
 }
 
-// The twin's drive (host/twin/can): motor, gears and housing of the XM430-W210 with a 14-bit
-// encoder, as magnetic encoders in joint drives have (ams AS5048A). So the same stiffness needs a
-// quarter of the P gain. Its product code is the profile's number.
+// The twin's drive (host/twin/can): an XM430-W210 with a 14-bit encoder (ams AS5048A, usual in
+// joint drives). The same stiffness needs a quarter of the P gain.
 ServoType drive_of(ServoType type) {
   type.name = "cia402_w210";
   type.title = "CiA 402 drive with the XM430-W210's motor";
@@ -85,7 +82,7 @@ ServoType drive_of(ServoType type) {
   return type;
 }
 
-// XL-330: the M288, 5 V.
+// The M288 at 5 V.
 ServoType xl330() {
   ServoType type = x_series(dynamixel("xl330", "XL330-M288-T", 1200), 400);
   type.nominal_v = 5;
@@ -156,9 +153,9 @@ const std::vector<ImuType>& imu_types() {
   constexpr double kDegree = std::numbers::pi / 180;
   constexpr double kG = 9.80665;
   // TDK InvenSense ICM-20648 datasheet DS-000179: +-2000 dps at 16.4 LSB/dps, +-4 g at 8192 LSB/g;
-  // noise densities 0.015 dps/sqrt(Hz) and 190 ug/sqrt(Hz). Its zero-rate output (5 dps) and zero-g
-  // offset (25 mg) are calibrated in the factory and at rest. The rest, 0.1 dps and 5 mg, is our
-  // assumption: a few times the noise of a one-second mean, and temperature drift.
+  // noise densities 0.015 dps/sqrt(Hz) and 190 ug/sqrt(Hz). Zero-rate output (5 dps) and zero-g
+  // offset (25 mg) are calibrated in the factory and at rest; the rest, 0.1 dps and 5 mg, is
+  // assumed: a few times a one-second mean's noise, and temperature drift.
   static const std::vector<ImuType> kTypes = {
       {"icm20648", kDegree / 16.4, kG / 8192, 0.015 * kDegree, 0.1 * kDegree, 190e-6 * kG,
        5e-3 * kG},

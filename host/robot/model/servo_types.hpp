@@ -8,15 +8,14 @@
 
 namespace verp::model {
 
-/// A servo type, named by <verp:servo type="...">. The twin's motor and gearbox, Params and `verp
-/// check` all use it. The robot's own file describes types that are not shipped (<verp:servo_type>,
-/// servo_type_facts.hpp).
+/// Named by <verp:servo type="...">. For the twin, Params and `verp check`. A robot's own file may
+/// add types (<verp:servo_type>, servo_type_facts.hpp).
 struct ServoType {
   std::string name;   ///< as in <verp:servo type="...">
   std::string title;  ///< the maker's name
   BusProtocol protocol = BusProtocol::kDynamixel2;
-  std::uint16_t model_number = 0;  ///< control table address 0; product code of a CiA 402 drive
-  double stall_torque_n_m = 0;     ///< of the motor's line, at nominal_v, before friction
+  std::uint16_t model_number = 0;  ///< control table address 0; CiA 402 product code
+  double stall_torque_n_m = 0;     ///< of the motor's line, nominal_v, without friction
   double no_load_rev_min = 0;
   double stall_current_a = 0;
   double nominal_v = 12;
@@ -24,13 +23,13 @@ struct ServoType {
   double encoder_noise_deg = 0.03;
   double loop_us = 1000, loop_delay_us = 0, goal_delay_us = 0;
   bool fast_sync_read = false;         ///< answers instruction 0x8A
-  std::uint16_t default_p_gain = 800;  ///< control table units, or a drive's 2002h:1
+  std::uint16_t default_p_gain = 800;  ///< control table units; drive: 2002h:1
   Gearbox gearbox;
   double armature_band = 0, friction_band = 0;  ///< as in Servo
   std::string source;
 };
 
-/// Comma-separated names, for error messages.
+/// For error messages.
 template <class Type>
 std::string names_of(const std::vector<Type>& types) {
   std::string list;
@@ -42,7 +41,7 @@ const std::vector<ServoType>& servo_types();
 /// nullptr: no such type.
 const ServoType* find_servo_type(const std::vector<ServoType>& types, std::string_view name);
 
-/// One row per IMU type: register scales and noise, from the datasheet.
+/// Register scales and noise, from the datasheet.
 struct ImuType {
   const char* name;
   double gyro_rad_s_per_count;

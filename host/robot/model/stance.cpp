@@ -16,20 +16,19 @@ namespace {
 
 constexpr double kGravity_m_s2 = 9.80665;
 
-// The robot for which Tuning's defaults are tuned, generic21: leg 186 mm, hip at 0.81 of it, feet
-// 1.4 mm inside the hips. Lengths scale with the leg, times with its square root, like a
-// pendulum's.
+// Tuning's defaults are for generic21: leg 186 mm, hip at 0.81 of it, feet 1.4 mm inside the hips.
+// Lengths scale with the leg, times with its root, like a pendulum's.
 constexpr double kItsLeg_m = 0.186;
 constexpr double kUsual_v = 12;  // of its servos
 constexpr double kHipShare = 0.808;
 constexpr double kFeetInside = 0.0014 / kItsLeg_m;
-// Between the inner edges of soles that pass each other.
+// Between inner edges of passing soles.
 constexpr double kSolesApart_m = 0.005;
-// Stiffness over weight times leg, 1/rad. Tuned robots: generic21 9.0, op3 12.5, darwin_op 7.4.
+// Over weight times leg, 1/rad. Tuned: generic21 9.0, op3 12.5, darwin_op 7.4.
 constexpr double kStiffness = 9.03;
-// Above it a servo buzzes from its own noise; the control table ends at 16383.
+// Above it a servo buzzes; the table ends at 16383.
 constexpr double kMostGain = 8000;
-// Range of the walk's values (tuning_ranges.hpp): a hip 5 cm to 1 m above the ankle.
+// The walk's range (tuning_ranges.hpp): hip 5 cm to 1 m above the ankle.
 constexpr double kLeastLeg_m = 0.06, kMostLeg_m = 1.2;
 constexpr double kMostTilt_rad = 0.2, kMostUneven_m = 0.02;
 
@@ -42,7 +41,7 @@ const char* leg_name(int side) {
   return side == 0 ? "left_leg" : "right_leg";
 }
 
-/// Link poses of a leg in the body frame, hip to ankle, at the joints' standing angles.
+/// In the body frame, hip to ankle, standing.
 std::vector<Transform> standing_links(const Entity& entity, const Limb& leg) {
   std::vector<int> chain;
   for (int node = leg.joints.back() + 1; node != 0;
@@ -62,7 +61,7 @@ std::vector<Transform> standing_links(const Entity& entity, const Limb& leg) {
   return links;
 }
 
-/// Level sole under the hip, at the walk's lateral distance.
+/// Under the hip, at the walk's lateral distance.
 Pose sole_at(const Params& params, int side, double height_m) {
   const LegParams& leg = params.leg[side];
   Pose sole;
@@ -143,7 +142,7 @@ class Settler {
     e_.defaults.push_back(fmt::format("{} {:.4g}, from its {}", name, value, from));
   }
 
-  /// Height of the file's standing pose if it sets the legs; otherwise the usual share of the leg.
+  /// From the file's standing pose, or the usual share of the leg.
   double hip_height() const {
     if (given("gait.hip_height_m")) return tuned("gait.hip_height_m");
     if (poses_leg("stand")) return stand_of(e_, *leg_[0]).hip_height_m;
@@ -160,7 +159,7 @@ class Settler {
   void fill_gait() {
     const Tuning usual;
     const double longer = leg_m_ / kItsLeg_m, slower = std::sqrt(longer);
-    // Scale the low-voltage threshold of 12 V servos (three lithium cells) to the nominal voltage.
+    // 12 V servos' threshold (three lithium cells), scaled.
     const double nominal_v = e_.joints.empty() ? kUsual_v : e_.joints[0].servo.nominal_v;
     if (nominal_v != kUsual_v) {
       put("safety.voltage_low_v", usual.safety.voltage_low_v / kUsual_v * nominal_v, "servos");
@@ -196,7 +195,7 @@ class Settler {
     return nullptr;
   }
 
-  /// True if the knee is ahead of the line from hip to ankle, as a person's.
+  /// The knee is ahead of the line from hip to ankle.
   bool bends_forward(const Params& params, int side, const float* angle_rad) const {
     const LegParams& leg = params.leg[side];
     const kinematics::LegChain chain = kinematics::leg_chain(params, leg, Pose{}, angle_rad);
@@ -205,7 +204,7 @@ class Settler {
     return knee.x() > leg.hip_body_m.x + share * (ankle.x() - leg.hip_body_m.x) - 1e-4F;
   }
 
-  /// Starts Newton from a few crouches in both directions, because it finds the nearest solution.
+  /// Newton finds the nearest solution: start from crouches in both directions.
   bool solve(const Params& params, int side, const Pose& sole, float* angle_rad) const {
     const LegParams& leg = params.leg[side];
     for (const double bend : {0.6, 0.3, 1.0, -0.6, -1.0}) {
@@ -226,8 +225,7 @@ class Settler {
     return false;
   }
 
-  /// Finds leg angles that the file omits, for this height or the lowest one above it within the
-  /// limits.
+  /// Omitted leg angles, at this height or the lowest reachable one above.
   void fill_pose(const std::string& pose, double height_m) {
     if (poses_leg(pose)) return;
     const double stand_m = hip_height();
@@ -268,7 +266,7 @@ class Settler {
                         kHipShare * leg_m_));
   }
 
-  /// Checks the file's pose: soles level, and both on one floor.
+  /// Soles level, on one floor.
   void check_pose() const {
     const PoseFact* const fact = poses_leg("stand");
     if (!fact) return;
@@ -289,7 +287,7 @@ class Settler {
                   "correct its angles, or leave the legs out: they are found");
   }
 
-  /// Checks that the legs reach the gait's standing posture from the standing pose.
+  /// From the standing pose to the gait's.
   void check_stand() const {
     const Params params = make_params(e_);
     if (!can_stand(params)) refuse_height(static_cast<double>(params.tuning.gait.hip_height_m));
@@ -343,7 +341,7 @@ Stand stand_of(const Entity& entity, const Limb& leg) {
   const Vec3 ankle = links[4].translation(), knee = links[3].translation();
   Stand stand;
   stand.hip_height_m = g.hip_m.z() - ankle.z();
-  // On one leg the weight acts above its ankle, at worst halfway to the hip.
+  // On one leg the weight acts at worst halfway from ankle to hip.
   const double arm_m = std::abs(knee.x() - (ankle.x() + g.hip_m.x()) / 2);
   stand.knee_n_m = total_mass(entity) * kGravity_m_s2 * arm_m;
   return stand;

@@ -19,7 +19,7 @@ std::string join(const std::vector<double>& values) {
   return text;
 }
 
-/// Edges of a box of uniform density with these moments (kg m2), to draw a link without a shape.
+/// A uniform box with these moments (kg m2), to draw a link.
 std::vector<double> even_box(double mass_kg, const std::vector<double>& moments) {
   std::vector<double> edges;
   const double sum = moments[0] + moments[1] + moments[2];
@@ -30,7 +30,6 @@ std::vector<double> even_box(double mass_kg, const std::vector<double>& moments)
   return edges;
 }
 
-/// Writes a robot whose table lists its links and joints one by one.
 class TreeWriter {
  public:
   explicit TreeWriter(RobotTable& table) : t_(table) {}

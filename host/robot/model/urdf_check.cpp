@@ -17,7 +17,7 @@
 namespace verp::model {
 namespace {
 
-/// The element <kind name="...">, or the root.
+/// <kind name="...">, or the root.
 XmlElement element_of(const XmlElement& robot, const char* kind, const std::string& name) {
   for (const XmlElement& child : robot.children(kind)) {
     if (child.text("name", "") == name) return child;
@@ -25,7 +25,7 @@ XmlElement element_of(const XmlElement& robot, const char* kind, const std::stri
   return robot;
 }
 
-/// Collects urdfdom's errors: first the cause, then what could not be read.
+/// First the cause, then its effects.
 class UrdfErrors : public console_bridge::OutputHandler {
  public:
   void log(const std::string& text, console_bridge::LogLevel level, const char* /*file*/,
@@ -50,7 +50,7 @@ void refuse_duplicates(const XmlElement& robot, const char* kind) {
   }
 }
 
-/// For a loop urdfdom finds no root, and names no link.
+/// urdfdom names no link of a loop.
 void refuse_loops(const XmlElement& robot) {
   std::map<std::string, std::string> parent;
   for (const XmlElement& joint : robot.children("joint")) {
@@ -68,7 +68,7 @@ void refuse_loops(const XmlElement& robot) {
   }
 }
 
-/// urdfdom does not name the joint of a bad number.
+/// Nor the joint of a bad number.
 void refuse_no_ratio(const XmlElement& robot) {
   for (const XmlElement& joint : robot.children("joint")) {
     for (const XmlElement& mimic : joint.children("mimic")) {
@@ -78,7 +78,7 @@ void refuse_no_ratio(const XmlElement& robot) {
   }
 }
 
-/// Rejects a link without a parent joint other than the trunk's root.
+/// Only the trunk's root has no parent joint.
 void refuse_second_root(const XmlElement& robot, const Facts& facts) {
   std::map<std::string, std::string> parent;
   for (const XmlElement& joint : robot.children("joint")) {
@@ -98,7 +98,7 @@ void refuse_second_root(const XmlElement& robot, const Facts& facts) {
       "add the joint that carries one of them");
 }
 
-/// libsdformat rejects these without a name or a line.
+/// libsdformat rejects it without name or line.
 void refuse_no_direction(const XmlElement& robot) {
   for (const XmlElement& joint : robot.children("joint")) {
     for (const XmlElement& axis : joint.children("axis")) {
@@ -137,7 +137,7 @@ std::shared_ptr<urdf::ModelInterface> read_urdf(const XmlSource& source, const X
                   "correct it; wiki.ros.org/urdf/XML says what is needed");
 }
 
-/// A frame for a sensor or a tool needs no mass; a link with a shape needs one.
+/// A frame needs no mass; a link with a shape does.
 void check_links(const XmlElement& robot, const urdf::ModelInterface& urdf, const Facts& facts) {
   for (const auto& [name, link] : urdf.links_) {
     const bool is_frame = link->visual_array.empty() && link->collision_array.empty();

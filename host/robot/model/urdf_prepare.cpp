@@ -25,14 +25,14 @@ std::string name_of(const XMLElement& element) {
   return name ? name : "";
 }
 
-/// Files write 1e-9 kg where a program required a mass; libsdformat reads it as none.
+/// Some files write 1e-9 kg; libsdformat reads it as no mass.
 bool has_mass(const XMLElement& link) {
   const XMLElement* const inertial = link.FirstChildElement("inertial");
   const XMLElement* const mass = inertial ? inertial->FirstChildElement("mass") : nullptr;
   return mass != nullptr && mass->DoubleAttribute("value") >= kLeastMass_kg;
 }
 
-/// Adds a light ball; LinkTree removes it again.
+/// LinkTree removes this light ball again.
 void add_stand_in_mass(XMLElement& link) {
   if (XMLElement* const old = link.FirstChildElement("inertial")) link.DeleteChild(old);
   XMLElement* const inertial = link.InsertNewChildElement("inertial");

@@ -5,24 +5,23 @@
 
 #include "host/robot/model/xml_source.hpp"
 
-/// Prepares URDF files for libsdformat's import. The import drops links without mass and everything
-/// beyond them, forgets the names of links joined by fixed joints, and has one name space for links
-/// and joints.
+/// For libsdformat's import, which drops links without mass and everything beyond, forgets names of
+/// fixed links, and has one name space for links and joints.
 namespace verp::model {
 
 struct UrdfNames {
   std::set<std::string> massless_links;      ///< have a stand-in mass
-  std::map<std::string, std::string> joint;  ///< changed names -> the file's
+  std::map<std::string, std::string> joint;  ///< changed -> the file's
   const std::string& joint_name(const std::string& imported) const {
     const auto changed = joint.find(imported);
     return changed == joint.end() ? imported : changed->second;
   }
 };
 
-/// Prepared copies of a robot's URDF files; deleted with this object.
+/// The copies are deleted with this object.
 class PreparedUrdfs {
  public:
-  /// Throws LoadError if a copy cannot be written.
+  /// If a copy cannot be written.
   explicit PreparedUrdfs(const XmlSource& source);
   ~PreparedUrdfs();
   PreparedUrdfs(const PreparedUrdfs&) = delete;
@@ -30,7 +29,7 @@ class PreparedUrdfs {
 
   /// The copy of this file, or the file itself.
   std::string copy_of(const std::string& path) const;
-  /// True for a copy, whose line numbers are meaningless to users.
+  /// Its line numbers mean nothing to users.
   bool is_copy(const std::string& path) const;
   const UrdfNames& names() const { return names_; }
 

@@ -37,7 +37,7 @@ void read_material(const sdf::Material& material, const PictureFiles& files, Vis
     for (const auto type : {sdf::PbrWorkflowType::METAL, sdf::PbrWorkflowType::SPECULAR}) {
       if (const auto* flow = pbr->Workflow(type); flow && !flow->AlbedoMap().empty()) {
         visual.texture = files.find(flow->AlbedoMap());
-        // the renderer reports the missing file
+        // the renderer reports it
         if (visual.texture.empty()) visual.texture = flow->AlbedoMap();
       }
     }

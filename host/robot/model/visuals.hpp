@@ -7,8 +7,8 @@
 
 namespace verp::model {
 
-/// Finds the files that a robot's file names: in its own folder and those above, in those of each
-/// included file, and in VERP_MODEL_PATH. ROS packages are found by name.
+/// Looks in the folders of the robot's file and above, of each included file, and in
+/// VERP_MODEL_PATH; for ROS packages by name.
 class PictureFiles {
  public:
   explicit PictureFiles(std::vector<std::string> from_files) : from_(std::move(from_files)) {}
@@ -19,8 +19,7 @@ class PictureFiles {
   std::vector<std::string> from_;
 };
 
-/// Visuals of a link, with poses in the SDF link's own frame. Unsupported shapes are omitted, not
-/// errors, because they only affect pictures.
+/// In the SDF link's frame. Omits unsupported shapes: only pictures need them.
 std::vector<Visual> read_visuals(const sdf::Link& link, const PictureFiles& files);
 
 }  // namespace verp::model

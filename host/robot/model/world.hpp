@@ -8,21 +8,21 @@
 
 #include "host/robot/model/entity.hpp"
 
-/// A world on the PC, from load_world() (load_world.hpp): plain data for the twin and for
-/// renderers. Double precision, SI units, z up. Every pose is resolved to the frame in its comment.
+/// A world on the PC (load_world.hpp), for twin and renderers. Double precision, SI units, z up.
+/// Poses are in the frame of their comment.
 namespace verp::model {
 
-/// Red, green, blue, opacity, each 0 to 1.
+/// Red, green, blue, opacity: 0 to 1.
 using Color = std::array<double, 4>;
 
 struct Material {
   Color ambient{0.6, 0.6, 0.6, 1}, diffuse{0.6, 0.6, 0.6, 1}, specular{0.1, 0.1, 0.1, 1},
       emissive{0, 0, 0, 1};
-  std::string texture;      ///< file of the albedo map; empty: none
-  double transparency = 0;  ///< of the whole visual, 0 opaque to 1
+  std::string texture;      ///< albedo map; empty: none
+  double transparency = 0;  ///< 0 opaque to 1
 };
 
-/// Heights over a rectangle about the origin, in rows from -y to y, each from -x to x.
+/// Rows from -y to y, each from -x to x, about the origin.
 struct Heightfield {
   int columns = 0, rows = 0;
   double size_x_m = 0, size_y_m = 0;
@@ -34,7 +34,7 @@ struct Heightfield {
   }
 };
 
-/// Corners counter-clockwise seen from outside; scaled to metres.
+/// Corners counter-clockwise from outside, in metres.
 struct Mesh {
   std::string file;
   std::vector<Vec3> vertex_m;
@@ -44,16 +44,16 @@ struct Mesh {
 struct Shape {
   enum class Kind { kPlane, kBox, kSphere, kCylinder, kCapsule, kHeightfield, kMesh };
   Kind kind = Kind::kBox;
-  /// Box: edges; sphere: x radius; cylinder, capsule: x radius, z length along z (a capsule's
-  /// without caps); plane: x and y edges of the drawn part, normal z.
+  /// Box: edges; sphere: x radius; cylinder, capsule: x radius, z length (capsule: without caps);
+  /// plane: x and y edges drawn, normal z.
   Vec3 size_m = Vec3::Zero();
   std::shared_ptr<const Heightfield> heightfield;
-  std::shared_ptr<const Mesh> mesh;  ///< for collision: convex, or static
+  std::shared_ptr<const Mesh> mesh;  ///< convex, or static
 };
 
 struct ContactSurface {
   double friction = 1.0;
-  double restitution = 0;    ///< of speed, 0 to 1
+  double restitution = 0;    ///< 0 to 1
   double stiffness_n_m = 0;  ///< <ode><kp>; 0: rigid
   double damping_n_s_m = 0;  ///< <ode><kd>
 };
@@ -73,26 +73,25 @@ struct WorldVisual {
   bool casts_shadows = true;
 };
 
-/// Point on the path of a moving obstacle, which pushes what is in its way. Speed is constant
-/// between waypoints.
+/// On a moving obstacle's path; it pushes what is in its way. Constant speed between waypoints.
 struct Waypoint {
   double t_s = 0;
   Transform pose = Transform::Identity();  ///< in the world
 };
 
-/// One rigid object. A model with several links becomes several objects, named MODEL/LINK.
+/// One rigid object; links of a model become objects MODEL/LINK.
 struct WorldObject {
   std::string name;
-  int line = 0;                            ///< in the file, for error messages
+  int line = 0;                            ///< in the file
   Transform pose = Transform::Identity();  ///< initial, in the world
   enum class Kind { kStatic, kDynamic, kMoving } kind = Kind::kStatic;
   double mass_kg = 0;                 ///< dynamic ones
   Vec3 com_m = Vec3::Zero();          ///< in the object
-  Mat3 inertia_kg_m2 = Mat3::Zero();  ///< about the centre of mass, object's axes
+  Mat3 inertia_kg_m2 = Mat3::Zero();  ///< centre of mass, object's axes
   std::vector<WorldCollision> collisions;
   std::vector<WorldVisual> visuals;
-  std::vector<Waypoint> waypoints;  ///< moving ones: at least two, with rising times
-  bool loops = false;               ///< repeats from the first waypoint
+  std::vector<Waypoint> waypoints;  ///< at least two, rising times
+  bool loops = false;               ///< from the first waypoint
 };
 
 struct Light {
@@ -112,7 +111,7 @@ struct Fog {
   double start_m = 1, end_m = 100, density_1_m = 0.1;
 };
 
-/// <include> of a robot's file.
+/// The <include> of a robot's file.
 struct WorldRobot {
   std::string name;
   std::string file;
@@ -124,17 +123,17 @@ struct World {
   Vec3 gravity_m_s2{0, 0, -9.80665};
   Color ambient{0.4, 0.4, 0.4, 1}, background{0.7, 0.7, 0.7, 1};
   bool shadows = true;
-  bool sky = false;  ///< the background is brighter toward the horizon
-  /// Rendering effects: <verp:effects> of <scene>.
+  bool sky = false;  ///< brighter background toward the horizon
+  /// <verp:effects> of <scene>.
   bool antialias = true, textures = true, transparency = true;
   std::optional<Fog> fog;
   std::vector<Light> lights;
-  std::optional<Transform> view;     ///< of <gui><camera>: x ahead, z up
-  std::vector<WorldObject> objects;  ///< one of them holds the ground
+  std::optional<Transform> view;     ///< <gui><camera>: x ahead, z up
+  std::vector<WorldObject> objects;  ///< with the ground
   std::vector<WorldRobot> robots;
 };
 
-/// Objects that may leave their initial pose.
+/// They may leave their initial pose.
 inline std::vector<const WorldObject*> moving(const World& world) {
   std::vector<const WorldObject*> out;
   for (const WorldObject& object : world.objects) {

@@ -18,7 +18,6 @@ namespace {
 constexpr double kMostWorld_m = 1000;
 constexpr double kMostAnything = 1e12;
 
-/// Allowed number of values in a leaf, and their range.
 struct Leaf {
   std::size_t count;
   double low, high;
@@ -76,7 +75,7 @@ void check_world_leaf(const XmlElement& at, const std::string& text) {
   Leaf leaf{0, 0, 1};
   if (is_color(name)) {
     values = strict(at, text, 3, 4);
-  } else if (name == "size") {  // three for a box, two for a plane
+  } else if (name == "size") {  // box: three, plane: two
     values = strict(at, text, 2, 3);
     leaf = {0, kLeastLength_m, 2 * kMostWorld_m, " m"};
   } else if (const auto found = kLeaves.find(name); found != kLeaves.end()) {
@@ -114,8 +113,8 @@ void WorldXml::inspect(const tinyxml2::XMLElement& element) {
   const XmlElement at(path_, element);
   const char* own = element.Attribute("name");
   if (own != nullptr) lines_.insert({own, element.GetLineNum()});
-  // An empty pose means no pose. For other empty elements libsdformat would use its default: 1 kg
-  // for an empty <mass>.
+  // An empty pose is no pose; other empty elements would mean libsdformat's default: 1 kg for an
+  // empty <mass>.
   const char* const text = element.GetText();
   if (element.FirstChildElement() == nullptr && (text != nullptr || at.name() != "pose"))
     check_world_leaf(at, text != nullptr ? text : "");
@@ -142,7 +141,7 @@ int WorldXml::blame(const std::string& message) const {
   return world_->GetLineNum();
 }
 
-/// Also blanks the word in comments, where no robot is and nothing is lost.
+/// Also in comments, where nothing is lost.
 void WorldXml::blank_includes() {
   constexpr std::string_view kBegin = "<include", kEnd = "</include>";
   std::size_t at = 0;
@@ -177,7 +176,7 @@ std::vector<WorldRobot> WorldXml::robots() const {
           "give the path of a robot.sdf from here");
     }
     if (const std::string pose = child("pose"); !pose.empty()) {
-      const std::vector<double> value = *parse_numbers(pose);  // six: the leaf was checked
+      const std::vector<double> value = *parse_numbers(pose);  // six: checked
       if (value[2] != 0 || value[3] != 0 || value[4] != 0)
         include.fail("a robot stands on the ground",
                      "give its <pose> x, y and yaw only: x y 0 0 0 yaw");

@@ -10,21 +10,20 @@
 
 namespace verp::model {
 
-/// The XML of a world's file: its lines, its numbers read strictly, and its included robots, which
-/// libsdformat does not see.
+/// Lines, strict numbers, and included robots, which libsdformat does not see.
 class WorldXml {
  public:
-  /// Throws LoadError if the file is unreadable or malformed, has not exactly one <world>, or has
-  /// an invalid number.
+  /// Throws LoadError if unreadable, malformed, without exactly one <world>, or with an invalid
+  /// number.
   explicit WorldXml(const std::string& path);
 
   const std::string& path() const { return path_; }
   XmlElement world() const { return XmlElement(path_, *world_); }
-  /// Line of the named model, link, light, ...; the world's if there is none.
+  /// Named model, link, light, ...; else the world's.
   int line_of(const std::string& name) const;
-  /// Line of the first known name in `message`; otherwise the world's.
+  /// First known name in `message`; else the world's.
   int blame(const std::string& message) const;
-  /// The file with included robots blanked out; the line numbers stay.
+  /// Blanked, so line numbers stay.
   const std::string& text_without_robots() const { return text_; }
   std::vector<WorldRobot> robots() const;
 

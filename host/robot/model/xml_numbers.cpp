@@ -12,33 +12,32 @@
 namespace verp::model {
 namespace {
 
-// Bounds of a number: far beyond any robot with the servos we know, but within float32's 24 bits
-// for what the controller computes. At 10 m it resolves 1 um. Mass times length squared stays near
-// 1e5, so no sum of 30 links overflows or drowns the others' digits.
+// Far beyond any known robot, but within float32's 24 bits. At 10 m these resolve 1 um; mass times
+// length squared stays near 1e5, so a sum of 30 links keeps the others' digits.
 struct Numbers {
   std::size_t count;  // 0: any
   double low, high;
   const char* unit = "";
-  bool is_pose = false;         // the first three are a position, the rest angles
-  bool may_be_endless = false;  // inf and -inf mean no limit
-  bool is_whole = false;        // libsdformat would read 1e9 as 1
+  bool is_pose = false;         // position, then angles
+  bool may_be_endless = false;  // inf, -inf: no limit
+  bool is_whole = false;        // libsdformat reads 1e9 as 1
 };
 constexpr double kLargest = std::numeric_limits<float>::max();
-constexpr Numbers kFree = {1, -kLargest, kLargest};  // of sensors: the controller never sees it
+constexpr Numbers kFree = {1, -kLargest, kLargest};  // sensors, which the controller never sees
 constexpr Numbers kCount = {1, 0, 1e9, "", false, false, true};
 constexpr Numbers kMass = {1, 0, kMostMass_kg, " kg"};
-constexpr Numbers kInertia = {1, -1e5, 1e5, " kg m2"};  // greatest mass at the greatest distance
+constexpr Numbers kInertia = {1, -1e5, 1e5, " kg m2"};  // greatest mass, greatest distance
 constexpr Numbers kSize = {1, 0, kMostLength_m, " m"};
 constexpr Numbers kSizes = {0, 0, kMostLength_m, " m"};
 constexpr Numbers kPosition = {3, -kMostLength_m, kMostLength_m, " m"};
 constexpr Numbers kDirection = {3, -kMostAngle, kMostAngle};
-constexpr Numbers kLimit = {1, -kLargest, kLargest};  // 1e16 and more: no limit
+constexpr Numbers kLimit = {1, -kLargest, kLargest};  // from 1e16: no limit
 constexpr Numbers kPose = {0, -kMostAngle, kMostAngle, "", true};
-// the servo's own limit also applies
+// the servo's limit also applies
 constexpr Numbers kPower = {1, -kLargest, kLargest, "", false, true};
-constexpr Numbers kResistance = {1, -100, 100};  // of a joint, N m and N m s/rad
+constexpr Numbers kResistance = {1, -100, 100};  // joint's, N m and N m s/rad
 
-// Numeric leaves of SDF; from mu1 on, those that libsdformat reads in a URDF's <gazebo>.
+// SDF leaves; from mu1 on, those in a URDF's <gazebo>.
 const std::map<std::string_view, Numbers> kSdfNumbers = {
     {"mass", kMass},
     {"ixx", kInertia},
@@ -101,7 +100,7 @@ const std::map<std::string_view, Numbers> kSdfNumbers = {
     {"dampingFactor", kFree},
     {"laserRetro", kFree}};
 
-// Attributes of URDF, as ATTRIBUTE or ELEMENT.ATTRIBUTE.
+// ATTRIBUTE or ELEMENT.ATTRIBUTE.
 const std::map<std::string, Numbers, std::less<>> kUrdfNumbers = {
     {"xyz", kPosition},         {"rpy", kDirection},      {"ixx", kInertia},
     {"iyy", kInertia},          {"izz", kInertia},        {"ixy", kInertia},
@@ -144,8 +143,8 @@ void check_leaf(const std::string& file, int line, const std::string& element,
                 const std::string& text, bool is_urdf) {
   const auto wanted = kSdfNumbers.find(element);
   if (wanted == kSdfNumbers.end()) return;
-  // An empty pose means no pose, and <friction> is also a container in a surface. For other empty
-  // elements libsdformat would use its default: 1 kg for an empty <mass>.
+  // An empty pose is no pose; <friction> is also a container. Other empty elements would mean
+  // libsdformat's default: 1 kg for an empty <mass>.
   if (text.empty() && (wanted->second.is_pose || element == "friction")) return;
   const bool one = wanted->second.count == 1;
   if (is_urdf && !one) return;

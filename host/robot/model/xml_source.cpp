@@ -20,22 +20,21 @@
 namespace verp::model {
 namespace {
 
-// A robot has a body and a few parts; files that each include two others reach this at once.
+// Files that include two others each reach this at once.
 constexpr std::size_t kMostFiles = 64;
 
-// Per parent and kind. Hands with sensors in every finger have some hundreds of links.
+// Per parent and kind; hands with sensors in every finger have hundreds of links.
 constexpr std::size_t kMostElements = 1000;
 
-// Namespace of our own elements.
 constexpr const char* kNamespace = "https://verp.dev/sdf/1";
 
-/// XML 1.0, 2.5: no "--" within a comment, and no end in "--->". tinyxml2 accepts both, but other
-/// tools then reject the file.
+/// XML 1.0, 2.5: no "--" within a comment and no end in "--->"; tinyxml2 accepts both, other tools
+/// do not.
 class CommentCheck : public tinyxml2::XMLVisitor {
  public:
   explicit CommentCheck(const std::string& path) : path_(path) {}
   bool Visit(const tinyxml2::XMLComment& comment) override {
-    const std::string text = std::string(comment.Value()) + '-';  // its end counts as one
+    const std::string text = std::string(comment.Value()) + '-';  // the end counts
     const auto at = text.find("--");
     if (at == std::string::npos) return true;
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(at);
@@ -48,7 +47,7 @@ class CommentCheck : public tinyxml2::XMLVisitor {
   const std::string& path_;
 };
 
-/// Libraries silently take the first or the last of a repeated element.
+/// Libraries silently take one of them.
 void refuse_repeats(const std::string& path, const tinyxml2::XMLElement& element) {
   for (const char* once :
        {"mass", "inertia", "inertial", "pose", "axis", "limit", "parent", "child", "origin",
@@ -63,7 +62,7 @@ void refuse_repeats(const std::string& path, const tinyxml2::XMLElement& element
   }
 }
 
-/// libsdformat reports an invalid type without the joint's name.
+/// libsdformat does not name the joint.
 void check_joint_type(const std::string& path, const tinyxml2::XMLElement& joint) {
   const std::string_view type = joint.Attribute("type") ? joint.Attribute("type") : "";
   for (const std::string_view known : {"revolute", "fixed", "continuous", "prismatic", "ball",
@@ -74,7 +73,7 @@ void check_joint_type(const std::string& path, const tinyxml2::XMLElement& joint
                   "write revolute, or fixed");
 }
 
-/// Called before the code walks over each child.
+/// Before each child is visited.
 void refuse_many(const std::string& path, const tinyxml2::XMLElement& element) {
   std::map<std::string_view, std::size_t> count;
   for (const auto* child = element.FirstChildElement(); child;
@@ -131,7 +130,7 @@ void XmlElement::allow(std::initializer_list<const char*> attributes,
   }
   for (const auto* inside = element_->FirstChild(); inside; inside = inside->NextSibling()) {
     if (inside->ToText() == nullptr) continue;
-    std::string word;  // first of possibly many lines
+    std::string word;  // of many lines
     std::istringstream(inside->Value()) >> word;
     fail("<" + name() + "> has text inside, '" + word.substr(0, 40) + "', which nobody reads",
          "leave it out");
@@ -217,7 +216,7 @@ void XmlSource::read(const std::string& path, const std::optional<std::string>& 
                     "a robot's file starts with <sdf version=\"1.9\">");
   }
   refuse_many(path, *file.document.RootElement());
-  // Included files are often third-party files, used unchanged.
+  // Included files are often third-party.
   if (files_.size() == 1) {
     CommentCheck comments(path);
     file.document.Accept(&comments);
@@ -251,7 +250,7 @@ void XmlSource::include(const File& file, const tinyxml2::XMLElement& element) {
                     "more than " + std::to_string(kMostFiles) + " files are included",
                     "write what repeats into the robot's own file");
   }
-  // libsdformat asks with this text and does not say for which file.
+  // libsdformat asks without saying for which file.
   const std::string whole = std::filesystem::weakly_canonical(found).string();
   const auto [same, is_new] = included_.insert({text, whole});
   if (!is_new && same->second != whole) {
@@ -334,7 +333,7 @@ XmlSource::Place XmlSource::blame(const std::string& message) const {
   std::string_view rest = message;
   while (!rest.empty()) {
     const auto length = std::min(rest.find_first_of(kDelimiters), rest.size());
-    const bool scope = rest.substr(length).starts_with("::");  // a scope, not the name itself
+    const bool scope = rest.substr(length).starts_with("::");  // not the name itself
     if (length > 0 && !scope) {
       if (const auto place = find(std::string(rest.substr(0, length)))) return *place;
     }

@@ -10,7 +10,7 @@
 
 #include "host/robot/model/entity.hpp"
 
-/// XML text of a robot with the line numbers that libsdformat drops. Numbers are read strictly.
+/// Line numbers, which libsdformat drops, and strict numbers.
 namespace verp::model {
 
 class XmlElement {
@@ -28,11 +28,11 @@ class XmlElement {
   /// Throws LoadError at this element.
   [[noreturn]] void fail(const std::string& message, const std::string& fix) const;
 
-  /// Throws LoadError for any other attribute, inner element or text.
+  /// Throws LoadError for anything else.
   void allow(std::initializer_list<const char*> attributes,
              std::initializer_list<const char*> elements = {}) const;
   bool has(const char* attribute) const { return element_->Attribute(attribute) != nullptr; }
-  /// Each throws LoadError if the attribute is missing (without a fallback) or malformed.
+  /// Throw LoadError if missing (without a fallback) or malformed.
   std::string text(const char* attribute) const;
   std::string text(const char* attribute, const std::string& fallback) const;
   double number(const char* attribute) const;
@@ -42,38 +42,36 @@ class XmlElement {
                        double fallback) const;
   int integer(const char* attribute, int lowest, int highest) const;
   int integer(const char* attribute, int lowest, int highest, int fallback) const;
-  Vec3 vector(const char* attribute) const;  ///< a position or size in metres
+  Vec3 vector(const char* attribute) const;  ///< metres
 
  private:
   const std::string* file_;  // lives in XmlSource
   const tinyxml2::XMLElement* element_;
 };
 
-/// A robot's file and all files that it includes.
+/// A robot's file with all included files.
 class XmlSource {
  public:
-  /// Reads the files and checks existence, well-formed XML and strict numbers in all standard
-  /// elements. Throws LoadError.
+  /// Checks existence, well-formed XML and standard elements' numbers. Throws LoadError.
   explicit XmlSource(const std::string& path) : XmlSource(path, std::nullopt) {}
-  /// The same for a text that would be in that file.
+  /// A text that would be in that file.
   XmlSource(const std::string& path, const std::optional<std::string>& text);
 
   const std::string& path() const { return files_.front()->path; }
-  /// The only <model> of the main file. Throws LoadError if there is not exactly one.
+  /// Throws LoadError unless there is exactly one.
   XmlElement model() const;
-  /// File of an <include> with this URI, whatever the working directory; empty: none.
+  /// In any working directory; empty: none.
   std::string included(const std::string& uri) const;
-  /// Root elements (<robot>) of the included URDF files.
+  /// <robot> of included URDF files.
   std::vector<XmlElement> urdfs() const;
 
   struct Place {
     std::string file;
     int line = 1;
   };
-  /// Place where the named link, joint, frame, ... is defined; nothing: nowhere.
+  /// Place of the named link, joint, frame, ...
   std::optional<Place> find(const std::string& name) const;
-  /// Place of the first name in `message` (in quotes, brackets or after a colon) that is defined;
-  /// otherwise the model's.
+  /// First defined name in `message` (quoted, bracketed or after a colon); else the model's.
   Place blame(const std::string& message) const;
 
  private:
@@ -86,7 +84,7 @@ class XmlSource {
   void inspect(const File& file, const tinyxml2::XMLElement& element);
 
   std::vector<std::unique_ptr<File>> files_;
-  std::vector<std::string> open_;  ///< the main file, then the chain of includes to the current one
+  std::vector<std::string> open_;  ///< main file, then includes to the current one
   std::map<std::string, Place> names_;
   std::map<std::string, std::string> included_;  ///< by its <uri>
 };

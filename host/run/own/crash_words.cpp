@@ -13,7 +13,7 @@ namespace {
 thread_local const char* volatile inside_folder = nullptr;
 thread_local volatile std::uint32_t inside_tick = 0;
 
-const char* before_line = "";  ///< on a terminal a progress bar may precede it
+const char* before_line = "";  ///< after a progress bar
 
 constexpr int kSignals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
@@ -74,7 +74,7 @@ extern "C" void crashed(int signal) {
   ::_exit(kRunFailed);
 }
 
-/// After a stack overflow, the signal handler needs a stack of its own.
+/// A stack overflow's handler needs its own stack.
 void give_thread_a_second_stack() {
   constexpr std::size_t kBytes = 1 << 16;
   thread_local std::unique_ptr<char[]> memory;

@@ -3,11 +3,10 @@
 
 namespace verp::own {
 
-/// From now on, a crash inside a user's controller prints one line and ends this process with
-/// status 1. Other crashes keep their default effect.
+/// A crash inside a user's controller then prints one line and exits with 1.
 void name_crashes();
 
-/// While this object lives, the thread is inside the controller of that folder.
+/// The thread is inside that folder's controller.
 class Inside {
  public:
   Inside(const char* folder, std::uint32_t tick);

@@ -8,14 +8,13 @@
 
 namespace verp::own {
 
-/// A controller that cannot be loaded or that commanded an impossible goal. Says which, where and
-/// why.
+/// It cannot be loaded, or commanded an impossible goal.
 class OwnError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A user's controller, loaded into this process. Messages name it by its folder.
+/// Messages name the controller by its folder.
 class Loaded {
  public:
   /// `file`: the folder's controller.so. Throws OwnError.
@@ -24,8 +23,8 @@ class Loaded {
   Loaded(const Loaded&) = delete;
   Loaded& operator=(const Loaded&) = delete;
 
-  /// A controller instance for one run; it keeps `loaded` alive. Calling it throws OwnError for a
-  /// refused goal. A crash in it prints one line and ends this process with status 1.
+  /// For one run; keeps `loaded` alive. The call throws OwnError for a refused goal; a crash in it
+  /// prints one line and exits with 1.
   static session::Decide controller(const std::shared_ptr<const Loaded>& loaded);
 
   const std::string& folder() const { return folder_; }

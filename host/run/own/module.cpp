@@ -1,5 +1,4 @@
-// Compiled with a user's controller into its controller.so (toolchains/own_controller.cmake), never
-// into verp.
+// Compiled into a user's controller.so (toolchains/own_controller.cmake), never into verp.
 #include "host/run/own/module.hpp"
 
 #include <new>

@@ -7,14 +7,14 @@
 
 namespace verp::own {
 
-/// What a controller.so exports as `verp_own_module`. Plain C calls; no exception crosses them.
+/// Exported as `verp_own_module`; no exception crosses these C calls.
 struct Module {
-  /// sizeof each struct as compiled into the module
+  /// sizeof, as compiled into the module
   std::uint32_t params_bytes, state_bytes, inputs_bytes, outputs_bytes;
-  /// A controller in its initial state; null: out of memory.
+  /// Null: out of memory.
   void* (*make)();
   void (*unmake)(void* controller);
-  /// Runs one tick. Returns the first joint whose goal was refused, and that goal; -1: none.
+  /// Returns the first joint with a refused goal, and that goal; -1: none.
   int (*decide)(void* controller, const Params* params, State* state, const Inputs* inputs,
                 Outputs* outputs, std::int32_t* refused_count);
 };

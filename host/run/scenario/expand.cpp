@@ -24,12 +24,11 @@ namespace {
 namespace fs = std::filesystem;
 using session::WalkPlan;
 
-/// Extra time of a robot that is driven over a link: it rises before its walk and sits down after.
+/// A robot at a link rises before its walk and sits down after.
 constexpr double kBeforeAndAfter_s = 10;
-/// Extra time for all tries to get up.
 constexpr double kGetUps_s = 60;
 
-/// The decimal number behind a float32: 0.06 for 0.06F.
+/// 0.06 for 0.06F.
 double decimal(float value) {
   return std::stod(fmt::format("{:g}", value));
 }
@@ -53,7 +52,7 @@ void prepare_falls(const Robot& robot, WalkPlan& plan) {
   plan.get_ups = session::kGetUpTries;
 }
 
-/// Emulated boards have the servo bus of a serial robot.
+/// Emulated boards have a serial servo bus.
 void require_serial(const Robot& robot, const model::Entity& entity) {
   if (robot.controller.board.empty() || entity.protocol == BusProtocol::kDynamixel2) return;
   throw ScenarioError("bus",
@@ -105,7 +104,7 @@ void check_disturbances(const Expanded& run) {
   }
 }
 
-/// The floor is drawn with the first robot.
+/// The first robot's draws include the floor.
 void vary(const Scenario& scenario, Expanded& run) {
   for (WalkPlan& plan : run.plans) {
     if (!scenario.robots[static_cast<std::size_t>(plan.number)].vary) continue;
@@ -210,7 +209,7 @@ record::mcap::StringMap metadata_of(const WalkPlan& plan, const Scenario& scenar
   const auto* ahead = std::get_if<Ahead>(&robot.orders);
   record::mcap::StringMap all = metadata_of(plan);
   all.merge(record::mcap::StringMap{
-      // find_world() finds this path from any folder.
+      // An absolute path works from any folder.
       {"world_file", fs::is_regular_file(world) ? fs::absolute(world).string() : world},
       {"step_m", fmt::format("{}", ahead != nullptr ? ahead->step_m : Ahead{}.step_m)},
       {"cycle_s", fmt::format("{}", plan.params.tuning.gait.cycle_s)},

@@ -10,10 +10,10 @@
 #include "host/trace/record/mcap_format.hpp"
 #include "host/twin/sim/world.hpp"
 
-/// Turns a Scenario into the plans of a session.
+/// From a Scenario to a session's plans.
 namespace verp::scenario {
 
-/// A Scenario's value is invalid. `where` is its path, such as "robots[0].tuning".
+/// An invalid value; `where` is its path, such as "robots[0].tuning".
 class ScenarioError : public std::invalid_argument {
  public:
   ScenarioError(std::string path, const std::string& what, std::vector<std::string> names = {})
@@ -23,38 +23,38 @@ class ScenarioError : public std::invalid_argument {
   const std::vector<std::string> known;  ///< valid names
 };
 
-/// A Scenario with its files loaded; all that a session needs.
+/// A Scenario with its files loaded.
 struct Expanded {
   sim::WorldOptions world = {};
-  /// Robots with a controller elsewhere come last. Report and pictures show the first robot.
+  /// Robots with a controller elsewhere come last. Reports show the first robot.
   std::vector<session::WalkPlan> plans = {};
-  /// Values that Robot::vary drew for the first robot and the floor.
+  /// By Robot::vary, for the first robot and the floor.
   std::vector<std::pair<std::string, double>> drawn = {};
 };
 
-/// Loads world and robots, checks the disturbances, draws random robots. A robot that may get up
-/// (WalkPlan::get_ups) still needs its actions: host/author/action/get_up.hpp. Throws ScenarioError
-/// and model::LoadError.
+/// Loads world and robots, checks disturbances, draws random robots. Robots that may get up
+/// (WalkPlan::get_ups) still need their actions: host/author/action/get_up.hpp. Throws
+/// ScenarioError and model::LoadError.
 Expanded expand(const Scenario& scenario);
-/// The same in a world that the caller has loaded.
+/// The same in a loaded world.
 Expanded expand(const Scenario& scenario, const sim::WorldOptions& world);
 
-/// Parts of expand(), for callers that load a robot themselves or have only one.
+/// Parts of expand().
 sim::WorldOptions world_of(const World& world);
 session::WalkPlan plan_of(const Robot& robot, double length_s);
 session::WalkPlan plan_of(const Robot& robot, double length_s, model::Entity entity);
 
-/// The orders as a velocity of this gait, in the controller's units.
+/// In the controller's units, for this gait.
 Command velocity_of(const Orders& orders, const GaitTuning& gait);
-/// Writes the orders into the plan, reduced to what its servos can follow. Needs plan.params.
+/// Reduced to what the servos can follow; needs plan.params.
 void give_orders(const Orders& orders, session::WalkPlan& plan);
 /// Throws std::out_of_range for an unknown name.
 void tune(const std::map<std::string, double>& values, Tuning& tuning);
 
-/// Metadata of a trace: the robot of this plan, and, with a scenario, the walk.
+/// For a trace: the plan's robot, and with a scenario the walk.
 record::mcap::StringMap metadata_of(const session::WalkPlan& plan);
 record::mcap::StringMap metadata_of(const session::WalkPlan& plan, const Scenario& scenario);
-/// "0.1,0,0.2"; empty if the orders are not a velocity.
+/// "0.1,0,0.2"; empty for other orders.
 std::string velocity_text(const Orders& orders);
 
 }  // namespace verp::scenario

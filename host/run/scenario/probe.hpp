@@ -6,7 +6,7 @@
 
 namespace verp::scenario {
 
-/// The quantities and things that a run will have, without running it.
+/// Quantities and things of a run, without running it.
 struct Probe {
   explicit Probe(const Expanded& run);
 

@@ -10,25 +10,25 @@
 #include "host/twin/radio/radio.hpp"
 #include "host/twin/sim/robot.hpp"
 
-/// One run as plain data: a world, the robots in it, and how long it lasts. The command line, the
-/// window, the library, the demos and the tests all describe a run by a Scenario.
+/// One run as plain data: a world, its robots and its length. Command line, window, library, demos
+/// and tests describe runs by it.
 ///
 ///     scenario::Scenario scenario;  // generic21 walks 20 s on a level floor
 ///     scenario.robots[0].orders = scenario::Velocity{0.1, 0, 0.2};
 ///     const scenario::Expanded run = scenario::expand(scenario);  // expand.hpp: loads the files
 ///     session::walk(run.plans[0], {}, {.world = run.world});
 ///
-/// The defaults are those of `verp walk`. text.hpp reads and prints a Scenario as a JSON file.
+/// Defaults are those of `verp walk`. text.hpp reads and prints a Scenario as JSON.
 namespace verp::scenario {
 
 struct World {
-  std::string file;  ///< a world of common/worlds, or an SDF file's path; empty: level floor
+  std::string file;  ///< name in common/worlds or an SDF file; empty: level floor
   double physics_step_ms = 1;
 
   bool operator==(const World&) const = default;
 };
 
-/// Straight ahead: two steps of this length in a cycle of the robot's gait.
+/// Straight ahead, by two steps of this length per cycle.
 struct Ahead {
   double step_m = 0.04;
   bool operator==(const Ahead&) const = default;
@@ -37,18 +37,17 @@ struct Velocity {
   double vx_m_s = 0, vy_m_s = 0, wz_rad_s = 0;
   bool operator==(const Velocity&) const = default;
 };
-/// It steps only where a push makes it step.
+/// The robot steps only when pushed.
 struct Stand {
   bool operator==(const Stand&) const = default;
 };
-/// The operator's order to a robot.
 using Orders = std::variant<Ahead, Velocity, Stand>;
 
-/// Computes the robot's ticks. All empty: the core, in this process.
+/// Computes the ticks; all empty: the core, in this process.
 struct Controller {
-  std::string folder;  ///< the user's own controller (`verp new controller`)
-  std::string board;   ///< the emulated board that runs it
-  std::string link;    ///< link to a controller elsewhere, in lockstep
+  std::string folder;  ///< the user's own (`verp new controller`)
+  std::string board;   ///< emulated, runs it
+  std::string link;    ///< to a controller elsewhere, in lockstep
 
   bool operator==(const Controller&) const = default;
 };
@@ -59,23 +58,23 @@ struct Place {
 };
 
 struct Robot {
-  std::string name;                 ///< distinguishes robots; empty: the model's name
-  std::string model = "generic21";  ///< name of a robot in common/robots, or path of an SDF file
-  std::string bus;                  ///< by name; empty: the model's first
-  std::map<std::string, double> tuning;  ///< `verp parameters` lists the names
+  std::string name;                      ///< empty: the model's
+  std::string model = "generic21";       ///< name in common/robots or an SDF file
+  std::string bus;                       ///< empty: the model's first
+  std::map<std::string, double> tuning;  ///< names: `verp parameters`
   Orders orders;
   Controller controller;
-  std::uint64_t seed = 1;  ///< seeds all randomness of this robot
-  bool vary = false;       ///< domain randomization: draws the robot from the seed (sim/vary.hpp)
+  std::uint64_t seed = 1;  ///< for all randomness of this robot
+  bool vary = false;       ///< domain randomization by the seed (sim/vary.hpp)
   Place at;
   sim::Lies lies = sim::Lies::kNo;  ///< pose at the start
-  bool get_up = false;              ///< a fall does not end its run
+  bool get_up = false;              ///< after a fall
   std::vector<session::Intervention> disturbances;
 
   bool operator==(const Robot&) const = default;
 };
 
-/// The robots' radio. Its stations are Scenario::robots, in that order.
+/// Its stations are Scenario::robots, in order.
 struct Radio {
   radio::Conditions conditions;
   std::uint64_t seed = 1;
@@ -87,10 +86,10 @@ struct Scenario {
   World world;
   std::vector<Robot> robots{Robot{}};
   std::optional<Radio> radio;
-  double length_s = 20;        ///< length of the gait, all three phases
-  bool real_time = false;      ///< no faster than the clock
-  bool if_lost_go_on = false;  ///< losing a controller ends only that robot's run
-  double patience_s = 10;      ///< the world waits this long for a controller on a link
+  double length_s = 20;  ///< all three phases of the gait
+  bool real_time = false;
+  bool if_lost_go_on = false;  ///< after a lost controller, for the other robots
+  double patience_s = 10;      ///< for a controller on a link
 
   bool operator==(const Scenario&) const = default;
 };

@@ -26,7 +26,6 @@ struct Limits {
 };
 constexpr Limits kAny{-1e12, 1e12}, kPlace{-1000, 1000}, kSpeed{-2, 2}, kTurn{-6.3, 6.3};
 
-/// Prints fields into an object.
 class Writer {
  public:
   static constexpr bool kReads = false;
@@ -57,7 +56,7 @@ class Writer {
   Json& to_;
 };
 
-/// Takes fields out of an object. Keys that no field took are unknown.
+/// Keys that no field took are unknown.
 class Reader {
  public:
   static constexpr bool kReads = true;
@@ -138,7 +137,7 @@ class Reader {
   std::set<std::string> known_;
 };
 
-// One list of fields for reading and printing. An `if constexpr` covers each difference.
+// One list of fields for both ways; `if constexpr` covers differences.
 
 template <class Io>
 void fields(Io& io, World& world) {
@@ -167,7 +166,6 @@ void fields(Io& io, Controller& controller) {
   io.value("link", controller.link);
 }
 
-/// One of step_m, velocity, stand.
 template <class Io>
 void fields(Io& io, Orders& orders) {
   if constexpr (Io::kReads) {
@@ -301,7 +299,7 @@ void fields(Io& io, Scenario& scenario) {
   io.number("patience_s", scenario.patience_s, {0.1, 3600});
 }
 
-/// nlohmann-json keeps the last of two equal keys.
+/// nlohmann-json keeps the last of equal keys.
 Json parsed(const std::string& text, const std::string& file) {
   std::vector<std::set<std::string>> keys;
   const auto watch = [&](int, Json::parse_event_t event, Json& value) {
@@ -314,7 +312,7 @@ Json parsed(const std::string& text, const std::string& file) {
   };
   try {
     return Json::parse(text, watch);
-  } catch (const Json::exception& error) {  // no JSON, or a number that no double holds
+  } catch (const Json::exception& error) {  // or a number beyond double
     const std::string what = error.what();
     throw model::LoadError(file, 0, "no JSON: " + what.substr(what.find("] ") + 2),
                            "`verp walk --print-scenario` prints a valid file");
@@ -333,7 +331,7 @@ std::optional<sim::Lies> start_of(const std::string& name) {
 std::string print(const Scenario& scenario) {
   Json json = Json::object();
   Writer writer(json);
-  Scenario copy = scenario;  // the list of fields is one for both ways
+  Scenario copy = scenario;  // one list for both ways
   fields(writer, copy);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -14,12 +14,12 @@ namespace {
 constexpr double kLeastShare = 0.5;
 constexpr double kStartAndStop_s = 2;  // at least
 constexpr double kDegrees = 180 / std::numbers::pi;
-// Feet that step in place make smaller turns and ways by themselves.
+// Stepping in place makes smaller ones.
 constexpr double kLeastWay_m = 0.05, kLeastTurn_rad = 0.2;
 constexpr const char* kAsked = "what was asked";
 constexpr const char* kOfItsGait = "what its gait goes in that time";
 
-/// Time of the growing and shrinking steps; they cover half of their full way.
+/// Growing and shrinking steps cover half their way.
 double start_and_stop_s(const GaitTuning& gait, const Command& velocity) {
   const double step_s = 0.5 * gait.cycle_s;
   const double asked_m = step_s * 1e-4 * std::hypot(velocity.vx_tenth_mm_s, velocity.vy_tenth_mm_s);
@@ -28,7 +28,7 @@ double start_and_stop_s(const GaitTuning& gait, const Command& velocity) {
   return std::max(kStartAndStop_s, own_s);
 }
 
-/// A walk's time in whole steps, as the gait divides it (gait::next_step).
+/// Whole steps, as in gait::next_step.
 struct Steps {
   Steps(const GaitTuning& gait, double walk_s) {
     const double key_s = gait.cycle_s / (2.0 * gait::kKeyPointsPerStep);
@@ -38,9 +38,9 @@ struct Steps {
     count = std::max(0, static_cast<int>(std::lround((walk_s - 2 * still_s) / step_s)));
   }
   double step_s;
-  int count;  ///< between the weight shifts that begin and end the walk
+  int count;  ///< between the first and last weight shift
 
-  /// Sum of strides towards `asked` that change by `change` per step. The last one closes the feet.
+  /// Sum of strides towards `asked`, `change` more per step. The last one closes the feet.
   double sum(double asked, double change) const {
     double all = 0;
     for (int i = 1; i <= count; ++i)
@@ -49,7 +49,7 @@ struct Steps {
   }
 };
 
-/// A straight walk in the wrong direction counts as zero.
+/// A straight walk backwards counts as zero.
 bool went_backwards(const Command& velocity, const sim::WalkMetrics& walked) {
   const sim::Vec2 asked(velocity.vx_tenth_mm_s, velocity.vy_tenth_mm_s);
   return velocity.wz_mrad_s == 0 &&
@@ -58,7 +58,6 @@ bool went_backwards(const Command& velocity, const sim::WalkMetrics& walked) {
 double went_m(const Command& velocity, const sim::WalkMetrics& walked) {
   return went_backwards(velocity, walked) ? 0 : walked.distance_m;
 }
-/// Positive in the ordered direction.
 double turned_rad(const Command& velocity, const sim::WalkMetrics& walked) {
   return std::copysign(1.0, velocity.wz_mrad_s) * walked.yaw_drift_deg / kDegrees;
 }
@@ -72,7 +71,7 @@ Way asked_way(const Command& velocity, double walk_s) {
   const int count = std::max(1, static_cast<int>(std::ceil(std::abs(way.turn_rad) / 0.05)));
   for (int i = 0; i <= count; ++i) {
     const double t_s = walk_s * i / count, turned_rad = turn_rad_s * t_s;
-    // Mean direction of the velocity during the turn: sin(a)/a ahead, (1-cos(a))/a aside.
+    // Mean velocity during the turn: sin(a)/a ahead, (1-cos(a))/a aside.
     const double ahead = turned_rad != 0 ? std::sin(turned_rad) / turned_rad : 1;
     const double aside = turned_rad != 0 ? (1 - std::cos(turned_rad)) / turned_rad : 0;
     way.point_m.push_back(t_s * sim::Vec2(ahead * v_m_s.x() - aside * v_m_s.y(),

@@ -52,7 +52,7 @@ class LocalController final : public Controller {
   bool up_ = false;
 };
 
-/// In firmware: the board runs its own loop; each tick() here runs it to the end of one tick.
+/// The board runs its own loop; each tick() runs it to the end of one tick.
 class BoardController final : public Controller {
  public:
   explicit BoardController(Robot& robot)
@@ -73,7 +73,7 @@ class BoardController final : public Controller {
     hooks.order = [&](std::uint32_t tick) { return robot_.order(tick); };
     hooks.stop = [&] { return robot_.over() || !failure_.empty(); };
     hooks.record = [&](const TickRecord& tick) {
-      if (hooks.stop()) return;  // the board finishes its current tick
+      if (hooks.stop()) return;  // the board finishes its tick
       compare(tick);
       flow.pause();
     };
@@ -84,7 +84,7 @@ class BoardController final : public Controller {
                              {.actions = robot_.plan().actions}, robot_.plan().firmware_folder);
       if (failure_.empty() && ended.exit_code != 0) failure_ = board + ": " + ended.reason;
     } catch (const board::BoardError&) {
-      if (!robot_.interrupted()) throw;  // Ctrl-C in a terminal also ends the emulator
+      if (!robot_.interrupted()) throw;  // Ctrl-C also ends the emulator
     }
   }
 
@@ -104,7 +104,7 @@ class BoardController final : public Controller {
   }
 
   Robot& robot_;
-  State state_;  ///< of the core that runs here
+  State state_;  ///< the copy here
   std::string failure_;
   Flow flow_;
 };

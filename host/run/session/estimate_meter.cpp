@@ -21,7 +21,7 @@ Vec2 along(double heading_rad, const Vec2& v) {
   return Eigen::Rotation2Dd(-heading_rad) * v;
 }
 
-/// Mean of both sides, or the supporting side. A user's controller may output any `stance`.
+/// Both sides' mean, or the supporting side; a user's controller may output any `stance`.
 template <class Of>
 Vec2 under_load(std::uint8_t stance, Of&& of) {
   if (stance >= gait::kBoth) return (of(0) + of(1)).template head<2>() / 2;

@@ -5,34 +5,34 @@
 #include "common/control/state.hpp"
 #include "host/twin/sim/truth.hpp"
 
-/// Compares the controller's estimates of its body with the twin's truth.
+/// Controller's estimates against the twin's truth.
 namespace verp::session {
 
-/// Over the ticks of the gait, up to a fall: root mean squares and largest errors.
+/// Over the gait up to a fall: root mean squares and maxima.
 struct EstimateErrors {
-  std::uint64_t ticks = 0;                     ///< compared ticks; 0: no result
-  double attitude_rms_deg = 0;                 ///< angle between the true and the estimated "up"
-  double roll_rms_deg = 0, pitch_rms_deg = 0;  ///< components about the body's axes
+  std::uint64_t ticks = 0;                     ///< 0: no result
+  double attitude_rms_deg = 0;                 ///< between true and estimated "up"
+  double roll_rms_deg = 0, pitch_rms_deg = 0;  ///< about the body's axes
   double attitude_worst_deg = 0;
-  /// Norm over three axes, in the frame of the body's heading; odometry covers the heading's error.
+  /// Over three axes in the body's heading; odometry covers the heading's error.
   double com_velocity_rms_m_s = 0;
   double com_velocity_worst_m_s = 0;
-  double dcm_rms_m = 0;  ///< from the supporting sole, along the body's heading
-  /// Error of the estimated end pose relative to the pose at the gait's start.
+  double dcm_rms_m = 0;  ///< along the body's heading
+  /// End pose relative to the gait's start.
   double odometry_off_m = 0;
   double odometry_turned_off_deg = 0;
-  double way_m = 0;  ///< the body's way, from cycle to cycle, in that time
+  double way_m = 0;  ///< from cycle to cycle
 };
 
 class EstimateMeter {
  public:
-  /// Once per control tick. `up_world`: unit vector against gravity.
+  /// Call once per control tick. `up_world`: unit vector against gravity.
   void tick(const State& state, const Outputs& outputs, const sim::Truth& truth,
             const sim::Vec3& up_world);
   EstimateErrors result() const;
 
  private:
-  struct Place {  ///< of the body, in a separate frame
+  struct Place {  ///< of the body
     sim::Vec2 at_m{0, 0};
     double heading_rad = 0;
   };

@@ -2,18 +2,15 @@
 
 namespace verp::session {
 
-/// Decides whether a robot that lies fell while driven, or lay down because it was released. The
-/// only knowledge of the controller is which servos have torque. A controller may foresee its fall
-/// and cut the torque: that is a fall as well.
+/// Decides whether a lying robot fell or was released. It knows only which servos have torque. A
+/// controller that foresees its fall and cuts the torque has fallen.
 class FallVerdict {
  public:
-  /// A robot that leans further when torque goes off is falling. Half of the twin's limit for
-  /// fallen (1 rad), and below any controller's limit (Tuning's fall_tilt_rad is 0.8); a robot that
-  /// stands, sits or crouches leans less.
+  /// Leaning further when torque goes off is falling. Half of the twin's limit (1 rad), below any
+  /// controller's (fall_tilt_rad is 0.8), and more than a robot that stands, sits or crouches.
   static constexpr double kTipping_rad = 0.5;
 
-  /// Once per tick. `torque`: any servo has torque. `tilt_rad`: between the body's up and the
-  /// world's.
+  /// Call once per tick. `torque`: any servo has torque. `tilt_rad`: from the world's up.
   void see(bool torque, double tilt_rad, bool lies) {
     driven_ = driven_ || torque;
     if (torque) tipping_ = tilt_rad > kTipping_rad;
@@ -24,13 +21,12 @@ class FallVerdict {
   /// The user set it on its feet.
   void set_upright() { tipping_ = lay_down_ = false; }
 
-  /// It got up by itself.
   void forget() { fell_ = lay_down_ = false; }
 
   /// Torque has been on.
   bool driven() const { return driven_; }
   bool fell() const { return fell_; }
-  /// The robot was released before it lay. Later attempts with it are not falls.
+  /// Released before it lay: later attempts are not falls.
   bool lay_down() const { return lay_down_; }
 
  private:

@@ -11,15 +11,13 @@ struct FaultName {
 };
 std::span<const FaultName> all_fault_names();
 
-/// Names of the set fault bits, e.g. "fall, servo silent"; empty if none is set.
+/// "fall, servo silent"; empty without faults.
 std::string fault_names(std::uint32_t faults);
 
-/// Notes for the user that an order or tuning exceeds the legs, so that steps are shortened or
-/// refused.
+/// An order or tuning exceeds the legs: steps are shortened or refused.
 class PlanNotes {
  public:
-  /// One line when the controller begins to shorten or refuse steps; else empty. `faults`:
-  /// Outputs::faults of a tick.
+  /// One line when that begins, else empty.
   std::string news(std::uint32_t faults);
 
  private:

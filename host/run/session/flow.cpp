@@ -22,13 +22,13 @@ namespace verp::session {
 namespace {
 
 #ifdef VERP_ADDRESS_SANITIZER
-constexpr std::size_t kStack_bytes = 1 << 20;  // its shadow is cleared at each switch
+constexpr std::size_t kStack_bytes = 1 << 20;  // cleared at each switch by the sanitizer
 #else
 constexpr std::size_t kStack_bytes = 8 << 20;  // as for a thread
 #endif
 constexpr std::size_t kGuard_bytes = 1 << 16;
 
-// Switches the sanitizer's shadow stack. `keep` null: that stack ends.
+// For the sanitizer. `keep` null: the stack ends.
 void leave_stack([[maybe_unused]] void** keep, [[maybe_unused]] const void* bottom,
                  [[maybe_unused]] std::size_t bytes) {
 #ifdef VERP_ADDRESS_SANITIZER

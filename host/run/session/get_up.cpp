@@ -5,7 +5,7 @@
 namespace verp::session {
 namespace {
 
-constexpr double kDown_s = 60;  // all attempts together; each takes less than 20 s
+constexpr double kDown_s = 60;  // all attempts; each takes less than 20 s
 
 }  // namespace
 

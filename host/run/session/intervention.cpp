@@ -47,7 +47,7 @@ std::vector<std::string_view> words(std::string_view text) {
   return found;
 }
 
-/// Takes the time and its colon from the front of `text`.
+/// Takes the time and its colon.
 double take_time(std::string_view& text, const char* example) {
   constexpr double kDay_s = 86400;
   const std::size_t colon = text.find(':');

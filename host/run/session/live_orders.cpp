@@ -7,7 +7,7 @@
 namespace verp::session {
 namespace {
 
-constexpr std::uint32_t kOrderTicks = 10;  // as in WalkOperator: well inside command_hold_s
+constexpr std::uint32_t kOrderTicks = 10;  // well inside command_hold_s
 
 }  // namespace
 

@@ -6,12 +6,12 @@
 
 namespace verp::session {
 
-/// A robot did not come up. One line: what, where and the remedy.
+/// One line: what, where, remedy.
 class NotUp : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The reason; `where` is the register or object at which it failed.
+/// `where`: register or object of the failure.
 NotUp not_up(const app::BringUpReport& report, const std::string& place, const std::string& where);
 
 }  // namespace verp::session

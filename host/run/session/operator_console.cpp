@@ -21,7 +21,7 @@ app::OperatorOrder OperatorConsole::order(std::uint32_t tick) {
   const bool changed = std::exchange(stopped_, stop) != stop;
   if (changed || (wanted.flags & (kCommandFresh | kParameterWrite)) != 0) {
     std::size_t packets = 0;
-    // Sends the required first order, relax, by itself: no person stands beside a twin.
+    // Sends the required first order, relax: no person stands beside a twin.
     if (!std::exchange(relaxed_, true)) {
       bus::append_write(wire_.asked, app::reg("request"),
                         {static_cast<std::uint8_t>(Request::kRelax)});

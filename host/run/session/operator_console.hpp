@@ -8,9 +8,9 @@
 
 namespace verp::session {
 
-/// Connects the source of a robot's orders with its controller in this process. As on a board, the
-/// controller is device 200 on a wire and orders are register writes, so it rejects what a board
-/// rejects. Implements OperatorLink and Recorder of the loop.
+/// Source of orders for a controller in this process. As on a board, the controller is device 200
+/// and orders are register writes, so it rejects the same. Implements the loop's OperatorLink and
+/// Recorder.
 class OperatorConsole {
  public:
   explicit OperatorConsole(Robot& robot);
@@ -21,7 +21,7 @@ class OperatorConsole {
   void record(const TickRecord& tick, const State& state, const Outputs& outputs);
 
  private:
-  /// The controller's end; the other end is the public buffers.
+  /// The controller's end; the buffers are the other.
   struct Wire {
     std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t) {
       told.insert(told.end(), data, data + size);
@@ -43,8 +43,8 @@ class OperatorConsole {
   Robot& robot_;
   Wire wire_;
   app::OperatorDevice<Wire> device_;
-  bool relaxed_ = false;  ///< sent once; before it, a new controller obeys no order
-  bool stopped_ = false;  ///< the emergency stop is pressed
+  bool relaxed_ = false;  ///< without it a new controller obeys no order
+  bool stopped_ = false;  ///< emergency stop
 };
 
 }  // namespace verp::session

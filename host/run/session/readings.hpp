@@ -8,12 +8,12 @@
 
 namespace verp::session {
 
-/// Records the frames of a robot's force-torque sensors, relative to their links.
+/// Frames of force-torque sensors, relative to their links.
 void place_frames(record::TraceWriter& trace, const model::Entity& entity, const Params& params);
 
-/// Records new readings of force-torque, contact and truth sensors, one channel each. Messages are
-/// at `tick_ns`, which is now_us of the twin's time; their headers hold the time of measurement.
-/// Omits measurements from before the trace.
+/// New readings of force-torque, contact and truth sensors, one channel each. Messages are at
+/// `tick_ns`, which is now_us in the twin; headers hold the measurement's time. Omits those from
+/// before the trace.
 void append(record::TraceWriter& trace, const model::Entity& entity,
             const sim::ProbeReadings& readings, std::uint64_t tick_ns, std::uint64_t now_us);
 

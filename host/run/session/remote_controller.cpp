@@ -10,7 +10,7 @@
 namespace verp::session {
 namespace {
 
-/// Restart of a controller in the twin's time: reset, boot check, greeting.
+/// Reset, boot check, greeting.
 constexpr std::uint32_t kRestart_us = 1'000'000;
 
 }  // namespace
@@ -57,7 +57,7 @@ bool RemoteController::tick() {
 }
 
 void RemoteController::finish() {
-  while (tick()) {  // the controller has not been told to stop
+  while (tick()) {  // no stop was sent
   }
   try {
     conclude();
@@ -95,7 +95,7 @@ bus::SessionHooks RemoteController::hooks() {
           .set_upright = [this] { return set_upright(); }};
 }
 
-// The controller lost its state, so this PC starts its copy again.
+// The controller lost its state: start the copy again.
 void RemoteController::begin_shadow() {
   recorded_ = false;
   shadow_ = make_shadow([this](const TickRecord& tick, const State& state, const Outputs& outputs) {
@@ -117,16 +117,16 @@ void RemoteController::begins() {
   ++resets_;
   say(fmt::format("the controller began anew at {:.2f} s; the servos hold what they were told last",
                   robot_.simulated_s()));
-  // In lockstep no time passes while a controller is away. On a robot it does, and the servos'
-  // watchdogs act on it.
+  // In lockstep no time passes while a controller is away; on a robot it does, and the servos'
+  // watchdogs act.
   robot_.let_pass(kRestart_us);
   if (!shadow_) return;
   begin_shadow();
   robot_.begin_anew();
 }
 
-// The controller waits for the answer to its greeting and serves its operator meanwhile. Both must
-// have the same actions; else this PC would act differently in a fall and report a difference.
+// The greeting's controller serves its operator meanwhile. Without the same actions here, a fall
+// would look like a difference.
 void RemoteController::look_for_actions() {
   if (!orders_) return;
   const int here = robot_.actions().count(), there = orders_->action_count();
@@ -148,7 +148,7 @@ void RemoteController::look_for_actions() {
                   there, here));
 }
 
-// Our own boards ask for lockstep first, and run in real time without it.
+// Our boards ask for lockstep first, then run in real time.
 void RemoteController::refused(const std::string& why) {
   if (options_.pace != Pace::kRealTime) return fail(why);
   if (!std::exchange(declined_, true)) say("the controller offers lockstep: real time, it is told");
@@ -166,8 +166,7 @@ bool RemoteController::tick_ends() {
   return failure_.empty() && !robot_.over();
 }
 
-// The controller waits for the answer that begins its tick and serves its operator meanwhile, so it
-// applies what is written now in this tick.
+// A controller that waits for its tick serves its operator: a write now acts in this tick.
 void RemoteController::tick_begins(std::uint32_t tick) {
   if (!shadow_) return;
   const app::OperatorOrder order = robot_.order(tick);
@@ -286,7 +285,7 @@ std::unique_ptr<RemoteController> make_served(Robot& robot, const ServeOptions& 
   auto served = robot.plan().params.bus_protocol == BusProtocol::kCia402
                     ? make_served_on_can(robot, options)
                     : make_served_on_serial(robot, options);
-  // With several robots, served one after the other, each reports at once.
+  // Several robots are served in turn, and report at once.
   if (options.operator_link.empty()) served->introduce();
   return served;
 }

@@ -17,8 +17,8 @@
 namespace verp::session {
 namespace {
 
-constexpr double kAfterFall_s = 0.5;  // the report shows the fall
-constexpr double kAfterStop_s = 0.3;  // the report shows the stand
+constexpr double kAfterFall_s = 0.5;  // shows the fall
+constexpr double kAfterStop_s = 0.3;  // shows the stand
 
 Hooks with_own(Hooks hooks, const WalkPlan& plan) {
   if (!hooks.decide && plan.own) hooks.decide = plan.own();
@@ -152,7 +152,7 @@ void Robot::see() {
     hooks_.ticked({seen, gone_s(), &tick_, &state_, &outputs_, &world_, twin_.owner()});
 }
 
-/// Clears the twin's fall verdict once a robot has got up, so that it walks on.
+/// A robot that got up walks on.
 void Robot::look_after_falls() {
   tell(story_.observe(state_, outputs_));
   result_.falls = story_.falls();
@@ -169,7 +169,7 @@ void Robot::tell(const std::string& news) {
 }
 
 void Robot::intervene_in_time() {
-  constexpr double kRounding_s = 1e-9;  // of a sum over all ticks
+  constexpr double kRounding_s = 1e-9;  // of a long sum
   while (!pending_.empty() && pending_.front().at_s <= gone_s() + kRounding_s) {
     intervene(pending_.front());
     pending_.pop_front();
@@ -218,7 +218,7 @@ void Robot::watch() {
   ++result_.ticks;
   const double up = std::clamp(seen.truth.body_world.linear()(2, 2), -1.0, 1.0);
   verdict_.see(torque, std::acos(up), twin_.fallen());
-  const bool may_get_up = plan_.get_ups > 0;  // then it fell only if it stays down
+  const bool may_get_up = plan_.get_ups > 0;  // then only staying down is a fall
   if (may_get_up && twin_.forget_fall()) verdict_.forget();
   if (twin_.fallen() && !std::exchange(lies_, true) && may_get_up) {
     const Eigen::Vector3d sky = seen.truth.body_world.linear().row(2);
@@ -324,7 +324,7 @@ void Robot::tell_exposures() {
 }
 
 std::string Robot::failure_of_walk() const {
-  constexpr std::uint32_t kStopping = 0xFFFF;  // the lower half of Fault stops the robot
+  constexpr std::uint32_t kStopping = 0xFFFF;  // faults that stop the robot
   if (watched_) return verdict_.fell() ? "fell" : "";
   if (result_.can && result_.can->overruns > 0) {
     return fmt::format("the controller lost {} CAN frames that it had no room for",
@@ -339,7 +339,7 @@ std::string Robot::failure_of_walk() const {
   if (!faults.empty()) return "stopped by fault: " + faults;
   if (hooks_.order) return "";
   const std::string failed = walker_->failed();
-  // A controller's reset cuts the walk in two, with two starts and stops: its way is not judged.
+  // A restart makes two walks: the way is not judged.
   if (!failed.empty() || walked_s_ > 0) return failed;
   return shortfall(plan_.asked.value_or(plan_.velocity), result_.metrics, plan_.params.tuning.gait);
 }

@@ -17,8 +17,8 @@
 
 namespace verp::session {
 
-/// One robot of a session: its twin, bus, operator, meter and trace, without its controller. Serves
-/// that controller as an OperatorLink and a Recorder.
+/// A session's robot without its controller: twin, bus, operator, meter and trace. It is the
+/// controller's OperatorLink and Recorder.
 class Robot {
  public:
   using Interrupted = std::function<bool()>;
@@ -27,59 +27,53 @@ class Robot {
   Robot(sim::World& world, const WalkPlan& plan, Hooks hooks, Interrupted interrupted);
 
   const WalkPlan& plan() const { return plan_; }
-  /// The plan's actions, which orders select by number.
+  /// Orders select actions by number.
   const action::Library& actions() const { return actions_; }
   std::string name() const { return plan_.name.empty() ? plan_.params.name : plan_.name; }
   sim::TwinRobot& twin() { return twin_; }
-  /// The bus of the plan's Params; the other bus does not exist.
+  /// Only the bus of the plan's Params exists.
   bus::VirtualBus& bus() { return *bus_; }
   can::VirtualCan& can() { return *can_; }
 
-  /// The bus has begun to tick.
   bool ticking() const { return can_ ? can_->ticking() : bus_->ticking(); }
-  /// Advances time; discards what the bus receives meanwhile.
+  /// Discards what the bus receives.
   void let_pass(std::uint32_t time_us);
 
-  /// The operator's order for this tick.
   app::OperatorOrder order(std::uint32_t tick);
-  /// Computes a tick of a controller in this process.
+  /// Computes a tick in this process.
   void decide(State& state, const Inputs& inputs, Outputs& outputs);
-  /// The controller restarted. The operator orders the robot to stand up and walk for the remaining
-  /// time. The trace ends here, because its ticks must follow each other.
+  /// The controller restarted: stand up and walk for the remaining time. The trace ends, because
+  /// its ticks must follow each other.
   void begin_anew();
-  /// The walk has ended or failed, or the user interrupts.
+  /// The walk ended, failed or was interrupted.
   bool over() const;
   bool interrupted() const { return interrupted_ && interrupted_(); }
-  /// Ends the run for a reason outside the walk. The result keeps the first reason.
+  /// For a reason outside the walk. The first reason counts.
   void fail(const std::string& why);
 
-  /// take() stores a tick of the controller, local or remote. see() passes it to the meter, the
-  /// trace and the hooks, once.
+  /// take() stores a controller's tick. see() passes it to meter, trace and hooks, once.
   void take(const TickRecord& tick, const State& state, const Outputs& outputs);
   void see();
   void record(const TickRecord& tick, const State& state, const Outputs& outputs) {
     take(tick, state, outputs);
     see();
   }
-  /// One tick of a controller that reports nothing: scores only the twin's motion. The run lasts
-  /// plan.walk_s from the first torque on; a scan for servos does not start it. A fall ends it
-  /// early unless plan.get_ups allows recovery. A robot without torque may lie down (FallVerdict),
-  /// and the run goes on.
+  /// One tick without reports: scores only the twin's motion. The run lasts plan.walk_s from the
+  /// first torque on; a scan for servos does not start it. A fall ends it early unless plan.get_ups
+  /// allows recovery. Lying down without torque is no fall (FallVerdict).
   void watch();
 
-  /// Sets the source of the world's quantities; call it before the first tick.
+  /// Call before the first tick.
   void set_quantities(std::function<sim::Quantities&()> quantities) {
     quantities_ = std::move(quantities);
   }
-  /// Applies and records an intervention now, after the last tick. Throws std::invalid_argument,
-  /// without effect, if the name is unknown or the value is out of range.
+  /// After the last tick; recorded. Throws std::invalid_argument, without effect, for an unknown
+  /// name or a value out of range.
   void intervene(const Intervention& intervention);
 
-  /// The user sets the robot on its feet (sim::TwinRobot); the result keeps the time. False:
-  /// impossible while a servo has torque.
+  /// By the user (sim::TwinRobot); the result keeps the time. False: a servo has torque.
   bool set_upright();
 
-  /// Number of the last tick of its controller.
   std::uint32_t tick() const { return tick_.inputs.tick; }
   double simulated_s() const;
   /// Any servo has torque.
@@ -90,7 +84,7 @@ class Robot {
   /// Verdict of watch().
   const FallVerdict& verdict() const { return verdict_; }
 
-  /// Call once, at the end.
+  /// Call once.
   WalkResult result(double wall_s);
 
  private:
@@ -116,24 +110,24 @@ class Robot {
   std::optional<bus::VirtualBus> bus_;
   std::optional<can::VirtualCan> can_;
   std::optional<WalkOperator> walker_;
-  double walked_s_ = 0;  ///< by controllers before a restart
+  double walked_s_ = 0;  ///< before a restart
   sim::WalkMeter meter_;
   EstimateMeter estimate_meter_;
   WalkResult result_;
   std::function<sim::Quantities&()> quantities_;
   std::deque<Intervention> pending_;  ///< in order of time
-  TickRecord tick_;                   ///< last taken, with state_ and outputs_
+  TickRecord tick_;                   ///< with state_ and outputs_
   State state_;
   Outputs outputs_;
   FallStory story_;
-  bool taken_ = false;                                    ///< take() was called, see() was not
+  bool taken_ = false;                                    ///< but not seen
   std::uint64_t bits_before_ = 0, bare_bits_before_ = 0;  ///< at the first tick
   FallVerdict verdict_;
-  double begun_s_ = 0;  ///< simulated time of the first tick or first torque
+  double begun_s_ = 0;  ///< first tick or torque
   double after_s_ = 0;
   bool over_ = false;
   bool watched_ = false;
-  bool lies_ = false;  ///< watch() has reported that it lies
+  bool lies_ = false;  ///< reported by watch()
 };
 
 }  // namespace verp::session

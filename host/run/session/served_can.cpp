@@ -17,7 +17,6 @@
 namespace verp::session {
 namespace {
 
-/// CiA 402 drives on a SocketCAN interface.
 class ServedOnCan final : public RemoteController {
  public:
   ServedOnCan(Robot& robot, const ServeOptions& options)
@@ -50,7 +49,7 @@ class ServedOnCan final : public RemoteController {
 
  private:
   static constexpr std::uint32_t kGoodbye_us = 200'000;
-  /// An SDO client waits for 0.3 to 1 s; a controller that greets sends nothing before.
+  /// An SDO client waits for 0.3 to 1 s.
   static constexpr std::uint64_t kListen_ns = 150'000'000;
   static constexpr std::uint64_t kMostSkipped_us = 1'000'000;
 
@@ -75,7 +74,7 @@ class ServedOnCan final : public RemoteController {
             }};
   }
 
-  // Another watcher would see the same ticks, and each would take the other's answers for its own.
+  // Two watchers would take each other's answers.
   void watch_live() {
     try {
       watcher_.emplace(port_.interface().name, "watcher", link::CanClaim::kWatcher);
@@ -97,13 +96,13 @@ class ServedOnCan final : public RemoteController {
     if (came) hear(frame);
     if (may_run_in_real_time()) let_time_go_on(came);
     for (const CanFrame& each : answer_) {
-      if (!port_.send(each)) break;  // no receiver; in lockstep the controller asks again
+      if (!port_.send(each)) break;  // no receiver; lockstep asks again
       listen(each);
     }
     ask();
   }
 
-  // In real time, takes all waiting frames, up to the queue length of a CAN controller.
+  // All waiting frames, up to a CAN controller's queue.
   void hear(CanFrame& frame) {
     heard_.clear();
     bool more = true;
@@ -127,7 +126,7 @@ class ServedOnCan final : public RemoteController {
          " already, beside the twin's; unplug it, or serve the twin on another interface");
   }
 
-  // Without the operator port, only the reported ticks show what the controller does.
+  // Without the operator port, only reported ticks show the controller.
   void listen(const CanFrame& frame) {
     if (live_) live_->take(frame, port_.now_us());
   }
@@ -144,7 +143,7 @@ class ServedOnCan final : public RemoteController {
     }
   }
 
-  // The port's clock stands at the last frame, and others may have come since.
+  // The port's clock stands at the last frame.
   void let_time_go_on(bool came) {
     if (!realtime_.begun() && !begin_with_what_was_heard()) return;
     if (!came) realtime_.turn(clock_us(), answer_);
@@ -172,7 +171,7 @@ class ServedOnCan final : public RemoteController {
     live_.reset();
     watcher_.reset();
     begin_real_time();
-    // Uses this clock: the port's stands at the frame, and locking memory took time.
+    // The port's clock stands at the frame.
     const std::uint64_t now_us = clock_us();
     heard_.clear();
     for (const CanFrame& each : unannounced_) heard_.push_back({each, now_us});
@@ -181,11 +180,11 @@ class ServedOnCan final : public RemoteController {
     return true;
   }
 
-  /// The time now, on the port's clock, which itself stands at the last frame.
+  /// On the port's clock.
   std::uint64_t clock_us() const { return link::monotonic_ns() / 1000 - skew_us_; }
 
   void conclude() override {
-    // The stop answer may get lost, so a controller that asks again gets it again.
+    // The stop answer may get lost: repeat it on request.
     const std::uint64_t end_us = port_.now_us() + (server_.stopped() ? kGoodbye_us : 0);
     while (port_.now_us() < end_us && !robot_.interrupted()) turn();
     if (live_ && (live_->suspects() || live_->unsettled() > 0)) {
@@ -200,7 +199,7 @@ class ServedOnCan final : public RemoteController {
           "controller announce lockstep",
           false);
     }
-    // The link repeated the lost frames, so the bits are right; but this PC is too slow.
+    // The bits are right, because lost frames were repeated; but this PC is too slow.
     const std::uint32_t overruns = port_.errors().overruns;
     if (overruns > 0) {
       fail(std::to_string(overruns) + " frames found no room at this PC's end of " + place_ +
@@ -210,14 +209,14 @@ class ServedOnCan final : public RemoteController {
 
   link::CanPort port_;
   link::CanClaim claim_;
-  can::ShadowLoop* shadow_ = nullptr;  ///< owned by the base class
+  can::ShadowLoop* shadow_ = nullptr;  ///< the base owns it
   can::LockstepServer server_;
   can::RealtimeServer realtime_;
   can::OtherNodes others_;
   std::optional<link::CanClaim> watcher_;
   std::optional<shadow::LiveCheck> live_;
   std::vector<CanFrame> answer_;
-  std::vector<CanFrame> unannounced_;  ///< received before the pace was known
+  std::vector<CanFrame> unannounced_;  ///< before the pace was known
   std::vector<can::RealtimeServer::ReceivedFrame> heard_;
   std::uint64_t skew_us_ = link::monotonic_ns() / 1000 - port_.now_us();
   std::uint32_t losses_ = 0;

@@ -12,7 +12,6 @@
 namespace verp::session {
 namespace {
 
-/// Dynamixel servos on a byte link.
 class ServedOnSerial final : public RemoteController {
  public:
   ServedOnSerial(Robot& robot, const ServeOptions& options)
@@ -38,7 +37,7 @@ class ServedOnSerial final : public RemoteController {
 
  private:
   static constexpr std::uint32_t kWrite_us = 100'000;
-  static constexpr std::uint64_t kLossRest_ns = 50'000'000;  // at least, between two losses
+  static constexpr std::uint64_t kLossRest_ns = 50'000'000;  // between two losses
 
   bool stopped() const override { return lockstep_.stopped(); }
   bool greeted() const override { return lockstep_.greeted(); }
@@ -81,15 +80,14 @@ class ServedOnSerial final : public RemoteController {
     if (may_run_in_real_time()) let_time_go_on({piece, count});
     for (std::size_t sent = 0; sent < answer_.size();) {
       const std::size_t more = link_.write(answer_.data() + sent, answer_.size() - sent, kWrite_us);
-      if (more == 0) break;  // no reader; in lockstep the controller asks again
+      if (more == 0) break;  // no reader; lockstep asks again
       sent += more;
     }
     watch_link(link_.connected(), link_.errors().losses);
     rest_after_loss();
   }
 
-  // Limits the rate for a client that hangs up repeatedly. The first loss after a while costs no
-  // time.
+  // For a client that hangs up repeatedly; the first loss costs no time.
   void rest_after_loss() {
     if (link_.errors().losses == losses_) return;
     losses_ = link_.errors().losses;
@@ -101,9 +99,8 @@ class ServedOnSerial final : public RemoteController {
     rested_ns_ = link::monotonic_ns();
   }
 
-  // Answers every request at once. While lockstep is still possible, the robot does not move: a
-  // controller that looks around before it greets finds the twin unchanged. Clock packets take time
-  // on the wire as others do.
+  // While lockstep is possible the robot does not move: a controller that looks around first finds
+  // the twin unchanged. Clock packets take wire time.
   void let_time_go_on(std::span<const std::uint8_t> heard) {
     lockstep_.unannounced();
     bus::VirtualBus& bus = robot_.bus();
@@ -136,13 +133,13 @@ class ServedOnSerial final : public RemoteController {
   }
 
   link::Link link_;
-  bus::ShadowLoop* shadow_ = nullptr;  ///< owned by the base class
+  bus::ShadowLoop* shadow_ = nullptr;  ///< the base owns it
   bus::LockstepServer lockstep_;
   bus::RealtimeServer realtime_;
   std::vector<std::uint8_t> answer_;
   bool told_ = false, lost_told_ = false, skips_told_ = false;
-  std::uint32_t losses_ = 0;     ///< of the link, as last seen
-  std::uint64_t rested_ns_ = 0;  ///< end of the last rest_after_loss()
+  std::uint32_t losses_ = 0;     ///< last seen
+  std::uint64_t rested_ns_ = 0;  ///< last rest_after_loss()
 };
 
 }  // namespace

@@ -11,8 +11,8 @@
 
 namespace verp::session {
 
-/// A robot and its controller in the world's time. A single robot's bus advances the world. With
-/// several robots, each controller is a Flow that pauses where its bus requests a time.
+/// A robot and controller in the world's time. A single robot's bus advances the world. With
+/// several, each controller is a Flow that pauses where its bus requests a time.
 struct Session::Seat final : sim::TimeSource {
   Seat(Session& session, const WalkPlan& plan, Hooks hooks, const MakeController& make)
       : world(session.world_),
@@ -22,7 +22,7 @@ struct Session::Seat final : sim::TimeSource {
     robot.twin().set_time(*this);
   }
 
-  /// Calls a user's controller always on the stack of tick()'s caller.
+  /// On the stack of tick()'s caller.
   Hooks with_decide_outside(Hooks hooks) {
     if (!hooks.decide) return hooks;
     hooks.decide = [this, decide = std::move(hooks.decide)](const Params& params, State& state,
@@ -52,9 +52,9 @@ struct Session::Seat final : sim::TimeSource {
   Robot robot;
   std::unique_ptr<Controller> controller;
   const sim::Vec3 start_m;
-  std::unique_ptr<Flow> flow;  ///< null: single robot. Destroyed before the controller
+  std::unique_ptr<Flow> flow;  ///< null: single robot; destroyed before the controller
   std::uint64_t asked_us = 0;
-  bool ticked = false;    ///< next_tick() has not returned it yet
+  bool ticked = false;    ///< next_tick() has not returned it
   bool finished = false;  ///< its run is over
 };
 
@@ -68,7 +68,7 @@ double ground_m(const sim::World& world, const sim::Vec3& start_m) {
   return world.height_m(start_m.x(), start_m.y(), kFootprint_m);
 }
 
-/// Throws NoRoom: the contact solver takes minutes for a tick of robots inside each other.
+/// A tick of robots inside each other takes minutes.
 void Session::need_room(const sim::Vec3& start_m) const {
   constexpr double kLeast_m = 0.1;
   for (std::size_t i = 0; i < seats_.size(); ++i) {
@@ -122,7 +122,7 @@ bool Session::over() const {
   return true;
 }
 
-/// The robot that waits for the earliest time; of equals, the first added.
+/// Earliest time; of equals, the first added.
 Session::Seat* Session::next() {
   Seat* first = nullptr;
   for (const auto& seat : seats_) {
@@ -132,10 +132,9 @@ Session::Seat* Session::next() {
   return first;
 }
 
-/// Runs this robot until its controller has done a tick or its bus requests a time. False: it has
-/// finished.
+/// Until its controller did a tick or its bus requests a time. False: it has finished.
 bool Session::go_on(Seat& seat) {
-  seat.finished = true;  // in case the controller throws
+  seat.finished = true;  // if the controller throws
   if (seat.flow) {
     world_.advance_to(seat.asked_us);
     seat.finished = !seat.flow->resume();

@@ -16,16 +16,16 @@ namespace verp::session {
 
 struct Options {
   sim::WorldOptions world = {};
-  std::function<bool()> interrupted;  ///< polled at each tick; true ends the run
+  std::function<bool()> interrupted;  ///< at each tick; true ends the run
 };
 
-/// Two robots would start in the same place.
+/// Two robots start in one place.
 class NoRoom : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
 };
 
-/// A world and the robots in it, tick by tick:
+/// A world and its robots, tick by tick:
 ///
 ///     Session session;
 ///     session.add(plan);
@@ -33,39 +33,36 @@ class NoRoom : public std::invalid_argument {
 ///     }
 ///     const WalkResult result = session.result(0);
 ///
-/// One simulation step advances all robots. Each robot's bus requests a time and waits until the
-/// world reaches it. The world advances when every other bus has requested a time at least as late,
-/// so no robot sees or acts in another robot's past. Deterministic: equal plans in equal order give
-/// equal bits, whatever the timing of the calls. The run pauses while the caller does not call
-/// tick(). Errors are exceptions with text; they end the run of the robot that caused them.
+/// One simulation step advances all robots. Each robot's bus waits until the world reaches its
+/// requested time. The world advances when all buses have requested a time at least as late, so no
+/// robot acts in another's past. Deterministic: equal plans in equal order give equal bits,
+/// whatever the calls' timing. Exceptions end the run of the robot that caused them.
 class Session {
  public:
   explicit Session(Options options = {});
   ~Session();
 
-  /// Adds a robot; only before the first tick. Throws NoRoom if another robot starts less than
-  /// 0.1 m away, and what TwinRobot's constructor and `make` throw.
+  /// Before the first tick. Throws NoRoom within 0.1 m of another start, and what TwinRobot's
+  /// constructor and `make` throw.
   Robot& add(const WalkPlan& plan, Hooks hooks = {}, const MakeController& make = make_controller);
 
-  /// Advances until one robot has done a control tick, or its controller has kept the session
-  /// waiting for some ms. Returns that robot; null: the run is over.
+  /// Until one robot did a control tick, or its controller kept the session waiting for some ms.
+  /// Null: the run is over.
   Robot* tick();
-  /// Why the physics diverged, which ends the run of every robot; empty: they did not diverge.
+  /// It ends every robot's run; empty: no.
   const std::string& diverged() const { return diverged_; }
-  /// All robots have finished. An interrupt finishes them, too.
+  /// All robots have finished, or were interrupted.
   bool over() const;
 
   std::uint64_t now_us() const { return world_.now_us(); }
-  /// Quantities of the world and of all robots; call it after the last add(). Built on the first
-  /// call, so that a run without interventions does not pay for it. Set a quantity through
-  /// Robot::intervene() if the run must be repeatable.
+  /// Call after the last add(). A repeatable run sets quantities through Robot::intervene().
   sim::Quantities& quantities();
-  /// Objects of the world's file; null: the world has no file.
+  /// Null: no world file.
   const sim::Scenery* scenery() { return world_.scenery(); }
   std::size_t size() const { return seats_.size(); }
   Robot& robot(std::size_t index);
   std::size_t index_of(const Robot& robot) const;
-  /// Result of a robot; call it once, at the end.
+  /// Call once, at the end.
   WalkResult result(std::size_t index);
 
  private:
@@ -85,30 +82,28 @@ class Session {
   bool begun_ = false;
 };
 
-/// Height of the ground on which a robot starts.
+/// Ground height at a robot's start.
 double ground_m(const sim::World& world, const sim::Vec3& start_m);
 
-/// Observes a run from its beginning to its end, without changing a bit of it.
+/// It changes no bit of the run.
 class Observer {
  public:
   virtual ~Observer() = default;
-  /// A robot is about to join; the observer may set hooks.
+  /// A robot joins; the observer may set hooks.
   virtual void join(std::size_t, const WalkPlan&, Hooks&) {}
-  /// All robots have joined, before the first tick.
+  /// Before the first tick.
   virtual void begin(Session&) {}
-  /// The robot with this index has done a tick, or its controller keeps the world waiting.
+  /// Or its controller keeps the world waiting.
   virtual void tick(std::size_t, Robot&) {}
   /// The run is over.
   virtual void end(Session&) {}
 };
 
-/// Runs a session from its first tick to its last. Robot i follows plan i, and result i belongs to
-/// it. If the physics diverge, every result is a failure that says so.
+/// Robot i follows plan i and gives result i. If the physics diverge, all results say so.
 std::vector<WalkResult> run(Session& session, const std::vector<WalkPlan>& plans,
                             const std::vector<Observer*>& observers,
                             const MakeController& make = make_controller);
 
-/// Runs one walk of one robot.
 WalkResult walk(const WalkPlan& plan, Hooks hooks = {}, Options options = {});
 
 }  // namespace verp::session

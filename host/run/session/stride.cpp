@@ -10,11 +10,9 @@
 namespace verp::session {
 namespace {
 
-// Within five seconds a walk reaches its velocity or the planner has shortened it; robots fall
-// before.
+// Within five seconds the planner has shortened a walk, or robots fall.
 constexpr double kStand_s = 1.5, kWalk_s = 5;
 
-/// The planned legs, tick by tick.
 class Plan {
  public:
   Plan(const Params& params, const Command& velocity) : params_(params) {

@@ -4,27 +4,25 @@
 #include "common/io/io.hpp"
 #include "common/model/params.hpp"
 
-/// Finds the strides that the legs' servos can follow, by planning the walk without a robot. The
-/// planner knows the legs' reach and keeps the ZMP in the sole, but ignores servo speed. Beyond
-/// that speed, joints fall behind their goals until the robot falls.
+/// Strides that the servos can follow, planned without a robot. The planner knows reach and ZMP but
+/// ignores servo speed. Beyond that speed, joints lag until the robot falls.
 namespace verp::session {
 
-/// The fastest leg joint of a steady walk at this velocity, as a share of its speed limit.
+/// In a steady walk, as a share of its speed limit.
 struct Fastest {
   double share = 0;
   std::string joint;
 };
 Fastest fastest_joint(const Params& params, const Command& velocity);
 
-/// Above 1, because a joint that lags briefly catches up. Measured: generic21, steps of 6 to 15 cm
-/// in cycles of 0.30 to 0.45 s, seed 1: walks were good up to 1.28, and all fell from 1.34 on.
+/// Above 1: a joint that lags briefly catches up. Measured: generic21, steps of 6 to 15 cm in
+/// cycles of 0.30 to 0.45 s, seed 1: walks were good up to 1.28, and all fell from 1.34 on.
 inline constexpr double kMostSpeedShare = 1.25;
 
-/// An order for the longest steps that the tuning admits, straight ahead.
+/// Longest straight steps of the tuning.
 Command longest_order(const Params& params);
 
-/// `velocity`, reduced to what the servos can follow; `remark` reports a reduction, else it is
-/// empty.
+/// `velocity` for the servos; `remark`: a reduction, or empty.
 struct FeasibleVelocity {
   Command velocity;
   std::string remark;

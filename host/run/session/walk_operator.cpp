@@ -7,15 +7,15 @@
 namespace verp::session {
 namespace {
 
-constexpr double kSettle_s = 0.5;    // quiet standing before the walk
-constexpr double kStandUp_s = 15.0;  // bring-up pose, rise and gyro calibration take a few seconds
-constexpr double kLearns_s = 2.0;    // after this, a core has begun to learn its gyro's bias
-constexpr double kPatience_s = 8.0;  // after this, the robot trembles: the bias will not improve
-constexpr double kIdle_s = 1.0;      // a gait that pauses this long by itself has given up
-constexpr double kOverrun_s = 5.0;   // a gait that has not ended by then never will
-constexpr std::uint32_t kFrameTicks = 10;  // lowest rate of the operator's frames
-constexpr float kSomeError_rad = 1e-3F;    // a robot is never exactly on its heading
-constexpr int kMostSteps = 1000;           // any stride has shrunk to nothing by then
+constexpr double kSettle_s = 0.5;          // stands quietly before the walk
+constexpr double kStandUp_s = 15.0;        // pose, rise and gyro calibration take seconds
+constexpr double kLearns_s = 2.0;          // a core begins to learn its gyro's bias
+constexpr double kPatience_s = 8.0;        // a trembling robot's bias will not improve
+constexpr double kIdle_s = 1.0;            // then a gait has given up
+constexpr double kOverrun_s = 5.0;         // then a gait never ends
+constexpr std::uint32_t kFrameTicks = 10;  // lowest frame rate
+constexpr float kSomeError_rad = 1e-3F;    // a heading is never exact
+constexpr int kMostSteps = 1000;           // strides have shrunk to nothing
 
 }  // namespace
 
@@ -30,7 +30,7 @@ WalkOperator::WalkOperator(const Params& params, const Command& velocity, double
   command_.request = get_ups > 0 ? Request::kGetUp : Request::kStand;
 }
 
-/// True while the robot is down and must get no other order. Sends a new order for each attempt.
+/// True while the robot is down and gets no other order. Each attempt is a new order.
 bool WalkOperator::look_after_fall(safety::Mode mode) {
   switch (get_up_.observe(mode, period_s_)) {
     case GetUp::Phase::kUp:
@@ -51,8 +51,8 @@ bool WalkOperator::look_after_fall(safety::Mode mode) {
   return changed_ = true;
 }
 
-/// How long the gait continues if the stop is ordered now, or after one more step. Plans the rest
-/// as the gait will: queued steps, shrinking strides, the step that closes the feet, the final one.
+/// Remaining gait if the stop is ordered now, or after one more step. Planned as the gait will:
+/// queued steps, shrinking strides, closing step, final step.
 double WalkOperator::lead_s(const State& state, bool one_more) const {
   const GaitTuning& tuning = state.tuning.gait;
   const gait::GaitState& gait = state.gait;
@@ -62,7 +62,7 @@ double WalkOperator::lead_s(const State& state, bool one_more) const {
   wanted.vy_m_s = 1e-4F * static_cast<float>(velocity_.vy_tenth_mm_s);
   wanted.wz_rad_s = 1e-3F * static_cast<float>(velocity_.wz_mrad_s);
   wanted.heading_error_rad = kSomeError_rad;
-  // Outputs lag the gait's clock by look_ahead_s; the gait is not seen before.
+  // Outputs lag the gait's clock by look_ahead_s.
   std::int32_t rest_us =
       -std::max(gait.clock_us, static_cast<std::int32_t>(1e6F * tuning.look_ahead_s));
   for (int i = 0; i < gait.queued; ++i) rest_us += gait.queue[i].duration_us();
@@ -76,7 +76,7 @@ double WalkOperator::lead_s(const State& state, bool one_more) const {
   return 1e-6 * rest_us;
 }
 
-/// Orders the stop before the step that would exceed walk_s.
+/// Before the step that would exceed walk_s.
 void WalkOperator::stop_in_time(const State& state) {
   if (state.gait.queued == 0 || state.gait.queue[state.gait.queued - 1].ends_walk()) return;
   if (walked_s_ + lead_s(state, true) <= walk_s_) {
@@ -104,12 +104,12 @@ app::OperatorOrder WalkOperator::order(std::uint32_t tick) {
 void WalkOperator::observe(const State& state, const Outputs& outputs) {
   if (done_ || look_after_fall(static_cast<safety::Mode>(outputs.mode))) return;
   const bool standing = outputs.mode == static_cast<std::uint8_t>(safety::Mode::kStanding);
-  // It fell after the stop was ordered: the walk is over.
+  // It fell while stopping: the walk is over.
   if (stopping_ && !gait_seen_ && standing) {
     done_ = true;
     return;
   }
-  // Steps after a push before the walk order do not count as the walk.
+  // Steps after a push do not count as the walk.
   if (!gait_seen_ && command_.request != Request::kWalk && stood_s_ < kSettle_s) {
     wait_for_stand(state, standing);
   } else if (stands_) {
@@ -119,9 +119,8 @@ void WalkOperator::observe(const State& state, const Outputs& outputs) {
   }
 }
 
-/// A robot that stands must know its gyro bias before it is pushed. A robot that walks waits two
-/// more seconds, which halve its heading error for the whole way. A user's controller may never
-/// learn it.
+/// A robot must know its gyro bias before a push. Before a walk, two more seconds halve its heading
+/// error. A user's controller may never learn it.
 bool WalkOperator::knows_gyro(float still_s) const {
   if (stands_) return still_s >= balance::kCalibrated_s;
   const bool learns = still_s > 0 || standing_s_ < kLearns_s;

@@ -10,28 +10,24 @@
 
 namespace verp::session {
 
-/// The operator during `verp walk`: orders the robot to stand and then to walk. It orders the stop
-/// so that the gait ends at walk_s or in the last step before. It sees only what the controller
-/// reports and plans, never the twin's truth.
+/// Operator of `verp walk`: stand, then walk. It stops the gait at walk_s or in the last step
+/// before. It sees only the controller's reports and plans.
 class WalkOperator {
  public:
-  /// `velocity` holds vx, vy, wz of the walk; its other members are ignored. `get_ups`: attempts in
-  /// a row to get up; the robot then walks on. `stands`: the robot stands for that time and never
-  /// walks.
+  /// `velocity`: only vx, vy, wz. `get_ups`: attempts in a row; the robot then walks on. `stands`:
+  /// stands for that time.
   WalkOperator(const Params& params, const Command& velocity, double walk_s, int get_ups = 0,
                bool stands = false);
 
   app::OperatorOrder order(std::uint32_t tick);
-  /// Observes the outputs and plans of the last tick.
   void observe(const State& state, const Outputs& outputs);
 
-  /// The gait is over, or will never start: see failed().
+  /// The gait is over or never starts: failed().
   bool done() const { return done_; }
-  /// Empty unless the robot would not stand up or stop; faults and falls are in Outputs.
+  /// Reason if it would not stand up or stop; faults and falls are in Outputs.
   const char* failed() const { return failed_; }
-  /// Seconds of gait; with `stands`, seconds since it stood quietly.
+  /// Gait; with `stands`, quiet standing.
   double walked_s() const { return walked_s_; }
-  /// The gait is longer than walk_s although the stop was ordered at its start.
   bool longer_than_asked() const { return longer_than_asked_; }
 
  private:
@@ -53,12 +49,12 @@ class WalkOperator {
   double walked_s_ = 0;
   double waited_s_ = 0;    ///< before the gait
   double standing_s_ = 0;  ///< before the gait
-  double stood_s_ = 0;     ///< standing with a calibrated gyro, before the gait
-  double idle_s_ = 0;      ///< without gait, before the stop was ordered
-  double stopping_s_ = 0;  ///< since the stop was ordered
-  double lead_s_ = 0;      ///< remaining gait when the stop was ordered
+  double stood_s_ = 0;     ///< before the gait, gyro calibrated
+  double idle_s_ = 0;      ///< before the stop
+  double stopping_s_ = 0;
+  double lead_s_ = 0;  ///< remaining gait at the stop
   bool gait_seen_ = false, stopping_ = false, done_ = false;
-  bool changed_ = true;  ///< the order differs from the last one sent
+  bool changed_ = true;
   bool could_walk_on_ = false, longer_than_asked_ = false;
   const char* failed_ = "";
 };

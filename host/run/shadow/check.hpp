@@ -9,14 +9,14 @@
 
 namespace verp::shadow {
 
-/// A shadow: this PC steps a second copy of a running controller and compares digests. This base
-/// class does not depend on how the controller's ticks reach the PC.
+/// A shadow steps a second copy of a running controller here and compares digests. Subclasses get
+/// the ticks.
 class Check {
  public:
   enum class State {
     kAsking,     ///< for the initial State
-    kFollowing,  ///< steps with the controller's Inputs
-    kReading,    ///< the controller's records, after a differing digest
+    kFollowing,  ///< with its Inputs
+    kReading,    ///< records, after a differing digest
     kDiffers,    ///< final: see divergence()
     kRefused,    ///< final: see refusal()
   };
@@ -27,36 +27,34 @@ class Check {
   State state() const { return state_; }
   bool over() const { return state_ == State::kDiffers || state_ == State::kRefused; }
   bool differs() const { return state_ == State::kDiffers; }
-  /// A digest differed, and the records are being read.
+  /// The records are being read.
   bool suspects() const { return state_ == State::kReading; }
   /// Ticks with equal digests.
   std::uint64_t compared() const { return compared_; }
-  /// Differing digests whose records came too late to examine.
+  /// Differing digests whose records came too late.
   std::uint64_t unsettled() const { return unsettled_; }
-  /// Times that ticks were incomplete and the State was requested again.
+  /// Incomplete ticks: State requested again.
   std::uint64_t gaps() const { return gaps_; }
   std::uint64_t boots() const { return boots_; }
   std::uint32_t tick() const { return shadow_.admit.tick; }
   std::uint64_t digest() const { return shadow_.digest.chain; }
-  /// Time of the last tick or answer; 0: never.
+  /// Last tick or answer; 0: never.
   std::uint64_t heard_us() const { return heard_us_; }
   const record::Divergence& divergence() const { return divergence_; }
   const std::string& refusal() const { return refusal_; }
-  /// Why the last gap occurred, for the user.
+  /// Why the last gap occurred.
   const std::string& gap() const { return gap_; }
 
  protected:
-  /// `own`: this robot's actions on this PC.
+  /// `own`: this PC's actions.
   Check(const Params& params, const action::Library& own) : params_(params), own_(own) {}
   ~Check() = default;
 
-  /// Checks the controller's number of actions against this PC's. The controller plays an action by
-  /// itself after a fall, so both must have the same ones.
+  /// Both must have the same actions: the controller plays one by itself after a fall.
   bool take_actions(int count);
-  /// Steps with these Inputs. False, with no change, if the digest differs.
+  /// False, without change, if the digest differs.
   bool step_on(const Inputs& inputs, std::uint64_t digest);
-  /// Judges `suspicion` with the controller's testimony. `misheard`: why the State is requested
-  /// again if only this PC's Inputs were wrong.
+  /// `misheard`: why the State is requested again if only this PC's Inputs were wrong.
   void conclude(const Suspicion& suspicion, const char* misheard);
   virtual void lose(const std::string& why);
   void refuse(const std::string& why);
@@ -70,14 +68,14 @@ class Check {
   std::uint64_t boots_ = 0, heard_us_ = 0, compared_ = 0, unsettled_ = 0;
 
  private:
-  static constexpr int kMostMisheard = 3;  ///< with fewer than kClean good ticks between them
+  static constexpr int kMostMisheard = 3;  ///< with fewer than kClean good ticks between
   static constexpr int kClean = 1000;
 
   record::Divergence divergence_;
   std::string refusal_, gap_;
   std::uint64_t gaps_ = 0;
   int misheard_ = 0;
-  int clean_ = 0;  ///< ticks compared since the last gap
+  int clean_ = 0;  ///< since the last gap
 };
 
 }  // namespace verp::shadow

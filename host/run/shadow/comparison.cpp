@@ -16,7 +16,7 @@ State stepped(const Params& params, const action::Library& actions, State state,
   return state;
 }
 
-/// Diffs the State at the held tick, which is the differing tick or a slightly later one.
+/// At the held tick: the differing one or slightly later.
 void name_fields(record::Divergence& divergence, const Params& params,
                  const action::Library& actions, State state, const Testimony& testimony,
                  std::size_t from) {
@@ -57,7 +57,7 @@ Judgement judge(const Params& params, const action::Library& actions, const Susp
     judgement.verdict = Verdict::kTooLate;
     return judgement;
   }
-  // The chains already differ before this tick: this PC missed one.
+  // This PC missed a tick before.
   if (std::prev(found)->digest.chain != suspicion.before.digest.chain) return judgement;
   const State here = stepped(params, actions, suspicion.before, found->inputs);
   const auto differs = record::compare_digests(found->digest, here.digest);

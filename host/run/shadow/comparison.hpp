@@ -11,35 +11,35 @@
 
 namespace verp::shadow {
 
-/// This PC's State before the differing tick, and the Inputs that it assumed for that tick.
+/// This PC's State before the differing tick, and its assumed Inputs.
 struct Suspicion {
   State before;
   Inputs inputs;
-  std::uint64_t digest = 0;  ///< as received from the controller
+  std::uint64_t digest = 0;  ///< the controller's
 };
 
-/// The controller's records: the last tick that it holds, and those before it.
+/// The last tick that the controller holds, and those before it.
 struct Testimony {
   app::HeldTick held;
-  std::vector<TickRecord> ticks;  ///< oldest first, up to the held one
+  std::vector<TickRecord> ticks;  ///< oldest first
 };
 
-/// The TickRecords of an ImageKind::kTicks image that lead up to the held tick.
+/// Ticks of an ImageKind::kTicks image up to the held one.
 std::vector<TickRecord> ticks_of(const std::uint8_t* image, std::size_t size,
                                  const app::HeldTick& held);
 
 enum class Verdict {
-  kDifference,  ///< different results; the divergence names tick, stage and field
-  kMisheard,    ///< equal results for the controller's Inputs; this PC assumed others
-  kTooLate,     ///< the controller no longer has those ticks
+  kDifference,  ///< with tick, stage and field
+  kMisheard,    ///< equal for the controller's Inputs; this PC's were wrong
+  kTooLate,     ///< dropped by the controller
 };
 
 struct Judgement {
   Verdict verdict = Verdict::kMisheard;
-  record::Divergence divergence;  ///< for kMisheard: stage "inputs", and the fields misheard
+  record::Divergence divergence;  ///< for kMisheard: stage "inputs"
 };
 
-/// Compares with the controller's own records. Left is the controller, right this PC.
+/// Left is the controller, right this PC.
 Judgement judge(const Params& params, const action::Library& actions, const Suspicion& suspicion,
                 const Testimony& testimony);
 

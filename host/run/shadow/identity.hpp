@@ -6,8 +6,7 @@
 
 namespace verp::shadow {
 
-/// Why a controller with this identity cannot be compared with `params`, in one line; empty if it
-/// can.
+/// One line if it cannot be compared with `params`; else empty.
 std::string why_another(const Params& params, std::uint32_t params_crc, std::uint32_t core_version);
 
 inline constexpr const char* kKeepsNoTicks =

@@ -66,8 +66,7 @@ bool LiveCheck::next(CanFrame& frame, std::uint64_t now_us) {
   return sends;
 }
 
-// A controller overwrites the ticks in question if a hold order is lost. Retries before SDO's own
-// timeout.
+// A lost hold order loses the ticks: retry before SDO's timeout.
 bool LiveCheck::hold_is_late(std::uint64_t now_us) const {
   constexpr std::uint64_t kAllowance_us = 20'000;
   const bool holds = state_ == State::kReading && step_ == Step::kHold && running_;
@@ -153,7 +152,7 @@ void LiveCheck::end_step(std::uint64_t now_us) {
   }
 }
 
-// Retries if the controller does not answer or has no tick yet. Gives up if it lacks the object.
+// Retries without an answer or a tick. Gives up without the object.
 void LiveCheck::fail_step(std::uint64_t now_us) {
   pause_until_us_ = now_us + kPause_us;
   if (step_ == Step::kHold && client_.reason() == Abort::kDeviceState) {
@@ -189,7 +188,7 @@ void LiveCheck::follow() {
 bool LiveCheck::is_past(const HeardTick& tick) const {
   return static_cast<std::int16_t>(tick.tick_low - static_cast<std::uint16_t>(inputs_.tick)) <= 0;
 }
-// Only an overrun skips periods, and the controller reports it.
+// Only a reported overrun skips periods.
 bool LiveCheck::follows(const HeardTick& tick) const {
   return tick.tick_low == static_cast<std::uint16_t>(inputs_.tick + 1) ||
          (tick.flags & kOverrun) != 0;

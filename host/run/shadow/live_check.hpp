@@ -11,28 +11,25 @@
 
 namespace verp::shadow {
 
-/// Shadow of a controller on a CAN bus. After the first tick heard, it asks once for the
-/// controller's identity and for the State of one tick, which the controller holds while its loop
-/// goes on. From then on it only listens: it steps with the Inputs that it hears and compares each
-/// tick's digest. At the first difference the controller holds its State and last ticks; this class
-/// reads them and names tick, stage and field.
+/// Shadow of a CAN controller. After the first tick it asks once for identity and for one tick's
+/// State, which the controller holds while its loop goes on. Then it only listens: it steps with
+/// the heard Inputs and compares each digest. At the first difference it reads the controller's
+/// held State and last ticks, and names tick, stage and field.
 ///
-/// Ticks that pass during that reading are compared afterwards. A difference in one of them comes
-/// too late to examine and counts as unsettled.
+/// Ticks during that reading are compared afterwards; a difference there is unsettled.
 ///
-/// A tick that was not heard completely is not a difference: it counts as a gap, and the State is
-/// requested again, as after a restart of the controller. The class consumes and produces frames;
-/// it uses no interface and no clock. Times are monotonic microseconds.
+/// An incompletely heard tick is a gap, not a difference: the State is requested again. It uses no
+/// interface and no clock; times are monotonic microseconds.
 class LiveCheck final : public Check {
  public:
   explicit LiveCheck(const Params& params, const action::Library& own = {});
 
   void take(const CanFrame& frame, std::uint64_t now_us);
-  /// The next frame to send; false while it only listens.
+  /// False: it only listens.
   bool next(CanFrame& frame, std::uint64_t now_us);
 
  private:
-  /// The purpose of each SDO transfer, in order.
+  /// SDO transfers, in order.
   enum class Step {
     kName,
     kCore,
@@ -44,11 +41,10 @@ class LiveCheck final : public Check {
     kReleaseLast,
     kDone,
   };
-  static constexpr int kMostHeard = 4096;  ///< ticks kept during the transfer of a State
+  static constexpr int kMostHeard = 4096;  ///< during a State's transfer
   static constexpr std::size_t kMostReadings = 4096;
   static constexpr std::uint64_t kPause_us = 200'000;  ///< before a retry
-  static constexpr std::uint64_t kTurn_us =
-      50'000;  ///< after a release, the controller records a new tick within this time
+  static constexpr std::uint64_t kTurn_us = 50'000;    ///< until a new tick after a release
 
   void ask(Step step);
   bool hold_is_late(std::uint64_t now_us) const;
@@ -65,12 +61,12 @@ class LiveCheck final : public Check {
   TickListener listener_;
   canopen::SdoClient client_;
   Step step_ = Step::kName;
-  bool running_ = false;  ///< the step's transfer has begun
+  bool running_ = false;  ///< the transfer has begun
   std::uint64_t step_began_us_ = 0, pause_until_us_ = 0;
-  std::uint8_t number_[4] = {};      ///< data of a short transfer
-  std::vector<std::uint8_t> bytes_;  ///< data of a long transfer
+  std::uint8_t number_[4] = {};      ///< short transfer
+  std::vector<std::uint8_t> bytes_;  ///< long transfer
   std::uint32_t crc_ = 0;            ///< of the controller's Params
-  bool begun_ = false;               ///< there is a State to step from
+  bool begun_ = false;               ///< with a State
   Inputs inputs_;
   std::deque<HeardTick> heard_;
   std::unique_ptr<Suspicion> suspicion_;

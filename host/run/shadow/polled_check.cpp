@@ -10,7 +10,7 @@ using Answer = TickPort::Answer;
 using Log = app::TickLog<>;
 
 namespace {
-constexpr int kMostReads = 100;  // of the tick register, until it changes
+constexpr int kMostReads = 100;  // of the tick register
 }
 
 bool PolledCheck::turn(std::uint64_t now_us) {
@@ -38,7 +38,7 @@ bool PolledCheck::begin() {
   if (!good(port_.read(reg("action_count"), &actions, sizeof actions)) || !take_actions(actions)) {
     return false;
   }
-  // Releases an earlier hold, which is stale.
+  // Releases a stale hold.
   if (!hold(Log::kNothing) || !good(port_.read(reg("tick"), &tick, sizeof tick))) return false;
   for (int reads = 0; reads < kMostReads && (reads == 0 || later == tick); ++reads) {
     if (!good(port_.read(reg("tick"), &later, sizeof later))) return false;
@@ -90,7 +90,7 @@ bool PolledCheck::follow() {
     lose("the controller dropped ticks before they were read");
     return false;
   }
-  ++next_;  // a period without a tick
+  ++next_;  // a period without tick
   return true;
 }
 
@@ -100,7 +100,7 @@ bool PolledCheck::compare(const TickRecord& record) {
   return true;
 }
 
-// A record that changed while it was read is not a difference either.
+// A record that changed during its reading is no difference.
 bool PolledCheck::settle(const TickRecord& record) {
   if (!hold(Log::kAll) || !read_state() || !read_ticks() || !hold(Log::kNothing)) {
     ++unsettled_;

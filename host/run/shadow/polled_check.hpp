@@ -6,17 +6,16 @@
 
 namespace verp::shadow {
 
-/// Shadow of a controller at the end of a serial link other than its servo bus. The controller
-/// keeps records of its last ticks (firmware/app/tick_log.hpp). This PC fetches them one by one at
-/// its own pace, steps with their Inputs and compares. The controller never waits. Ticks that it
-/// dropped before they were fetched count as a gap, and its State is read again.
+/// Shadow of a controller at a serial link beside its servo bus. This PC fetches the controller's
+/// last ticks (firmware/app/tick_log.hpp) at its own pace; the controller never waits. Dropped
+/// ticks are a gap: its State is read again.
 class PolledCheck final : public Check {
  public:
-  /// The caller keeps `params` and `port` alive.
+  /// The caller keeps both arguments alive.
   PolledCheck(const Params& params, TickPort& port, const action::Library& own = {})
       : Check(params, own), port_(port) {}
 
-  /// Makes a few requests; false if there is nothing new or no answer.
+  /// False: nothing new, or no answer.
   bool turn(std::uint64_t now_us);
 
  private:
@@ -32,7 +31,7 @@ class PolledCheck final : public Check {
   bool settle(const TickRecord& record);
 
   TickPort& port_;
-  std::uint32_t next_ = 0;  ///< the next tick to fetch
+  std::uint32_t next_ = 0;  ///< to fetch
   std::uint64_t now_us_ = 0;
 };
 

@@ -19,7 +19,7 @@ namespace plan = canopen::plan;
 namespace published = canopen::published;
 using canopen::get_le;
 
-constexpr std::size_t kMostRounds = 2;  // a SYNC may overtake the report of the previous tick
+constexpr std::size_t kMostRounds = 2;  // a SYNC may overtake the last report
 constexpr std::size_t kMostSaid = 8;
 
 template <class Value>
@@ -72,7 +72,7 @@ void TickListener::take(const CanFrame& frame) {
   if (from.service == Service::kSdoResponse && app::is_joint(slot)) take_response(slot, frame);
 }
 
-// The controller may have read values that arrived between two ticks in the later one.
+// Values between two ticks may count for the later one.
 void TickListener::begin_round() {
   if (rounds_.size() == kMostRounds) drop_oldest();
   Round round;
@@ -103,7 +103,7 @@ void TickListener::take_drive(int slot, unsigned number, const CanFrame& frame) 
   }
 }
 
-// As app::DriveTelemetry asks: everything in one object, or voltage, then error code.
+// Requests are those of app::DriveTelemetry.
 void TickListener::take_request(int joint, const CanFrame& frame) {
   namespace sdo = canopen::sdo;
   if (frame.size != sdo::kFrameBytes || sdo::specifier_of(frame) != sdo::request::kUpload) return;
@@ -178,7 +178,7 @@ void TickListener::close_if_whole() {
 
 namespace {
 
-/// Builds all combinations: each source multiplies the readings by its number of values.
+/// All combinations: each source multiplies the readings.
 class Reader {
  public:
   Reader(const Inputs& first, std::size_t most) : readings_{first}, most_(most) {}
@@ -201,7 +201,7 @@ class Reader {
   std::size_t most_;
 };
 
-/// A value that the controller used and the listener did not hear; empty if there is none.
+/// A used value that was not heard; or empty.
 std::string find_lacking(const HeardTick& tick, const Params& params) {
   const unsigned parts = tick.flags >> published::kPartsShift;
   if (parts == published::kTooManyParts) return "more changes than the controller tells";

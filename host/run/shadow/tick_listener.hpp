@@ -13,8 +13,7 @@
 
 namespace verp::shadow {
 
-/// The distinct values that a source sent during one tick, latest first. A listener cannot hear
-/// which of them the controller used.
+/// A source's distinct values in one tick, latest first. The used one is unknown.
 template <class Value>
 using Said = std::vector<Value>;
 
@@ -26,10 +25,9 @@ struct SlowReport {
   bool operator==(const SlowReport&) const = default;
 };
 
-/// One tick as heard on a CAN bus.
 struct HeardTick {
   std::uint16_t tick_low = 0;
-  std::uint16_t flags = 0;  ///< of Inputs and of canopen::published
+  std::uint16_t flags = 0;  ///< Inputs' and canopen::published's
   std::uint32_t fresh = 0;
   std::uint64_t digest = 0;
   std::vector<canopen::published::Part> parts;
@@ -39,17 +37,16 @@ struct HeardTick {
   Said<SlowReport> slow;
 };
 
-/// Reassembles a controller's ticks from the frames on its bus. It sends nothing.
+/// Reassembles a controller's ticks from its bus. It sends nothing.
 class TickListener {
  public:
   explicit TickListener(const Params& params);
 
   void take(const CanFrame& frame);
-  /// The next complete tick; false if there is none.
   bool next(HeardTick& tick);
   /// Ticks whose digest or record was missed.
   std::uint64_t missed() const { return missed_; }
-  /// The controller booted since the last call.
+  /// A boot since the last call.
   bool take_boot();
 
  private:
@@ -59,7 +56,7 @@ class TickListener {
     bool has_record = false;
     std::size_t parts_due = 0;
   };
-  /// The pending request for slow telemetry, and its result so far.
+  /// The pending request for slow telemetry.
   struct Asked {
     int joint = -1;
     std::uint16_t index = 0;
@@ -76,9 +73,9 @@ class TickListener {
 
   const Params& params_;
   app::CanNodes nodes_;
-  std::deque<Round> rounds_;  ///< incomplete ticks; the last one is under way
+  std::deque<Round> rounds_;  ///< the last one is under way
   std::deque<HeardTick> ticks_;
-  HeardTick early_;   ///< heard after the last round was complete and before the next began
+  HeardTick early_;   ///< between two rounds
   bool told_ = true;  ///< of the newest round
   Asked asked_;
   Said<SlowReport> slow_;
@@ -86,8 +83,8 @@ class TickListener {
   bool booted_ = false;
 };
 
-/// All Inputs that the tick may have had after one with `before`, likeliest first, at most `most`.
-/// Empty if a value that the controller used was not heard; `lacking` then names it.
+/// Possible Inputs after `before`, likeliest first, at most `most`. Empty: a used value was not
+/// heard; `lacking` names it.
 std::vector<Inputs> readings(const HeardTick& tick, const Inputs& before, const Params& params,
                              std::size_t most, std::string& lacking);
 

@@ -13,11 +13,10 @@ namespace {
 using app::reg;
 
 constexpr int kAttempts = 3;
-constexpr std::uint64_t kPatience_ns =
-    100'000'000;  // per attempt; the loop answers in its idle time
+constexpr std::uint64_t kPatience_ns = 100'000'000;  // the loop answers when idle
 constexpr std::uint32_t kSlice_us = 5'000;
 constexpr std::uint32_t kQuiet_us = 20'000;
-/// Image blocks per exchange, limited by the requests that a board's port can buffer.
+/// A board's port buffers few requests.
 constexpr int kBlocksAtOnce = 2;
 
 }  // namespace
@@ -30,7 +29,7 @@ void TickPort::add_read(std::uint16_t address, std::uint8_t* to, std::size_t siz
   asked_.push_back({to, size});
 }
 
-// A broadcast write gets no answer and so costs no waiting.
+// Costs no waiting: a broadcast write has no answer.
 void TickPort::add_write(std::uint8_t id, std::uint16_t address, const void* data,
                          std::size_t size) {
   std::uint8_t packet[32];
@@ -74,7 +73,7 @@ TickPort::Answer TickPort::read_image(app::ImageKind kind, std::size_t offset, v
 TickPort::Answer TickPort::exchange() {
   Answer answer = Answer::kSilent;
   for (int attempt = 0; attempt < kAttempts && answer == Answer::kSilent; ++attempt) {
-    if (attempt > 0) drain();  // a late answer must not count for the next request
+    if (attempt > 0) drain();  // a late answer must not count
     link_.write(outbox_.data(), outbox_.size(), static_cast<std::uint32_t>(kPatience_ns / 1000));
     bool refused = false;
     if (collect(refused)) answer = refused ? Answer::kRefused : Answer::kGood;

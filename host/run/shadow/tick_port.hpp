@@ -9,13 +9,13 @@
 
 namespace verp::shadow {
 
-/// A controller at its operator port (Dynamixel device 200): its registers, and its images through
-/// the block window, several requests per exchange. Unanswered requests are repeated.
+/// Operator port (Dynamixel device 200): registers, and images through the block window, several
+/// requests per exchange. Unanswered requests are repeated.
 class TickPort {
  public:
   enum class Answer {
     kGood,
-    kSilent,   ///< no answer after all attempts
+    kSilent,   ///< after all attempts
     kRefused,  ///< see error()
   };
 
@@ -24,14 +24,12 @@ class TickPort {
 
   Answer read(std::uint16_t address, void* to, std::uint16_t size);
   Answer write(std::uint16_t address, std::uint8_t value);
-  /// Reads bytes of an image.
   Answer read_image(app::ImageKind kind, std::size_t offset, void* to, std::size_t size);
 
   dxl::Error error() const { return error_; }
   bool connected() const { return link_.connected(); }
 
  private:
-  /// Destination of an answer's data.
   struct Request {
     std::uint8_t* to = nullptr;
     std::size_t size = 0;
@@ -48,7 +46,7 @@ class TickPort {
   dxl::Error error_ = dxl::Error::kNone;
   std::vector<std::uint8_t> outbox_;
   std::vector<Request> asked_;
-  app::ImageKind window_ = app::ImageKind::kNone;  ///< as last set; kNone: unknown
+  app::ImageKind window_ = app::ImageKind::kNone;  ///< kNone: unknown
 };
 
 }  // namespace verp::shadow

@@ -8,7 +8,7 @@
 
 namespace {
 
-/// A joint by name; -1 if this robot has no such joint.
+/// -1: this robot has no such joint.
 int joint_named(const verp::Params& params, const char* name) {
   for (int j = 0; j < params.joint_count; ++j) {
     if (__builtin_strcmp(params.joint[j].name, name) == 0) return j;
