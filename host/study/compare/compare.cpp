@@ -11,11 +11,11 @@
 namespace verp::compare {
 namespace {
 
-constexpr double kStill_rad = 0.0035;  ///< 0.2 degrees rms, two counts of 4096: encoder noise
-constexpr double kAlike = 0.5;         ///< largest residual, as a part of B's motion
+constexpr double kStill_rad = 0.0035;  ///< 0.2 degrees, two counts of 4096: encoder noise
+constexpr double kAlike = 0.5;         ///< part of B's motion
 constexpr double kLeastCommon_s = 0.5;
 constexpr double kLeastRead = 0.5;
-constexpr double kMainPart = 0.35;  ///< least share of the gait frequency for gain and phase
+constexpr double kMainPart = 0.35;  ///< of the gait frequency
 constexpr int kSettleCycles = 2, kLeastCycles = 2;
 
 void refuse_what_has_no_ticks(const record::Trace& trace) {
@@ -23,7 +23,7 @@ void refuse_what_has_no_ticks(const record::Trace& trace) {
   throw record::TraceError(trace.file, "holds no tick", "record a run that begins");
 }
 
-/// For a trace cut from the middle of a motion, the time of the command is unknown.
+/// The trace begins in the middle of a motion: the time of the command is unknown.
 void refuse_what_began_before(const record::Trace& trace) {
   if (!trace.before) return;
   if (trace.before->gait.queued == 0 && trace.before->action.number == 0) return;
@@ -227,7 +227,7 @@ class Comparing {
   Motion a_, b_;
   Comparison out_;
   Pair pair_;
-  Shifts all_;  ///< sum over all joints that have a delay
+  Shifts all_;  ///< over all joints with a delay
   std::size_t gait_from_ = 0, gait_samples_ = 0;
 };
 

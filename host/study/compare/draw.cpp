@@ -17,7 +17,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kShownCycles = 4, kShown_s = 4;
 constexpr int kColumns = 3, kPanel_px = 170;
 
-/// An interval in the middle of the common part, where both motions are steady.
+/// From the middle, where both are steady.
 std::pair<std::size_t, std::size_t> shown(const Comparison& c, const Pair& pair) {
   const double length_s = c.gait_hz ? kShownCycles / *c.gait_hz : kShown_s;
   const double middle_s = (c.from_s + c.to_s) / 2;
@@ -28,7 +28,7 @@ std::pair<std::size_t, std::size_t> shown(const Comparison& c, const Pair& pair)
   return {at(middle_s - length_s / 2), at(middle_s + length_s / 2)};
 }
 
-/// Joints that move, the largest motion first; others show nothing.
+/// The largest motion first.
 std::vector<std::size_t> moving(const Comparison& c) {
   std::vector<std::size_t> joints;
   for (std::size_t j = 0; j < c.joints.size(); ++j) {

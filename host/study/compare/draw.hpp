@@ -6,7 +6,7 @@
 
 namespace verp::compare {
 
-/// Both angles of each joint, over some common cycles.
+/// Both angles of each joint over some cycles.
 report::Plot angles_plot(const Comparison& comparison, const Pair& pair);
 report::Plot joints_plot(const Comparison& comparison);
 

@@ -12,11 +12,10 @@
 namespace verp::compare {
 namespace {
 
-/// Index in the list of tuning values.
 constexpr std::size_t kCycleId =
     (offsetof(Tuning, gait) + offsetof(GaitTuning, cycle_s)) / sizeof(float);
 
-/// Interpolates linearly between the places in `known`, which ascend.
+/// Linearly between the places in `known`, which ascend.
 void fill(std::vector<double>& values, const std::vector<std::size_t>& known) {
   if (known.empty()) return;
   std::fill_n(values.begin(), known.front(), values[known.front()]);
@@ -40,7 +39,7 @@ Motion::Motion(const record::Trace& trace)
   see_orders(trace);
 }
 
-/// The trace lacks the ticks for which the robot's PC was too late.
+/// The trace lacks ticks for which the PC was too late.
 std::size_t Motion::slot(const record::Trace& trace, std::size_t index) const {
   return trace.ticks[index].inputs.tick - trace.ticks.front().inputs.tick;
 }

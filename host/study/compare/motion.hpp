@@ -7,31 +7,29 @@
 
 namespace verp::compare {
 
-/// Joint motion and orders of a trace.
 class Motion {
  public:
-  /// Replays the controller over the trace, which must have a tick, to get its decisions.
+  /// Replays the controller over the trace (at least one tick) for its decisions.
   explicit Motion(const record::Trace& trace);
 
   double period_s() const { return period_s_; }
   double length_s() const { return period_s_ * static_cast<double>(slots_ - 1); }
   const std::vector<std::string>& joints() const { return joints_; }
-  /// Joint angle in rad at a time from the first tick on, up to length_s. Interpolates linearly
-  /// over ticks without a reading; before the first reading, returns that one.
+  /// Time from the first tick, up to length_s. Linear over ticks without a reading; constant before
+  /// the first reading.
   double rad(std::size_t joint, double time_s) const;
-  /// Share of the ticks with a reading of the joint, 0 to 1.
+  /// Share of ticks, 0 to 1.
   double read_share(std::size_t joint) const { return read_share_[joint]; }
 
-  /// When the controller began a gait or an action, from the first tick on. nullopt: never, or this
-  /// program decides differently from the recording one.
+  /// Begin of a gait or action after the first tick. nullopt: never, or this program decides
+  /// differently from the recording one.
   const std::optional<double>& begun_s() const { return begun_s_; }
-  /// When the operator first ordered a walk or an action.
+  /// First order to walk or act.
   const std::optional<double>& ordered_s() const { return ordered_s_; }
-  /// End of the last ordered walk; 0: there was none.
+  /// 0: no walk was ordered.
   double walked_until_s() const { return walked_until_s_; }
   /// Gait cycle in force at the end.
   double cycle_s() const { return cycle_s_; }
-  /// The operator's order in force at a time.
   const Command& order(double time_s) const;
 
  private:
@@ -40,7 +38,7 @@ class Motion {
   std::size_t slot(const record::Trace& trace, std::size_t index) const;
 
   double period_s_;
-  std::size_t slots_ = 0;  ///< ticks from first to last, including missing ones
+  std::size_t slots_ = 0;  ///< with the missing ones
   std::vector<std::string> joints_;
   std::vector<std::vector<double>> rad_;
   std::vector<double> read_share_;

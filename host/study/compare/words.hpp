@@ -10,9 +10,9 @@ inline constexpr double kDegrees = 180 / std::numbers::pi;
 
 std::string text_of(const Comparison& comparison);
 
-/// A line per joint, units in the header. Missing values are empty cells.
+/// One line per joint, with units in the header and empty cells for missing values.
 std::string joints_csv(const Comparison& comparison);
-/// A line per compared tick: the angles of both.
+/// One line per compared tick.
 std::string angles_csv(const Comparison& comparison, const Pair& pair);
 
 }  // namespace verp::compare

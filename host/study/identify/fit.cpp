@@ -9,15 +9,15 @@
 namespace verp::identify {
 namespace {
 
-constexpr double kTry = 0.25;  ///< difference step, as a part of each number's scale, both ways
-constexpr double kFar = 4;     ///< sigmas: larger errors have causes other than the numbers
+constexpr double kTry = 0.25;        ///< difference step, part of each number's scale, both ways
+constexpr double kFar = 4;           ///< sigmas: larger errors have other causes
 constexpr double kLeastSigma = 0.5;  ///< counts: encoder noise and rounding
-constexpr std::size_t kAround = 10;  ///< ticks on either side over which chance is averaged
-constexpr double kMuchWorse = 1.03;  ///< a step may raise the cost by this; chance does by less
-constexpr std::size_t kBlock = 50;   ///< ticks within which errors are correlated
-constexpr double kFurthest = 16;     ///< largest factor by which go_on() lengthens a step
+constexpr std::size_t kAround = 10;  ///< ticks on either side for averaging chance
+constexpr double kMuchWorse = 1.03;  ///< a step may raise the cost by this; chance raises it less
+constexpr std::size_t kBlock = 50;   ///< ticks with correlated errors
+constexpr double kFurthest = 16;     ///< of a step in go_on()
 
-// Geman-McClure weight: bounds the influence of outliers.
+// Geman-McClure: bounds outliers.
 double weight(double residual) {
   const double part = 1 + residual * residual / (kFar * kFar);
   return 1 / (part * part);
@@ -60,7 +60,7 @@ Estimate Fit::start() const {
 model::Entity Fit::with(const std::vector<double>& value) const {
   model::Entity entity = entity_;
   for (model::Joint& joint : entity.joints) {
-    if (joint.servo.type == type_) joint.servo.goal_delay_s = 0;  // the rig adds the delay
+    if (joint.servo.type == type_) joint.servo.goal_delay_s = 0;  // the rig adds it
   }
   for (std::size_t i = 0; i < numbers().size(); ++i) {
     set_number(entity, type_, numbers()[i], value[i]);
@@ -114,8 +114,8 @@ std::vector<std::vector<float>> Fit::predict(const Estimate& estimate, std::size
   return sims[0].count;
 }
 
-/// Residual of a joint less its encoder's zero error, which shifts all samples alike. `left` holds
-/// counts on entry and sigmas on return. Returns the weight of each sample.
+/// Residual less the encoder's zero error. `left`: counts on entry, sigmas on return. Returns
+/// weights.
 Eigen::VectorXd Fit::settle(std::size_t joint, Eigen::VectorXd& left, Eigen::MatrixXd* rows) const {
   const Eigen::Index size = left.size();
   Eigen::VectorXd sure(size);
@@ -179,7 +179,7 @@ Fit::Normal Fit::linearise(const Estimate& estimate, std::size_t ticks) {
   }
   const int whole = static_cast<int>(std::lround(estimate.value[delay()] / kStep_us));
   const double part = estimate.value[delay()] / kStep_us - whole;
-  // Two twins for each column (more and less), then two at the estimate with different noise.
+  // Two twins per column (more and less), and two at the estimate with different noise.
   const std::size_t base = 2 * columns.size();
   std::vector<Simulated> sims(base + 2);
   std::vector<double> at(base);
@@ -245,7 +245,7 @@ Fit::Normal Fit::linearise(const Estimate& estimate, std::size_t ticks) {
   return normal;
 }
 
-/// Takes a step `by` (free numbers, in their scales), kept within the bounds of each number.
+/// `by`: free numbers in their scales, within bounds.
 Estimate Fit::moved(const Estimate& from, const Eigen::VectorXd& by) const {
   Estimate to = from;
   Eigen::Index column = 0;
@@ -258,8 +258,8 @@ Estimate Fit::moved(const Estimate& from, const Eigen::VectorXd& by) const {
   return to;
 }
 
-/// Doubles the step while that lowers the cost: chance in the slopes looks like information and
-/// makes steps too short, above all along a valley.
+/// Doubles the step while the cost falls: chance in the slopes looks like information and makes
+/// steps too short.
 Estimate Fit::go_on(const Estimate& from, const Eigen::VectorXd& by, Estimate best,
                     double cost_best, std::size_t ticks) {
   for (double times = 2; times <= kFurthest && !stopped_; times *= 2) {

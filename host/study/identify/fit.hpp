@@ -9,34 +9,33 @@
 
 namespace verp::identify {
 
-/// Estimated parameters of one servo type, in the order of numbers(); behind them, in us, how much
-/// later the servos act than the bus timing says.
+/// One servo type's numbers(), and behind them, in us, how much later servos act than the bus
+/// timing says.
 struct Estimate {
   std::vector<double> value, error;  ///< error: one standard deviation
-  std::vector<bool> free;            ///< false: kept at its start value
-  double rms_rad = 0;                ///< residual over the fitted ticks
+  std::vector<bool> free;            ///< false: fixed
+  double rms_rad = 0;                ///< over the fitted ticks
 };
 
-/// Fits by simulation: gives the twin the recorded goals and changes its numbers until its joints
-/// follow the robot's. Gauss-Newton with damping and a robust weight for errors beyond a few sigma.
+/// Gives the twin the recorded goals and changes its numbers until its joints follow the robot's.
+/// Gauss-Newton with damping and a robust weight.
 class Fit {
  public:
   Fit(const model::Entity& entity, const Recording& recording, const std::string& type,
       const survey::Watch& watch);
 
-  /// Fits the first `ticks` of the recording, starting from `estimate`.
   void improve(Estimate& estimate, std::size_t ticks, int rounds);
-  /// Resets the numbers that the motion does not determine, the least certain first.
+  /// Resets numbers that the motion does not determine, the least certain first.
   void leave_what_is_not_told(Estimate& estimate, std::size_t ticks);
   Estimate start() const;
-  /// Joint positions of the twin with these numbers, over the first `ticks`.
+  /// Positions over the first `ticks`.
   std::vector<std::vector<float>> predict(const Estimate& estimate, std::size_t ticks);
-  /// Over the type's joints and the ticks from `from` up to `to`.
+  /// The type's joints, ticks `from` to `to`.
   double rms_rad(const std::vector<std::vector<float>>& predicted, std::size_t from,
                  std::size_t to) const;
   const std::vector<std::size_t>& joints() const { return joints_; }
   bool stopped() const { return stopped_; }
-  /// Total of ticks over all rounds; the base of the reported progress.
+  /// In all rounds, for the progress.
   void expect(std::size_t ticks) { expected_ = ticks; }
 
  private:
@@ -59,14 +58,14 @@ class Fit {
   const survey::Watch& watch_;
   std::vector<std::size_t> joints_;
   std::vector<double> scale_;
-  /// [joint][tick], counts: encoder noise, and the distance of two twins that differ only in that
-  /// noise. It is large where a link rattles in its backlash.
+  /// [joint][tick], counts: encoder noise, and the distance of two twins with different noise,
+  /// which is large where a link rattles in its backlash.
   std::vector<std::vector<float>> sigma_;
   double nominal_v_;
   bool stopped_ = false;
   std::size_t expected_ = 0, gone_ = 0;
 };
 
-inline constexpr std::size_t kSettleTicks = 50;  ///< skipped at the start, while the twin settles
+inline constexpr std::size_t kSettleTicks = 50;  ///< while the twin settles
 
 }  // namespace verp::identify

@@ -18,17 +18,17 @@ using Angles = std::vector<double>;
 
 constexpr double kWay_s[] = {0.15, 0.25, 0.4, 0.7, 1.2};  ///< frame durations, in turn
 constexpr double kRest_s = 0.3;                           ///< after the slowest frame
-constexpr double kFar_rad = 0.7;                          ///< largest distance from the stand
+constexpr double kFar_rad = 0.7;                          ///< from the stand
 constexpr double kFromStop_rad = 0.1;
-// Shares of a joint's limits on a cubic path; other loads and weaker servos need the rest.
+// Shares of a joint's limits; other loads and weaker servos need the rest.
 constexpr double kSpeedShare = 0.6, kTorqueShare = 0.3;
-constexpr double kTopSpeed = 1.5, kTopAcceleration = 6;  ///< peaks of a cubic path of 1 in 1 s
+constexpr double kTopSpeed = 1.5, kTopAcceleration = 6;  ///< of a cubic path of 1 in 1 s
 constexpr int kLooks = 8;                                ///< collision checks along a path
-constexpr double kApart_m = 0.02;  ///< clearance for model errors and curved paths
+constexpr double kApart_m = 0.02;                        ///< for model errors and curved paths
 constexpr int kDraws = 20;
-constexpr double kMostBeyond_s = 60;  ///< longest extension until the path to the stand is free
+constexpr double kMostBeyond_s = 60;  ///< until the path to the stand is free
 
-/// Inertia about each joint's axis of all that it carries, in the standing pose.
+/// Inertia of all that a joint carries, in the standing pose.
 std::vector<double> inertias_kg_m2(const model::Entity& entity, const Angles& stand) {
   const std::vector<model::Transform> pose =
       sim::link_poses(entity, model::Transform::Identity(), stand);
@@ -58,7 +58,7 @@ class Drawing {
     }
   }
 
-  /// Draws the pose that the joints reach `way_s` from now.
+  /// The pose in `way_s` from now.
   const Angles& next(double way_s) {
     double share = 1;
     for (int draw = 0; draw < kDraws; ++draw, share *= 0.85) {
@@ -70,7 +70,7 @@ class Drawing {
     return at_;
   }
 
-  /// Reports whether the path to the stand is free.
+  /// Is the path to the stand free?
   bool may_stand() const { return free(stand_); }
   const Angles& stand() { return at_ = stand_; }
 
@@ -128,14 +128,14 @@ class Drawing {
   }
 
   const model::Entity& entity_;
-  model::Entity wide_;  ///< thicker links, except those that would then meet in the stand
+  model::Entity wide_;  ///< thicker links, except those that meet in the stand
   sim::Random random_;
   Angles stand_, at_;
   std::vector<double> inertia_;
 };
 
-/// Joints that do not stop at a frame's end leave the straight path, on which no links meet. Where
-/// links then meet, makes them stop.
+/// Joints that do not stop at a frame's end leave the checked straight path; where links then meet,
+/// they must stop.
 void straighten(const model::Entity& entity, action::Document& document) {
   constexpr double kStop_s = 0.02;
   const Params params = model::make_params(entity);
@@ -165,7 +165,7 @@ action::Document motion_of(const model::Entity& entity, const MotionOptions& opt
   document.note = "All joints to and fro, the trunk in a stand: verp identify";
   Drawing drawing(entity, options);
   double time_s = 0;
-  bool last = false;  // ends in the stand, to which an action returns by itself
+  bool last = false;  // an action returns to the stand by itself
   for (std::size_t i = 0; !last && time_s < options.length_s + kMostBeyond_s; ++i) {
     const bool slow = i % std::size(kWay_s) == std::size(kWay_s) - 1;
     last = time_s >= options.length_s && slow && drawing.may_stand();

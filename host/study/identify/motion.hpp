@@ -11,8 +11,8 @@ struct MotionOptions {
   std::uint64_t seed = 1;
 };
 
-/// An action that excites all servos while the trunk hangs in a stand. All joints move at once, far
-/// and near, slowly and at their speed limits, and rest in between. No links meet.
+/// Excites all servos while the trunk hangs in a stand. Joints move together, far and near, slowly
+/// and at their limits, and rest in between. No links meet.
 action::Document motion_of(const model::Entity& entity, const MotionOptions& options = {});
 
 }  // namespace verp::identify

@@ -9,7 +9,7 @@ using model::Servo;
 
 constexpr double kRevMin = 9.549296585513721;  ///< 1 rad/s in rev/min
 
-/// Sets the sum of two parts and keeps their ratio.
+/// Sets the sum and keeps the ratio.
 void share(double& one, double& other, double sum) {
   const double before = one + other;
   one = before > 0 ? one * sum / before : sum;

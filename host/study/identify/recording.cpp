@@ -13,19 +13,19 @@ namespace verp::identify {
 namespace {
 
 constexpr double kGravity_m_s2 = 9.80665;
-/// A stand gives way a little; a walking robot turns ten times as fast.
+/// A stand gives way; a walking robot turns ten times as fast.
 constexpr double kMostTurn_rad_s = 0.15;
-/// As a share of the weight; larger than the error of the feet's force sensors.
+/// Share of the weight; above the force sensors' error.
 constexpr double kMostBorne = 0.15;
 
-/// The servos have full torque and follow the controller's goals.
+/// Full torque, and goals from the controller.
 bool drives(const Outputs& outputs) {
   using safety::Mode;
   const auto mode = static_cast<Mode>(outputs.mode);
   return mode == Mode::kStanding || mode == Mode::kWalking || mode == Mode::kActing;
 }
 
-/// Evidence from the other sensors on how the robot was held.
+/// How the robot was held, by the other sensors.
 class Surroundings {
  public:
   explicit Surroundings(const Params& params) : params_(params) {}
@@ -91,7 +91,7 @@ class Surroundings {
     }
     ++turned_;
   }
-  /// Spread about the mean; the mean is the gyro's bias.
+  /// About the mean, which is the gyro's bias.
   double turning() const {
     if (turned_ == 0) return 0;
     const double mean = (rate_ / turned_).squaredNorm();

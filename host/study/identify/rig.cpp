@@ -13,7 +13,7 @@ sim::TwinOptions twin_options(const Recording& recording, const RigOptions& opti
   sim::TwinOptions twin;
   twin.seed = options.seed;
   twin.imperfections = sim::Imperfections::none();
-  twin.imperfections.encoder = true;  // encoder noise frees the gears from static friction
+  twin.imperfections.encoder = true;  // noise frees the gears from static friction
   twin.cradle = sim::Cradle::kNone;
   twin.supply_v = options.supply_v;
   const Recording::Tick& first = recording.ticks.front();
@@ -23,7 +23,7 @@ sim::TwinOptions twin_options(const Recording& recording, const RigOptions& opti
   return twin;
 }
 
-/// The settings that the controller writes into a servo when it arms it.
+/// As the controller sets a servo when it arms it.
 sim::ServoSetpoint armed(const Params& params, int joint, std::int32_t goal) {
   const ServoProfile& profile = params.servo[params.joint[joint].servo_profile % kServoProfiles];
   sim::ServoSetpoint setpoint;
@@ -36,7 +36,7 @@ sim::ServoSetpoint armed(const Params& params, int joint, std::int32_t goal) {
   return setpoint;
 }
 
-/// Removes all that does not move the joints.
+/// Removes parts that move no joint.
 model::Entity bare(model::Entity entity) {
   for (model::Node& node : entity.nodes) {
     node.collisions.clear();
@@ -50,9 +50,8 @@ model::Entity bare(model::Entity entity) {
   return entity;
 }
 
-/// Fixes the trunk: hangs the limbs from the world, where the trunk holds them. ODE then solves
-/// each limb alone, which is several times faster. (ODE takes the angle as given only if the trunk
-/// is not rotated.)
+/// Hangs the limbs from the world instead of the trunk: ODE then solves each limb alone, several
+/// times faster. (ODE takes the angle as given only if the trunk is not rotated.)
 void hang_from_world(const sim::Body& body) {
   const dBodyID trunk = body.ode_body(0);
   std::vector<dJointID> hinges;
@@ -106,7 +105,7 @@ Simulated simulate(const model::Entity& with_shapes, const Recording& recording,
   const TickTimes times = times_of(recording.params);
   const auto goal_us = static_cast<std::uint64_t>(std::max<std::int64_t>(
       0, std::int64_t{times.goal_us} + options.delay_steps * std::int64_t{kStep_us}));
-  // `told` lags behind the tick being read: a tick's goals arrive while later ticks are read.
+  // A tick's goals arrive while later ticks are read.
   std::size_t told = 0;
   double volts = 0;
   const auto tell_until = [&](std::uint64_t time_us) {
@@ -130,7 +129,7 @@ Simulated simulate(const model::Entity& with_shapes, const Recording& recording,
     for (std::size_t j = 0; j < joints; ++j) {
       const int joint = static_cast<int>(j);
       const model::Servo& servo = entity.joints[j].servo;
-      // The register holds the angle of the servo loop's last round.
+      // The register holds the last round's angle.
       const double age_s = servo.loop_s + servo.loop_delay_s;
       const double rad = robot.body().angle_rad(joint) - robot.body().rate_rad_s(joint) * age_s;
       out.count[j][i] = static_cast<float>(sim::count_of(servo, rad));

@@ -7,14 +7,14 @@
 
 namespace verp::identify {
 
-/// Joint positions of a twin at the ticks of a recording, with the same goals.
+/// A twin's joint positions at a recording's ticks.
 struct Simulated {
-  std::vector<std::vector<float>> count;  ///< [joint][tick], neither rounded nor noisy
+  std::vector<std::vector<float>> count;  ///< [joint][tick], not rounded, no noise
   double supply_v = 0;                    ///< mean
 };
 
 struct RigOptions {
-  int delay_steps = 0;  ///< extra, from a goal's arrival to its servo; >= kLeastDelay
+  int delay_steps = 0;  ///< extra, from arrival to servo; >= kLeastDelay
   double supply_v = 12;
   std::size_t ticks = 0;  ///< from the recording's first
   std::uint64_t seed = 1;
@@ -27,7 +27,7 @@ inline constexpr int kLeastDelay = -1;
 Simulated simulate(const model::Entity& entity, const Recording& recording,
                    const RigOptions& options);
 
-/// Times after a tick's start at which the servos are read and have their goals, us.
+/// Us after a tick's start, when servos are read and have their goals.
 struct TickTimes {
   std::uint32_t read_us = 0, goal_us = 0;
 };

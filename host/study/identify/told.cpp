@@ -6,9 +6,9 @@
 namespace verp::identify {
 namespace {
 
-constexpr double kTold = 0.2;  ///< largest relative error of a determined number
-/// A quarter of a physics step. In slow motion, friction sticks and slips, and the computed error
-/// is too small: it was 400 us for a delay that was wrong by 1,800.
+constexpr double kTold = 0.2;  ///< relative error of a determined number
+/// A quarter of a physics step; in slow stick-slip motion the computed error is too small: 400 us
+/// for a delay that was wrong by 1,800.
 constexpr double kToldDelay_us = 250;
 
 }  // namespace

@@ -6,9 +6,8 @@
 
 namespace verp::identify {
 
-/// Writes the numbers into the robot's file. A <verp:servo_type> of the file's own is changed in
-/// place; for a shipped type, a type derived from it is added and its servos refer to that. All
-/// other bytes stay. Returns the type's name in the file. Throws model::LoadError.
+/// Changes the file's own <verp:servo_type>; for a shipped type it adds a derived one and lets the
+/// servos refer to that. All other bytes stay. Returns the type's name. Throws model::LoadError.
 std::string write(const Result& result, const std::filesystem::path& robot_file,
                   const std::filesystem::path& file, const std::string& source);
 

@@ -12,7 +12,7 @@ namespace {
 
 using files::csv_field;
 
-constexpr int kTransition = 2;  // gait::Phase::kTransition: the paper's steady phase
+constexpr int kTransition = 2;  // the paper's steady phase
 
 std::string number(double value) {
   return fmt::format(",{:.6g}", value);
@@ -125,13 +125,13 @@ std::vector<double> speed_m_s(const Run& run) {
 
 Range last_steady_cycle(const Run& run) {
   const auto& s = run.samples;
-  std::vector<std::size_t> starts;  // where the state wraps from 15 to 0 in steady walking
+  std::vector<std::size_t> starts;  // state 15 to 0 in steady walking
   for (std::size_t i = 1; i < s.size(); ++i) {
     if (s[i].phase == kTransition && s[i - 1].phase == kTransition && s[i].state < s[i - 1].state) {
       starts.push_back(i);
     }
   }
-  // Skips the last cycles, whose strides are already shorter.
+  // The last cycles' strides are shorter.
   const std::size_t keep_off = starts.size() > 16 ? 8 : 1;
   if (starts.size() < keep_off + 1) return {};
   const std::size_t at = starts.size() - keep_off - 1;

@@ -12,16 +12,16 @@ std::string bias_csv(const Run& run);
 std::string torque_csv(const Run& run);
 std::string sweep_csv(const Run& run);
 
-/// Mean and peak torque use of a joint during the walk.
+/// A joint's mean and peak during the walk.
 struct TorqueUse {
   double mean = 0, peak = 0;
 };
 std::vector<TorqueUse> torque_use(const Run& run);
 
-/// Forward speed, averaged over one cycle around each sample.
+/// Averaged over one cycle around each sample.
 std::vector<double> speed_m_s(const Run& run);
 
-/// Samples [first, last) of the last whole steady cycle; empty (first == last) if there is none.
+/// Samples [first, last) of the last whole steady cycle; first == last: none.
 struct Range {
   std::size_t first = 0, last = 0;
   bool empty() const { return first == last; }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 
-/// Maps "l_knee" and "left_knee" to "knee"; each side has its own panel.
+/// "l_knee" and "left_knee" give "knee".
 std::string without_side(const std::string& name) {
   for (const char* prefix : {"l_", "r_", "left_", "right_"}) {
     if (name.starts_with(prefix)) return plain(name.substr(std::string(prefix).size()));
@@ -19,8 +19,8 @@ std::string without_side(const std::string& name) {
   return plain(name);
 }
 
-/// Body and ankles relative to the cycle's first body pose, in mm: forward, left, and height above
-/// each one's lowest point in the cycle.
+/// Relative to the cycle's first body pose, mm: forward, left, height above each one's lowest
+/// point.
 class CycleFrame {
  public:
   CycleFrame(const Run& run, const Range& cycle) : origin_(run.samples[cycle.first]) {

@@ -7,12 +7,12 @@
 #include "host/study/report/page.hpp"
 #include "host/study/report/run_data.hpp"
 
-/// Parts of pages: no scripts, no external files, light and dark.
+/// Pages without scripts and external files, light and dark.
 namespace verp::report {
 
 std::string escape(const std::string& text);
 
-/// A complete page: `body` is HTML, the rest is text.
+/// `body` is HTML, the rest text.
 std::string document(const std::string& title, const std::string& verdict, bool good,
                      const std::string& body);
 
@@ -23,15 +23,15 @@ std::string section(const Picture& picture);
 struct Sections {
   std::string body;
   bool poster = false;  ///< the file was written
-  std::string note;     ///< why pictures are missing; empty: all are there
+  std::string note;     ///< empty: all are there
 };
-/// Also writes the first plot to the file `poster`. Throws ReportError.
+/// The first plot also becomes the file `poster`. Throws ReportError.
 Sections draw_sections(const std::vector<Plot>& plots, const std::filesystem::path& poster);
 
-/// A section with a table of rows(); empty without rows.
+/// A section; empty without rows.
 std::string table(const char* title, const std::string& rows);
 
-/// Table rows of names and values; `link`: the name is a file beside the page.
+/// Names and values; `link`: the name is a file beside the page.
 std::string rows(const std::vector<std::pair<std::string, std::string>>& entries, bool link);
 
 }  // namespace verp::report

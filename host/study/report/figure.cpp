@@ -22,8 +22,7 @@ double head_radius_mm(const std::vector<Point3>& line) {
   return 800 * std::hypot(centre.x_m - neck.x_m, centre.z_m - neck.z_m);
 }
 
-/// The 16 states from the side: distance along the walk from the cycle's first body pose, and
-/// height.
+/// From the side: way from the cycle's first body pose, and height.
 class Strip {
  public:
   Strip(const Run& run, const Range& cycle) : run_(run), first_(run.samples[cycle.first]) {
@@ -54,7 +53,7 @@ class Strip {
   }
   double x_mm(int i, const Point2& point) const { return x_mm(i, Point3{point.x_m, point.y_m, 0}); }
 
-  /// Lines of one kind and side in all states, as a gnuplot data block.
+  /// One kind and side in all states, a gnuplot data block.
   std::string lines(const char* name, Kind kind, int side) const {
     Data data(name);
     for (int i = 0; i < kStates; ++i) {

@@ -18,13 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kLeastSpace_bytes = 4096;  // one block; with less, a file may be truncated
+constexpr std::uintmax_t kLeastSpace_bytes = 4096;  // less may truncate a file
 
-/// Runs gnuplot with its output in files. Returns an error text, or nothing.
+/// Output goes to files; returns an error, or nothing.
 std::string run_gnuplot(const std::string& argument, const std::string& out,
                         const std::string& error) {
   try {
-    // Ctrl-C ends a run in order, and its report must still be written.
+    // After Ctrl-C the report must still be written.
     process::Child gnuplot({.words = {"gnuplot", argument},
                             .input = {},
                             .output = {.file = out},
@@ -44,8 +44,7 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
   }
 }
 
-/// gnuplot's SVG has colours as #rrggbb (fills), rgb(%3d, %3d, %3d) (lines) or rgb(%d,%d,%d)
-/// (text).
+/// gnuplot has #rrggbb (fills), rgb(%3d, %3d, %3d) (lines) and rgb(%d,%d,%d) (text).
 void replace_colour(std::string& svg, const Colour& colour) {
   const std::string variable = fmt::format("var({})", colour.variable);
   const unsigned long rgb = std::strtoul(colour.sentinel + 1, nullptr, 16);
@@ -74,7 +73,7 @@ std::optional<std::string> output_of(const std::string& script, std::string& err
   }
   const fs::path out = scratch.path() / "plot", problems = scratch.path() / "stderr";
   const std::string failure = run_gnuplot(file.string(), out.string(), problems.string());
-  // On a full disk gnuplot reports nothing and may exit with 0.
+  // On a full disk gnuplot may exit with 0.
   std::error_code error_code;
   if (fs::space(scratch.path(), error_code).available < kLeastSpace_bytes && !error_code) {
     throw files::FileError(scratch.path().parent_path().string() +
@@ -129,7 +128,7 @@ std::optional<std::string> draw_svg(const Plot& plot, std::string& error) {
 }
 
 std::optional<std::string> draw_png(const Plot& plot, std::string& error) {
-  constexpr double kScale = 1.3;  // sharp on a dense screen, in a small file
+  constexpr double kScale = 1.3;  // sharp on a dense screen
   const std::string terminal = fmt::format(
       "set terminal pngcairo size {:.0f},{:.0f} enhanced rounded font 'sans,10' fontscale {} "
       "linewidth {} "

@@ -12,8 +12,8 @@ struct Picture {
   std::string svg;
 };
 
-/// The complete page: no scripts, no external files, light and dark. `note` is shown if pictures
-/// are missing; `files` lists the files beside the page and their contents.
+/// No scripts, no external files, light and dark. `note`: why pictures are missing; `files`: those
+/// beside the page, with their contents.
 std::string page(const Run& run, const std::vector<Picture>& pictures, const std::string& note,
                  const std::vector<std::pair<std::string, std::string>>& files);
 

@@ -2,8 +2,8 @@
 
 namespace verp::report {
 
-/// A colour of the page. Plots use its sentinel, a colour that occurs nowhere else. gnuplot.cpp
-/// replaces it by the CSS variable, so that one picture suits light and dark pages.
+/// Plots use a sentinel colour, which gnuplot.cpp replaces by the CSS variable: one picture suits
+/// light and dark pages.
 struct Colour {
   const char* variable;
   const char* sentinel;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// A dashed mean line, appended to a `plot` command; empty without a mean.
+/// Appended to a `plot` command; empty without a mean.
 std::string mean_line(const std::optional<double>& mean, const char* title) {
   if (!mean) return "";
   return fmt::format(
@@ -24,7 +24,7 @@ std::string mean_line(const std::optional<double>& mean, const char* title) {
       *mean, kInk, title);
 }
 
-/// The extent of a plot from above, limited in its aspect ratio.
+/// From above, with a limited aspect ratio.
 class Extent2 {
  public:
   void add(const Point2& point) {
@@ -69,7 +69,7 @@ Plot bias_plot(const Run& run) {
           script};
 }
 
-/// Both axes have the same scale.
+/// Both axes have equal scales.
 Plot way_plot(const Run& run) {
   Data asked("asked"), walked("walked"), start("start");
   const std::size_t stride = std::max<std::size_t>(1, run.samples.size() / 1500);
@@ -135,8 +135,7 @@ Plot torque_plot(const Run& run) {
 
 Plot sweep_plot(const Run& run) {
   Data data("sweep");
-  for (const SweepRow& row :
-       run.sweep) {  // at the reached step, which may be shorter than requested
+  for (const SweepRow& row : run.sweep) {  // reached, not requested
     for (const SweepWalk& walk : {row.with, row.without}) {
       data.cell(100 * walk.step_m.value_or(row.step_m)).cell(walk.bias_mm.value_or(kNone));
     }

@@ -4,10 +4,10 @@
 
 #include "host/study/report/run_data.hpp"
 
-/// The plots of a report as gnuplot scripts that contain their data.
+/// gnuplot scripts that contain their data.
 namespace verp::report {
 
-/// The script plots to stdout; the caller sets the terminal, `width` by `height` pixels.
+/// Plots to stdout; the caller sets the terminal, `width` by `height` pixels.
 struct Plot {
   std::string id, title, caption;
   int width = 0, height = 0;

@@ -20,12 +20,12 @@ constexpr std::string_view kNames[] = {"index.html", "samples.csv", "zmp_bias.cs
                                        "torque.csv", "asked.csv",   "sweep.csv",
                                        "walk.png",   "map.png",     "map.csv"};
 
-/// The pictures of a run. If one fails, the others and the numbers remain.
+/// If one picture fails, the rest remains.
 struct Drawing {
   std::vector<Picture> pictures;
   std::string png;
   std::size_t wanted = 0, failed = 0;
-  std::string problem;  ///< of the first failure; usually all have the same cause
+  std::string problem;  ///< of the first failure
 };
 
 Drawing draw_all(const Run& run) {

@@ -7,7 +7,7 @@ namespace verp::report {
 
 std::string preamble();
 
-/// A named data block with rows of numbers; NaN for missing ones.
+/// A named data block; NaN: missing.
 class Data {
  public:
   explicit Data(const char* name) { text_ = fmt::format("${} << EOD\n", name); }
@@ -24,7 +24,7 @@ class Data {
     text_ += '"' + value + "\" ";
     return *this;
   }
-  /// On an empty row also ends a line of points; two empty rows end a data set.
+  /// An empty row ends a line of points, two end a data set.
   Data& end_row() {
     text_ += '\n';
     return *this;
@@ -35,12 +35,12 @@ class Data {
   std::string text_;
 };
 
-/// A part of a plot: data blocks, and their plot commands.
+/// Data blocks and plot commands.
 struct Panel {
   std::string data, commands;
 };
 
-/// Keeps the characters that gnuplot accepts inside quotes, because joint names come from a file.
+/// Joint names come from a file: keeps what gnuplot accepts in quotes.
 std::string plain(const std::string& name);
 
 }  // namespace verp::report

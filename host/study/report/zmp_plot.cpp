@@ -15,7 +15,7 @@ void add_outline(const std::array<Point2, 4>& corners, Data& data) {
   data.end_row().end_row();
 }
 
-/// One outline per stance, in its middle, where the sole is flat.
+/// In mid-stance, where the sole is flat.
 bool shows_sole(const Run& run, const Range& range, std::size_t i, std::size_t foot) {
   const Sample& s = run.samples[i];
   const bool first = i == range.first || run.samples[i - 1].state != s.state;
@@ -89,7 +89,7 @@ Panel zmp_panel(const Run& run, const Range& range) {
 }
 
 Plot zmp_plot(const Run& run, const Range& cycle) {
-  // Three cycles show the pattern, and the soles remain distinct.
+  // Three cycles show the pattern.
   const std::size_t more = 2 * (cycle.last - cycle.first);
   const Panel panel = zmp_panel(run, {cycle.first - std::min(cycle.first, more), cycle.last});
   return {

@@ -5,7 +5,7 @@
 
 namespace verp::report {
 
-/// From above: the supporting soles, the body, and the planned and measured ZMP.
+/// From above: supporting soles, body, planned and measured ZMP.
 Panel zmp_panel(const Run& run, const Range& range);
 
 Plot zmp_plot(const Run& run, const Range& cycle);

@@ -12,7 +12,7 @@
 namespace verp::signals {
 namespace {
 
-/// Units by suffix of a field's name, the longest suffix first.
+/// By suffix, the longest first.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kUnits{
     {{"_tenth_mm_s", "0.1 mm/s"},
      {"_tenth_mrad", "0.1 mrad"},
@@ -49,7 +49,7 @@ bool fits(std::string_view pattern, std::string_view name) {
     } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n])) {
       ++p, ++n;
     } else if (star != std::string_view::npos) {
-      p = star + 1, n = ++from;  // the star matches one more character
+      p = star + 1, n = ++from;  // one more character
     } else {
       return false;
     }

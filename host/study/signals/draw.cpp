@@ -12,13 +12,13 @@ namespace verp::signals {
 namespace {
 
 constexpr int kWidth_px = 1100, kHead_px = 36, kFoot_px = 52, kGap_px = 16;
-constexpr int kPanel_px = 190, kLowPanel_px = 110;  // low panels are for numbers with few values
-constexpr int kLeft_px = 82, kLetter_px = 8;        // signal names are on the right
+constexpr int kPanel_px = 190, kLowPanel_px = 110;  // low: few values
+constexpr int kLeft_px = 82, kLetter_px = 8;        // names are on the right
 constexpr std::size_t kMostPoints = 4000;
 
 using Places = std::vector<std::size_t>;
 
-/// Quotes text in single quotes; names come from files.
+/// Single quotes; names come from files.
 std::string quoted(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -57,7 +57,7 @@ std::string lines_of(const Series& series, const Places& panel) {
   return "plot" + out + "\n";
 }
 
-/// A phase or mode gets whole tics and a margin; without known values the range is 0 to 1.
+/// Phases get whole tics; without known values 0 to 1.
 std::string range_of(const Series& series, const Places& panel) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const std::size_t i : panel) {
@@ -89,7 +89,7 @@ report::Plot plot_of(const Series& series, const std::string& title) {
   std::size_t letters = 0;
   for (const Column& column : series.columns) letters = std::max(letters, column.name.size());
   const int right_px = std::min(kWidth_px / 2, 60 + kLetter_px * static_cast<int>(letters));
-  // A single tick still needs a range.
+  // A single tick needs a range, too.
   const double from_s = series.time_s.front(), to_s = std::max(series.time_s.back(), from_s + 1e-3);
   script += fmt::format(
       "set encoding utf8\nset multiplot\nset xrange [{:.9g}:{:.9g}]\nset lmargin at screen {:.5f}\n"

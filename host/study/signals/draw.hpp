@@ -6,7 +6,7 @@
 
 namespace verp::signals {
 
-/// Signals over time, in panels (panels_of()) on one time axis. Joint goals are dashed.
+/// Panels (panels_of()) on one time axis; joint goals are dashed.
 report::Plot plot_of(const Series& series, const std::string& title);
 
 }  // namespace verp::signals

@@ -7,11 +7,11 @@
 namespace verp::signals {
 namespace {
 
-constexpr std::size_t kMostLines = 6;  // the number of colours in the palette
+constexpr std::size_t kMostLines = 6;  // colours of the palette
 
 using Places = std::vector<std::size_t>;
 
-/// Groups columns by `key`, in order of first appearance.
+/// In order of first appearance.
 template <class Key>
 std::vector<Places> grouped(const std::vector<Column>& columns, const Places& places, Key key) {
   std::vector<Places> groups;
@@ -52,7 +52,7 @@ Line thinned(const std::vector<double>& time_s, const std::vector<double>& numbe
   const std::size_t few = (2 * all + most_points - 1) / most_points;
   for (std::size_t from = 0; from < all; from += few) {
     const std::size_t to = std::min(from + few, all);
-    std::size_t low = from, high = from;  // an unknown number is kept
+    std::size_t low = from, high = from;  // unknown numbers are kept
     for (std::size_t i = from; i < to; ++i) {
       if (std::isnan(numbers[low]) || numbers[i] < numbers[low]) low = i;
       if (std::isnan(numbers[high]) || numbers[i] > numbers[high]) high = i;

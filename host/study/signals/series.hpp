@@ -13,19 +13,18 @@ struct Series {
   std::vector<std::vector<double>> numbers;  ///< by column, then time; NaN: unknown
 };
 
-/// Columns `chosen` of a table that has not read a row yet, at those ticks.
+/// The table has not read a row yet.
 Series series_of(Table& table, const std::vector<std::size_t>& chosen, record::TickRange ticks);
 
-/// Fewer points of a line: the minimum and maximum of each group, so that the drawn line looks the
-/// same.
+/// Minimum and maximum of each group: the drawn line looks the same.
 struct Line {
   std::vector<double> time_s, numbers;
 };
 Line thinned(const std::vector<double>& time_s, const std::vector<double>& numbers,
              std::size_t most_points);
 
-/// Indices of columns per axis. An axis has one unit and no more lines than can be distinguished;
-/// measured and goal of a joint share one. A number without a unit has its own.
+/// Columns per axis: one unit, few lines; measured and goal of a joint share one. A number without
+/// a unit has its own axis.
 std::vector<std::vector<std::size_t>> panels_of(const std::vector<Column>& columns);
 
 }  // namespace verp::signals

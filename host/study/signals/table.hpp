@@ -11,23 +11,22 @@
 
 namespace verp::signals {
 
-/// A trace's columns, tick by tick: measurements and the controller's results.
+/// Measurements and the controller's results, tick by tick.
 class Table {
  public:
-  /// The trace must outlive the table. `states` adds every field of the controller's State.
+  /// The trace must outlive it.
   Table(const record::Trace& trace, bool states);
 
   const std::vector<Column>& columns() const { return columns_; }
-  /// Moves to the next tick, at first to the first one. False: there is none.
+  /// False: no further tick.
   bool next();
   std::size_t index() const { return index_; }  ///< in Trace::ticks
   double time_s() const { return numbers_[1]; }
-  /// Value in this tick. NaN: unknown.
+  /// NaN: unknown.
   double number(std::size_t column) const;
-  /// For CSV: nothing if unknown.
+  /// CSV: empty if unknown.
   void append_text(std::size_t column, std::string& out) const;
-  /// The tick from which this program decides differently from the recording one; the controller's
-  /// results are unknown from there.
+  /// From here on this program decides differently from the recording one, and results are unknown.
   const std::optional<std::uint32_t>& other_from() const { return other_from_; }
 
  private:
@@ -41,8 +40,8 @@ class Table {
   record::Decisions decisions_;
   record::JointSpeeds speeds_;
   std::size_t index_ = 0, next_ = 0;
-  std::vector<double> numbers_;                             ///< of this tick, without State
-  std::vector<std::pair<std::string, std::string>> state_;  ///< fields of State; empty: unknown
+  std::vector<double> numbers_;                             ///< of this tick
+  std::vector<std::pair<std::string, std::string>> state_;  ///< empty: unknown
   std::optional<std::uint32_t> other_from_;
 };
 

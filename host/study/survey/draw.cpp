@@ -17,12 +17,12 @@ namespace {
 using report::kInk, report::kSoft;
 using End = StabilityCell::End;
 
-constexpr double kHalfCell = 0.47;  // leaves a gap between cells
+constexpr double kHalfCell = 0.47;  // a gap between cells
 
-/// Draws all cells in one colour, in one shade for each distinct value; there are few values.
+/// One shade for each value; values are few.
 std::string push_cells(const PushMap& map, const PushOptions& options,
                        const std::vector<double>& rows, std::string& plot) {
-  constexpr double kLightest = 0.06, kDarkest = 0.62;  // numbers on the cells stay legible
+  constexpr double kLightest = 0.06, kDarkest = 0.62;  // keeps numbers legible
   std::map<double, std::vector<const PushCell*>> shades;
   double most_n_s = options.step_n_s;
   for (const PushCell& cell : map.cells) {
@@ -59,7 +59,7 @@ std::string circle(const char* name, double radius) {
   return data.text();
 }
 
-/// A value of each direction as a closed curve; ahead is up.
+/// A closed curve by direction; ahead is up.
 std::string ring(const char* name, const std::vector<Side>& sides, double Side::*value) {
   report::Data data(name);
   for (std::size_t i = 0; i <= sides.size() && !sides.empty(); ++i) {

@@ -5,12 +5,11 @@
 
 namespace verp::survey {
 
-/// push_plot(): phase by direction. push_rose(): seen from above, direction by direction, over all
-/// phases.
+/// push_plot(): phase by direction. push_rose(): directions from above, over all phases.
 report::Plot push_plot(const PushMap& map, const PushOptions& options);
 report::Plot push_rose(const PushMap& map, const PushOptions& options);
 
-/// Both planes: how each requested velocity ended, and the velocity that was reached.
+/// How each requested velocity ended, and the reached one.
 report::Plot stability_plot(const StabilityMap& map, const StabilityOptions& options);
 
 }  // namespace verp::survey

@@ -13,18 +13,18 @@ struct Page {
   std::string title, verdict;
   bool good = true;
   std::vector<report::Fact> facts;
-  std::vector<report::Plot> plots;  ///< the first one is also written as map.png
+  std::vector<report::Plot> plots;  ///< the first is also map.png
   std::string csv;                  ///< map.csv
   std::vector<std::pair<std::string, std::string>> changed, provenance;
 };
 
 struct WrittenPage {
   std::filesystem::path page;
-  std::string note;  ///< why pictures are missing; empty: all are there
+  std::string note;  ///< empty: all are there
 };
 
-/// Writes index.html, map.png and map.csv into `folder`, created if missing, and removes the files
-/// of an earlier walk report there. Throws report::ReportError.
+/// Writes index.html, map.png and map.csv; creates `folder`; removes an earlier walk report there.
+/// Throws report::ReportError.
 WrittenPage write_page(const std::filesystem::path& folder, const Page& page);
 
 }  // namespace verp::survey

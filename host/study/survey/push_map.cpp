@@ -15,15 +15,15 @@ namespace {
 
 constexpr double kTurn_rad = 2 * std::numbers::pi;
 
-constexpr double kStandUp_s = 15;  // time to rise and to calibrate the gyro
+constexpr double kStandUp_s = 15;  // to rise and calibrate the gyro
 
-/// The pushed cycle, found in the run without a push. A standing robot has one of length 0.
+/// From a run without push; length 0 for a standing robot.
 struct Cycle {
   double begins_s = 0, cycle_s = 0;
-  std::vector<double> heading_rad;  ///< of the body, at each phase
+  std::vector<double> heading_rad;  ///< at each phase
 };
 
-/// Finds the first steady cycle after settle_s in a walk without a push.
+/// First steady cycle after settle_s.
 class CycleFinder {
  public:
   CycleFinder(const PushOptions& options, double cycle_s) : options_(options) {
@@ -54,11 +54,10 @@ class CycleFinder {
   bool begun_ = false;
 };
 
-/// Orders the robot to stand, and nothing else.
 class Stander {
  public:
   app::OperatorOrder operator()(std::uint32_t tick) {
-    constexpr std::uint32_t kEvery = 10;  // ticks; well inside Tuning's command_hold_s
+    constexpr std::uint32_t kEvery = 10;  // well inside command_hold_s
     app::OperatorOrder order;
     order.command.request = Request::kStand;
     if (tick % kEvery == 0) ++sequence_, order.flags = kCommandFresh;
@@ -74,7 +73,7 @@ bool stands(const session::Tick& tick) {
   return tick.outputs->mode == static_cast<std::uint8_t>(safety::Mode::kStanding);
 }
 
-/// The moment at which the robot has stood for settle_s without a push; nullopt: interrupted.
+/// It has stood for settle_s; nullopt: interrupted.
 std::optional<Cycle> stance_of(session::WalkPlan plan, const sim::WorldOptions& world,
                                const PushOptions& options, const Watch& watch) {
   Cycle found;
@@ -130,7 +129,7 @@ class Map {
   PushMap run(const Cycle& cycle) {
     for (int phase = 0; phase < options_.phases; ++phase) {
       for (int direction = 0; direction < options_.directions; ++direction) {
-        // From -180 to 180 degrees: negative is right, positive left.
+        // -180 to 180 degrees: positive is left.
         const double turn_rad =
             std::remainder(kTurn_rad * direction / options_.directions, kTurn_rad);
         map_.cells.push_back({phase,

@@ -12,7 +12,7 @@ namespace {
 
 using End = StabilityCell::End;
 
-/// Mean velocity of the body under steady orders, over whole cycles so that sway cancels.
+/// Over whole cycles: sway cancels.
 class SpeedMeter {
  public:
   SpeedMeter(double begin_s, double end_s, double cycle_s)
@@ -37,7 +37,6 @@ class SpeedMeter {
     const double s = std::max(time_s_, 1e-9);
     return {sum_.vx_m_s / s, sum_.vy_m_s / s, sum_.wz_rad_s / s};
   }
-  /// It saw all cycles up to its end.
   bool whole() const { return end_s_ > begin_s_ && time_s_ > end_s_ - begin_s_ - 0.05; }
 
  private:
@@ -53,7 +52,7 @@ void walk(session::WalkPlan plan, const sim::WorldOptions& world, const Stabilit
   const session::FeasibleVelocity followed =
       session::within_servo_speed(plan.params, command_of(cell.asked));
   plan.velocity = followed.velocity;
-  plan.asked.reset();  // the map reports both velocities
+  plan.asked.reset();  // the map has both velocities
   SpeedMeter meter(options.begin_s, plan.walk_s - kStopping_s,
                    static_cast<double>(plan.params.tuning.gait.cycle_s));
   session::Hooks hooks;
@@ -63,7 +62,7 @@ void walk(session::WalkPlan plan, const sim::WorldOptions& world, const Stabilit
   if (workers.stopped()) return;
   cell.ordered = velocity_of(plan.velocity);
   cell.why = result.failure;
-  const bool short_of_it = meter.whole();  // it walked to the end, but less far than requested
+  const bool short_of_it = meter.whole();  // to the end, but too short
   cell.end = result.metrics.fallen    ? End::kFell
              : result.failure.empty() ? End::kWalked
              : short_of_it            ? End::kShort

@@ -10,7 +10,7 @@
 
 namespace verp::survey {
 
-/// Velocity of the body, in the axes of its heading.
+/// In the axes of its heading.
 struct Velocity {
   double vx_m_s = 0, vy_m_s = 0, wz_rad_s = 0;
 };
@@ -18,27 +18,25 @@ Command command_of(const Velocity& velocity);
 Velocity velocity_of(const Command& command);
 
 struct StabilityOptions {
-  int on_axis = 9;     ///< velocities on each axis; odd, so that 0 is among them
+  int on_axis = 9;     ///< odd, with 0 among them
   Velocity most;       ///< ends of the grid
-  double begin_s = 3;  ///< of gait, before the measurement starts
+  double begin_s = 3;  ///< gait before measuring
 };
 
-/// The longest steps and turns that the robot's tuning admits. Sideways is half as much, because
-/// only every other step may be long.
+/// Longest steps and turns of the tuning. Sideways is half: only every other step may be long.
 Velocity most_of(const Params& params);
 
-/// Gait length that covers begin_s, one measured cycle and the gait's end.
+/// Covers begin_s, one cycle and the gait's end.
 double least_walk_s(const StabilityOptions& options, double cycle_s);
 
 struct StabilityCell {
   enum class End { kNone, kWalked, kShort, kFell, kFailed } end = End::kNone;
-  Velocity asked, ordered;  ///< ordered: what the servos can follow of `asked`
-  std::optional<Velocity>
-      walked;       ///< mean over whole cycles; nullopt: it fell before, or did not walk
-  std::string why;  ///< failure of a walk that is not good
+  Velocity asked, ordered;         ///< ordered: for the servos
+  std::optional<Velocity> walked;  ///< over whole cycles; nullopt: it fell before, or did not walk
+  std::string why;                 ///< of a failed walk
 };
 
-/// "walked" and so on; kNone: the survey was interrupted first.
+/// kNone: interrupted first.
 const char* name_of(StabilityCell::End end);
 
 struct StabilityMap {
@@ -46,8 +44,7 @@ struct StabilityMap {
   bool interrupted = false;
 };
 
-/// Walks the plan's robot at each velocity of two planes; ignores the plan's own velocity. Throws
-/// what session::walk() throws.
+/// At each velocity of two planes, not the plan's. Throws what session::walk() throws.
 StabilityMap stability_map(const session::WalkPlan& plan, const sim::WorldOptions& world,
                            const StabilityOptions& options, const Watch& watch);
 

@@ -22,8 +22,8 @@ char letter(End end) {
   return kLetters[static_cast<int>(end)];
 }
 
-/// One plane as letters, seen from above. Rows: vx, the fastest first. Columns: the other velocity,
-/// left first.
+/// A plane from above, as letters. Rows: vx, the fastest first. Columns: the other velocity, left
+/// first.
 std::string plane_text(const StabilityMap& map, const StabilityOptions& options, const char* title,
                        double Velocity::*across, double Velocity::*other) {
   std::string out = fmt::format("  {}\n", title);
@@ -104,7 +104,7 @@ std::string text_of(const PushMap& map, const PushOptions& options) {
   out += fmt::format("  pushed to   weakest at phase   middle   strongest   phases 0 to {}\n",
                      options.phases - 1);
   for (const Side& side : sides_of(map)) {
-    // The degree sign has two bytes but one column.
+    // The degree sign has two bytes, one column.
     const std::string name = direction_name(side.direction_rad);
     const std::size_t width = name.find("°") == name.npos ? 12 : 13;
     out += fmt::format("  {:<{}}{:>7.1f} {:>8}   {:>6.1f}   {:>9.1f}  ", name, width,

@@ -7,13 +7,13 @@
 
 namespace verp::survey {
 
-/// Survived impulses of one direction, over the phases that were tried.
+/// One direction, over the tried phases.
 struct Side {
   double direction_rad = 0;
   double least_n_s = 0, middle_n_s = 0, most_n_s = 0;
-  int least_phase = 0;  ///< the first of the weakest phases
+  int least_phase = 0;  ///< first of the weakest
 };
-/// In the map's order; directions without a tried phase are left out.
+/// In the map's order, without untried directions.
 std::vector<Side> sides_of(const PushMap& map);
 
 /// "ahead", "90° left", "back".

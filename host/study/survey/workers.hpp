@@ -8,26 +8,25 @@
 
 namespace verp::survey {
 
-/// Callbacks for the caller of a survey; members may be empty. The caller's thread calls both about
-/// 20 times a second.
+/// Members may be empty; called in the caller's thread, about 20 times a second.
 struct Watch {
-  std::function<bool()> interrupted = {};          ///< true: stop, and return what is done
+  std::function<bool()> interrupted = {};          ///< true: return what is done
   std::function<void(double share)> went_on = {};  ///< share done, 0..1
   unsigned threads = 0;                            ///< 0: one per core
 };
 
-/// Runs pieces of work on several threads. The result does not depend on their number: each walk is
-/// its own session, with the same bits whatever runs beside it.
+/// Pieces of work on several threads. Their number does not matter: each walk is its own session
+/// with the same bits.
 class Workers {
  public:
-  /// `steps`: total number of calls to step_done().
+  /// `steps`: calls to step_done().
   Workers(const Watch& watch, std::size_t steps) : watch_(watch), steps_(steps) {}
 
-  /// Calls work(0) to work(pieces - 1), each once, in any order, and returns when all are done. If
-  /// one throws, starts no other and rethrows to the caller.
+  /// Calls work(0) to work(pieces - 1), once each, in any order. If one throws, starts no other and
+  /// rethrows.
   void run(std::size_t pieces, const std::function<void(std::size_t piece)>& work);
 
-  /// For the pieces: the caller interrupted, or another piece failed.
+  /// Interrupted, or another piece failed.
   bool stopped() const { return stopped_; }
   void step_done() { ++done_; }
 

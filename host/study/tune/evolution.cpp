@@ -31,8 +31,8 @@ const std::vector<Eigen::VectorXd>& Evolution::ask() {
   return points_;
 }
 
-// Names as in the paper: c_s, d_s for the step; c_c, c_1, c_mu for the spread, all multiplied by (n
-// + 2) / 3, which a diagonal spread allows.
+// The paper's names: c_s, d_s for the step; c_c, c_1, c_mu for the spread, times (n + 2) / 3, which
+// a diagonal spread allows.
 void Evolution::tell(const std::vector<double>& costs) {
   std::vector<std::size_t> order(costs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

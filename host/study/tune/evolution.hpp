@@ -6,24 +6,21 @@
 
 namespace verp::tune {
 
-/// Minimises a cost whose evaluations are expensive and noisy: an evolution strategy with a step
-/// size per coordinate (sep-CMA-ES, Ros and Hansen 2008). Pure: equal seeds and costs give equal
-/// points.
+/// Minimises a noisy, expensive cost: an evolution strategy with a step size per coordinate
+/// (sep-CMA-ES, Ros and Hansen 2008). Pure: equal seeds and costs give equal points.
 class Evolution {
  public:
-  /// Coordinates are scaled so that `step` is a good first step in each.
+  /// Scaled so that `step` is a good first step everywhere.
   Evolution(const Eigen::VectorXd& start, double step, int children, std::uint64_t seed);
 
-  /// The next points to try.
   const std::vector<Eigen::VectorXd>& ask();
-  /// Costs of those points, in their order.
+  /// Costs of ask()'s points, in their order.
   void tell(const std::vector<double>& costs);
-  /// Weighted mean of the best points.
   const Eigen::VectorXd& mean() const { return mean_; }
 
  private:
-  Eigen::VectorXd mean_, spread_, path_, step_path_;  ///< spread: variance of each coordinate
-  Eigen::VectorXd weights_;                           ///< of the better half, best first
+  Eigen::VectorXd mean_, spread_, path_, step_path_;  ///< spread: variances
+  Eigen::VectorXd weights_;                           ///< better half, best first
   double step_, effective_;
   std::vector<Eigen::VectorXd> points_;
   std::mt19937_64 random_;

@@ -23,8 +23,8 @@ void let_steps_be(Tuning& tuning, double speed_m_s) {
 
 }  // namespace
 
-// Lengths scale with the hip's height and times with its root, as in a pendulum. The steps are
-// those with which generic21 (0.147 m) was tuned.
+// Lengths scale with the hip's height, times with its root, as in a pendulum. Steps are those for
+// generic21 (0.147 m).
 Space::Space(const Params& params) : start_(params.tuning) {
   constexpr double kHip_m = 0.147;
   const double size = static_cast<double>(start_.gait.hip_height_m) / kHip_m;

@@ -9,7 +9,7 @@ namespace verp::tune {
 struct Trial {
   double walk_s = 10;
   std::uint64_t seed = 1;
-  bool varied = false;  ///< a random robot of this kind, drawn from the seed
+  bool varied = false;  ///< drawn from the seed
 };
 
 Command ahead(double speed_m_s);
@@ -17,11 +17,11 @@ Command ahead(double speed_m_s);
 session::WalkResult try_walk(session::WalkPlan plan, const sim::WorldOptions& world,
                              const Trial& trial, const std::function<bool()>& interrupted);
 
-/// Cost of a walk: its ZMP bias in mm, plus penalties for deviations from the requested speed and
-/// heading. A fall costs far more, the less the longer the robot walked.
+/// ZMP bias in mm, plus penalties for wrong speed and heading. A fall costs far more, less after a
+/// longer walk.
 double cost_of(const session::WalkResult& result, double walk_s, double speed_m_s);
 
-/// Above the cost of any walk: the legs cannot reach this stance.
+/// Above any walk: the legs cannot reach this stance.
 inline constexpr double kCannotStand = 1000;
 
 }  // namespace verp::tune

@@ -17,10 +17,10 @@
 namespace verp::tune {
 namespace {
 
-constexpr double kLimit_s = 10;     // length of the walk that finds a robot's limit
+constexpr double kLimit_s = 10;     // walk that finds a limit
 constexpr double kFirstStep = 0.5;  // in steps of each axis
-constexpr double kOffSpeed = 0.1;   // largest speed error of a walk that counts
-// The robot of the file and a random one; a gait must work on both.
+constexpr double kOffSpeed = 0.1;   // of a walk that counts
+// The file's robot and a random one.
 constexpr int kTrials = 2;
 
 class Judge {
@@ -31,7 +31,7 @@ class Judge {
     plan_.velocity = ahead(options.speed_m_s);
   }
 
-  /// Mean cost of each Tuning over the walks of the search.
+  /// Per Tuning, over the search's walks.
   std::vector<double> costs(const std::vector<Tuning>& tunings, std::uint64_t seed) {
     std::vector<double> costs(tunings.size() * kTrials, kCannotStand);
     walk(costs.size(), [&](std::size_t piece, const std::function<bool()>& stop) {
@@ -112,13 +112,13 @@ std::vector<Number> changes(const Tuning& was, const Tuning& now) {
   return numbers;
 }
 
-/// More robots walk, or as many and with less bias.
+/// Or as many, with less bias.
 bool better(const Check& one, const Check& other) {
   if (one.walked != other.walked) return one.walked > other.walked;
   return one.bias_mm.value_or(1e9) < other.bias_mm.value_or(1e9);
 }
 
-/// Rounds to three digits, because people read and change the file.
+/// Rounds to three digits, for people.
 Tuning rounded(const Tuning& from, const Tuning& was) {
   Tuning to = from;
   for (const Number& each : changes(was, from))

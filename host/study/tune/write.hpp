@@ -6,7 +6,7 @@
 
 namespace verp::tune {
 
-/// Copies the robot's file with these numbers as its <verp:tuning>. All other bytes stay. Throws
+/// The robot's file with these numbers as <verp:tuning>. All other bytes stay. Throws
 /// model::LoadError.
 void write(const std::vector<Number>& numbers, const std::filesystem::path& robot_file,
            const std::filesystem::path& file);
