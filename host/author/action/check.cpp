@@ -18,10 +18,9 @@ namespace {
 constexpr int kMostTicks = 60000;
 constexpr int kCollideEvery = 5;  // ticks
 constexpr double kMostTorqueShare = 0.9;
-constexpr double kLeastMargin_m = -0.005;  // the balance can take this much
-constexpr double kTouch_m = 1e-3;          // depth of contact between resting links
+constexpr double kLeastMargin_m = -0.005;  // the balance can take this
+constexpr double kTouch_m = 1e-3;          // contact depth of resting links
 
-/// Makes the frame's condition come true.
 void fulfil(Condition condition, PlayerIn& in) {
   constexpr float kQuarter = 1.5707963F;
   const bool lies = condition >= Condition::kLiesFront && condition <= Condition::kLiesRight;
@@ -128,7 +127,7 @@ class Checker {
   }
 
   void look_at_weight(const PlayerOut& out) {
-    if (out.stance == Stance::kNone) return;  // the ground forces are unknown
+    if (out.stance == Stance::kNone) return;  // unknown ground forces
     const Torques torques = support_.torques(out);
     FrameCheck& now = result_.frames.back();
     for (int j = 0; j < params_.joint_count; ++j) {
@@ -144,7 +143,7 @@ class Checker {
 
   void look_at_zmp(const PlayerOut& out) {
     const bool carried = out.stance != Stance::kNone;
-    // Accelerations need the same reference foot.
+    // Accelerations need one reference foot.
     const int reference = out.carry[0] >= 0.5F ? 0 : 1;
     if (!carried || reference != reference_) com_m_.clear();
     reference_ = reference;

@@ -5,27 +5,27 @@
 #include "host/author/action/compile.hpp"
 #include "host/robot/model/entity.hpp"
 
-/// Checks an action without a world. The core's player runs it from the stand and back; conditions
-/// come true and feet that carry do not move.
+/// Checks an action without a world: the core's player runs it from the stand and back; conditions
+/// come true, and carrying feet do not move.
 namespace verp::action {
 
-/// One key frame: the way to it and its rest.
+/// The way to a key frame, and its rest.
 struct FrameCheck {
-  int frame = 0;  ///< in the library; -1: the way back to the stand
+  int frame = 0;  ///< -1: the way back to the stand
   int line = 0;   ///< in the action's file
   double begin_s = 0, end_s = 0;
   double speed_share = 0;   ///< of the joint's limit
   std::string fastest;      ///< the joint of speed_share
-  double torque_share = 0;  ///< of stall torque, from weight alone
+  double torque_share = 0;  ///< of stall torque, weight alone
   std::string hardest;
   double zmp_margin_m = 1;  ///< inside the carrying soles; 1: none carries
-  std::string problem;      ///< the first broken bound; may be empty
+  std::string problem;      ///< first broken bound; or empty
 };
 
 struct ActionCheck {
   std::vector<FrameCheck> frames;  ///< in the order played
   double length_s = 0;
-  bool whole = true;  ///< false: stopped at length_s, before the end
+  bool whole = true;  ///< false: stopped at length_s
   const FrameCheck* first_bad() const;
 };
 

@@ -13,7 +13,6 @@
 namespace verp::action {
 namespace {
 
-/// Compiles a robot's actions into one image.
 class Maker {
  public:
   Maker(const Params& params, std::vector<Document> documents)
@@ -96,7 +95,7 @@ class Maker {
     }
   }
 
-  /// The document with the action's frames: itself or the mirrored one.
+  /// Itself or the mirrored one.
   const Document& source(std::size_t index) const {
     const Document& document = documents_[index];
     return document.mirror ? documents_[find(document, *document.mirror)] : document;
@@ -164,10 +163,10 @@ class Maker {
     return drafts_[i].frames[global - first_[i]];
   }
 
-  /// Repeats end by their count; other links must not form a loop.
+  /// Repeats end by their count; other links must not loop.
   void refuse_endless() {
     for (std::size_t i = 0; i < documents_.size(); ++i) {
-      std::map<std::uint16_t, int> seen;  // 1: on the current path, 2: ends
+      std::map<std::uint16_t, int> seen;  // 1: on this path, 2: ends
       if (ends(static_cast<std::uint16_t>(first_[i]), seen)) continue;
       const Document& document = source(i);
       const int line = document.link ? document.link->line : document.line;
@@ -187,8 +186,7 @@ class Maker {
     return good;
   }
 
-  /// A joint passes key frames while it keeps its direction; it rests where it turns back, holds or
-  /// waits.
+  /// A joint passes frames in its direction; it rests where it turns back, holds or waits.
   void set_speeds(std::size_t index) {
     Draft& own = drafts_[index];
     for (std::size_t i = 0; i < own.frames.size(); ++i) {
@@ -206,7 +204,7 @@ class Maker {
         const double in = (goal(now) - before) / (1e-3 * now.time_ms);
         const double out = (goal(next) - goal(now)) / (1e-3 * next.time_ms);
         if (in * out <= 0) continue;
-        // The harmonic mean is below twice the slower side: no overshoot.
+        // Below twice the slower side: no overshoot.
         const double speed = 2 * in * out / (in + out);
         now.speed_mrad_s[j] =
             static_cast<std::int16_t>(std::clamp(std::lround(1e3 * speed), -32767L, 32767L));
@@ -250,7 +248,7 @@ class Maker {
   Poser poser_;
   std::vector<Document> documents_;
   std::vector<Draft> drafts_;
-  std::vector<std::size_t> first_;  ///< first frame of each action
+  std::vector<std::size_t> first_;  ///< of each action
 };
 
 }  // namespace

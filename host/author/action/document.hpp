@@ -9,10 +9,10 @@
 #include "common/action/library.hpp"
 #include "host/robot/model/load_error.hpp"
 
-/// An action as in its file (host/guide/actions.md), not yet compiled.
+/// As in its file (host/guide/actions.md), not compiled.
 namespace verp::action {
 
-/// Displacement of the body or a sole from the stand, relative to the ground.
+/// Body or sole from the stand, relative to the ground.
 struct Offset {
   std::array<double, 3> move_m{};
   std::array<double, 3> turn_rad{};  ///< roll, pitch, yaw
@@ -20,7 +20,7 @@ struct Offset {
 
 struct JointGoal {
   std::string joint;
-  bool from_stand = false;  ///< `angle_rad` is relative to the joint's stand angle
+  bool from_stand = false;  ///< relative to the stand angle
   double angle_rad = 0;
   int line = 0;
 };
@@ -31,7 +31,7 @@ struct Stiffness {
   int line = 0;
 };
 
-/// A destination: a frame of this action by its label, another action, or the stand.
+/// A frame of this action by label, another action, or the stand.
 struct Target {
   std::string name;
   int line = 0;
@@ -75,17 +75,17 @@ struct Document {
   std::filesystem::path file;
   int line = 0;  ///< line of its name
   std::string name, note;
-  std::optional<Target> mirror;  ///< the action to mirror; `frames` is then empty
+  std::optional<Target> mirror;  ///< then `frames` is empty
   std::vector<FrameText> frames;
   std::optional<PageText> page;  ///< with a page, `frames` may be empty
-  std::optional<Target> link;    ///< follows the last frame; empty: the stand
+  std::optional<Target> link;    ///< after the last frame; empty: the stand
 };
 
 /// Throws LoadError with file and line.
 Document read_document(const std::filesystem::path& file);
 Document parse_document(const std::filesystem::path& file, const std::string& text);
 
-/// Text that parse_document() reads back as the same document.
+/// Text that parse_document() reads back.
 std::string text_of(const Document& document);
 
 /// As in files: "left_foot".

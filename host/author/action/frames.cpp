@@ -17,7 +17,7 @@ int joint_of(const Params& params, const Document& document, int line, const std
   return joint_named(params, name, document.file, line);
 }
 
-/// State that passes from one frame to the next.
+/// From one frame to the next.
 struct Held {
   bool smooth = true, balance = true;
   Stance stance = Stance::kBoth;
@@ -66,8 +66,7 @@ void take(const Params& params, const Poser& poser, const Document& document, co
   }
 }
 
-/// One motor turns a follower and its driver. Refuses a frame that separates them; sets followers
-/// from drivers.
+/// Sets followers from drivers; refuses a frame that separates them.
 void couple(const Params& params, const Document& document, const FrameText& text,
             Angles& angle_rad) {
   constexpr float kApart_rad = 0.01F, kDegrees = 57.29578F;
@@ -143,7 +142,7 @@ std::uint32_t leg_joints(const Params& params) {
   return joints;
 }
 
-/// Joints with a goal in any frame; they stand before their first goal.
+/// In any frame; before its first goal a joint stands.
 std::uint32_t joints_of(const Params& params, const Document& document) {
   std::uint32_t joints = 0;
   for (const FrameText& text : document.frames) {
@@ -173,7 +172,7 @@ std::string other_side(std::string name) {
   return name;
 }
 
-/// Reflection at y = 0 turns a rotation about (x, y, z) into one about (-x, y, -z).
+/// At y = 0 a rotation about (x, y, z) turns into one about (-x, y, -z).
 float sign_of(const JointParams& joint, const JointParams& other) {
   const float along =
       -joint.axis.x * other.axis.x + joint.axis.y * other.axis.y - joint.axis.z * other.axis.z;

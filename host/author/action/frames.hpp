@@ -5,21 +5,21 @@
 
 namespace verp::action {
 
-/// Key frames of one action. Links inside it count from 0; links to others are set later.
+/// Key frames of one action; links count from 0, links to others are set later.
 struct Draft {
   std::vector<Frame> frames;
   std::vector<int> line;
   std::vector<Angles> angle_rad;  ///< not rounded
 };
 
-/// Throws LoadError that lists the joints.
+/// Throws LoadError with the joints.
 int joint_named(const Params& params, const std::string& name, const std::filesystem::path& file,
                 int line);
 
-/// For an action that mirrors no other. Throws LoadError.
+/// It mirrors no other. Throws LoadError.
 Draft draft(const Params& params, const Poser& poser, const Document& document);
 
-/// Exchanges left and right. Throws LoadError for an asymmetric robot.
+/// Throws LoadError for an asymmetric robot.
 Draft mirrored(const Params& params, const Draft& draft, const Document& document);
 
 }  // namespace verp::action

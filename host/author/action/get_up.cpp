@@ -11,7 +11,7 @@ namespace verp::action {
 void take_get_up_actions(session::WalkPlan& plan) {
   const auto folder = folder_of(plan.entity.file);
   const CompiledActions made = make_library(plan.params, read_folder(folder));
-  // A robot that starts on one side needs no action for the other side.
+  // A start on one side needs no action for the other.
   const sim::Lies lies = plan.twin.lies;
   if (lies != sim::Lies::kBack) made.require(kGetUpFront, folder.string());
   if (lies != sim::Lies::kFront) made.require(kGetUpBack, folder.string());

@@ -5,12 +5,11 @@
 
 namespace verp::action {
 
-/// Loads the robot's actions into a plan that may get up. Throws LoadError if the action for a pose
-/// in which the robot may lie is missing.
+/// For a plan that may get up. Throws LoadError if a needed action is missing.
 void take_get_up_actions(session::WalkPlan& plan);
 
-/// Loads the actions also into a plan without get-ups, if the robot can get up from both sides.
-/// Returns the error of its action files; empty: none.
+/// Also without get-ups, if the robot can get up from both sides. Returns its files' error, or
+/// empty.
 std::string offer_get_up_actions(session::WalkPlan& plan);
 
 }  // namespace verp::action

@@ -5,14 +5,14 @@ namespace verp::action {
 
 struct PlayedAction {
   session::WalkResult run;
-  double action_s = 0;  ///< from the stand to the stand
-  double asked_s = 0;   ///< simulated time of the request
-  /// Way since the request, in the heading then: x ahead, y to the left.
+  double action_s = 0;  ///< stand to stand
+  double asked_s = 0;   ///< simulated
+  /// Since the request, in the heading then: x ahead, y left.
   sim::Vec2 went_m = sim::Vec2::Zero();
   double turned_rad = 0;  ///< to the left
 };
 
-/// Plays action `number` of plan.actions on the twin, and runs the caller's `hooks`.
+/// On the twin, with the caller's `hooks`.
 PlayedAction play(session::WalkPlan plan, int number, session::Hooks hooks,
                   session::Options options);
 

@@ -7,11 +7,10 @@
 
 namespace verp::action {
 
-/// Lets the robot stand, requests an action once it stands quietly, and waits until it stands
-/// again.
+/// Stands, requests an action once the robot is quiet, and waits until it stands again.
 class PlayOperator {
  public:
-  /// Time limits for the stand or the action's begin, and for the action.
+  /// For the stand or the action's begin, and for the action.
   static constexpr double kStandUp_s = 15, kMostAction_s = 300;
 
   PlayOperator(int number, double period_s) : number_(number), period_s_(period_s) {}

@@ -16,7 +16,7 @@ Pose moved(const Pose& pose, const Offset& offset) {
   return {turn * pose.rotation, pose.position_m + by_m};
 }
 
-/// The gait's stand with the centre of mass over the soles.
+/// With the centre of mass over the soles.
 gait::Posture settled(const Params& params) {
   constexpr int kGlideTicks = 2000;
   gait::GaitState state;
@@ -87,7 +87,7 @@ std::string Poser::bend(const Legs& legs, Angles& angle_rad) const {
   std::string trouble = solve(body, sole, angle_rad);
   if (!legs.over_left) return trouble;
   const auto left = static_cast<float>(*legs.over_left);
-  // Use the soles of the stand, even for a foot that swings.
+  // The stand's soles, even for a foot that swings.
   const Vec3 target_m = left * middle_m(sole_of(stand_.foot[0]), 0) +
                         (1 - left) * middle_m(sole_of(stand_.foot[1]), 1);
   for (int i = 0; i < kMostTurns; ++i) {

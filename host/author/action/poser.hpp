@@ -10,7 +10,6 @@ namespace verp::action {
 
 using Angles = std::array<float, kMaxJoints>;
 
-/// The stand, and leg angles for a moved body or soles.
 class Poser {
  public:
   explicit Poser(const Params& params);
@@ -20,9 +19,9 @@ class Poser {
 
   struct Legs {
     Offset body, foot[kFeet];
-    std::optional<double> over_left;  ///< moves the body until the centre of mass is there
+    std::optional<double> over_left;  ///< moves the body for the centre of mass
   };
-  /// Sets only the leg joints of `angle_rad`. Returns empty or the reason.
+  /// Only the legs' angles. Returns empty or the reason.
   std::string bend(const Legs& legs, Angles& angle_rad) const;
 
  private:

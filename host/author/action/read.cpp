@@ -72,7 +72,7 @@ class Reader {
  private:
   static Target target(Words& words, const char* what) { return {words.word(what), words.line()}; }
 
-  /// "page N", then lines of "OFFSET HEX"; other bytes are those of a blank page.
+  /// "page N", then lines of "OFFSET HEX"; other bytes are a blank page's.
   void page(Words& words) {
     if (words.take("page")) {
       const double number = words.number("the page", 0, kPages - 1);

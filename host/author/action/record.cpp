@@ -20,7 +20,7 @@ double in_ms(double time_s) {
   return 1e-3 * std::round(1e3 * time_s);
 }
 
-/// Planned leg poses at the time of the goals.
+/// At the time of the goals.
 void add_planned(const Params& params, const State& state, FrameText& frame) {
   const gait::Posture posture = gait::posture_before(params, state.tuning, state.gait, 0);
   for (int side = 0; side < kFeet; ++side) {
@@ -48,7 +48,7 @@ Document record_joints(const record::Trace& trace, const RecordOptions& options)
     if (time_s < options.from_s - 1e-9 || time_s > options.to_s + 1e-9) continue;
     if (time_s - last_s < options.every_s - 1e-9) continue;
     FrameText frame;
-    // The first frame takes 1 s: the pose before it is unknown.
+    // The pose before is unknown: 1 s.
     frame.time_s = document.frames.empty() ? 1.0 : in_ms(time_s - last_s);
     last_s = time_s;
     for (int j = 0; j < trace.params.joint_count; ++j) {
@@ -58,7 +58,7 @@ Document record_joints(const record::Trace& trace, const RecordOptions& options)
           {joint.name, false,
            static_cast<double>(math::clamp(angle, joint.lower_rad, joint.upper_rad)), 0});
     }
-    if (document.frames.empty()) frame.balance = false;  // measured angles already contain the sag
+    if (document.frames.empty()) frame.balance = false;  // measured angles contain the sag
     document.frames.push_back(frame);
   }
   if (document.frames.empty())
@@ -66,8 +66,8 @@ Document record_joints(const record::Trace& trace, const RecordOptions& options)
   return document;
 }
 
-/// The 16th state comes before the next cycle's first by less than a frame's minimum. The longest
-/// frame gives the added time back, so that the cycle keeps its length.
+/// The last state may be less than a frame's minimum before the next cycle; the longest frame gives
+/// the added time back.
 void give_back(double excess_s, std::vector<FrameText>& frames) {
   const auto longest =
       std::max_element(frames.begin() + 1, frames.end(),

@@ -4,7 +4,6 @@
 #include "host/author/action/document.hpp"
 #include "host/trace/record/trace.hpp"
 
-/// Makes actions from a recorded trace.
 namespace verp::action {
 
 struct RecordOptions {
@@ -13,12 +12,12 @@ struct RecordOptions {
   double every_s = 0.1;
 };
 
-/// One key frame of measured joints per interval, also for a robot moved by hand. Throws LoadError
+/// One frame of measured joints per interval, also for a robot moved by hand. Throws LoadError
 /// without a tick in that time.
 Document record_joints(const record::Trace& trace, const RecordOptions& options);
 
-/// The 16 planned states of one cycle in the middle of a walk, without balance and gravity
-/// corrections, `cycles` times. Throws LoadError without a whole cycle.
+/// A mid-walk cycle's 16 planned states, without balance and gravity corrections, `cycles` times.
+/// Throws LoadError without a whole cycle.
 Document record_gait(const record::Trace& trace, const std::string& name, int cycles);
 
 }  // namespace verp::action

@@ -22,7 +22,6 @@ int sum_of(const Page& page) {
   return std::accumulate(page.begin(), page.end(), 0) & 0xFF;
 }
 
-/// A valid name that is not taken.
 std::string name_of_page(const Page& page, std::size_t number, std::set<std::string>& taken) {
   std::string name;
   for (std::size_t i = kName; i < kNameBytes && page[i] != 0; ++i) {
@@ -69,9 +68,9 @@ FrameText frame_of_page(const Params& params, const Page& page, std::size_t step
   const std::size_t at = step_at(step);
   frame.time_s = std::max(1e-3 * kLeastFrame_ms, page[at + kTime] * unit_s(page));
   frame.hold_s = page[at + kPause] * unit_s(page);
-  if (step == 0) frame.balance = false;  // its goals are servo angles under load
+  if (step == 0) frame.balance = false;  // servo angles under load
   Stiffness off{{}, 0, 0}, on{{}, 100, 0};
-  bool was_off = false;  // torque stays off until a frame turns it on
+  bool was_off = false;  // until a frame turns torque on
   for (int j = 0; j < params.joint_count; ++j) {
     const JointParams& joint = params.joint[j];
     if (joint.servo_id >= kPageServos) continue;

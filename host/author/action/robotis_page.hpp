@@ -5,8 +5,7 @@
 
 #include "host/author/action/robotis.hpp"
 
-/// Layout of a page of 512 bytes. Source: ROBOTIS' framework, op3_action_module's
-/// action_file_define.h.
+/// A page of 512 bytes. Source: ROBOTIS' framework, op3_action_module's action_file_define.h.
 namespace verp::action {
 
 namespace page {

@@ -8,7 +8,6 @@
 #include "common/model/counts.hpp"
 #include "host/author/action/robotis_page.hpp"
 
-// Writes changes of actions to pages; refuses what a page cannot hold.
 namespace verp::action {
 namespace {
 
@@ -33,7 +32,7 @@ const JointGoal* goal_in(const FrameText& frame, const char* joint) {
   return found == frame.goals.end() ? nullptr : &*found;
 }
 
-using Percents = std::map<std::string, int>;  // of joints below full stiffness
+using Percents = std::map<std::string, int>;  // joints below full stiffness
 
 Percents stiffness_after(const Params& params, const FrameText& frame, Percents slack) {
   for (const Stiffness& each : frame.stiffness) {
@@ -56,7 +55,7 @@ int torque_bit(const Document& document, const FrameText& frame, const Percents&
          "give 0 or 100");
 }
 
-/// Writes values that differ from the page's.
+/// Writes only values that differ.
 void put_frame(const Params& params, const Document& document, const FrameText& frame,
                const Percents& slack, std::size_t step, Page& page) {
   constexpr double kSame_s = 1e-5, kSame_rad = 1e-5;
@@ -118,7 +117,7 @@ void refuse_unknown_joints(const Params& params, const Document& document) {
 
 using Numbers = std::map<std::string, int>;  // pages by action name
 
-/// A target's page; 0: there is none.
+/// 0: no page.
 int page_of(const Document& document, const std::optional<Target>& target, const Numbers& numbers) {
   if (!target) return 0;
   const auto found = numbers.find(target->name);
@@ -127,7 +126,6 @@ int page_of(const Document& document, const std::optional<Target>& target, const
          "a page's link and exit are actions that are written with it, on pages 1 to 255");
 }
 
-/// Where an action goes on.
 struct Way {
   int next = 0, exit = 0, repeat = 1;
   auto operator<=>(const Way&) const = default;
@@ -171,7 +169,7 @@ std::vector<Percents> stiffness_of(const Params& params, const Document& documen
   return all;
 }
 
-/// Throws for content that would be lost silently.
+/// Content would be lost silently.
 void refuse_what_is_lost(const Params& params, const Document& document, const Document& kept) {
   if (document.page && document.name != kept.name) {
     refuse(document, document.line,
@@ -230,7 +228,7 @@ class Kept {
 
 using Placed = std::vector<std::pair<int, const Document*>>;
 
-/// Writes links, exits and repeats that changed.
+/// Changed links, exits and repeats.
 void put_ways(const Params& params, const Placed& placed, const Numbers& numbers, Motion& motion) {
   const Kept before(params, motion);
   for (const auto& [number, document] : placed) {

@@ -70,7 +70,7 @@ void require_ready(ActionPort& port, const SendOptions& options) {
   fail(port, why + "; it keeps those that it has");
 }
 
-/// Repeats the offer until there is a place. A chip does not answer while it erases.
+/// Until there is a place; a chip that erases does not answer.
 Offer offer_until(ActionPort& port, std::span<const std::uint8_t> image,
                   const SendOptions& options) {
   const Clock::time_point end = in(options.place_s);
@@ -89,7 +89,7 @@ Offer offer_until(ActionPort& port, std::span<const std::uint8_t> image,
   }
 }
 
-/// The controller does not answer while it writes.
+/// It does not answer while it writes.
 bool has_started_anew(ActionPort& port) {
   try {
     return static_cast<WindowState>(port.number("window_state")) != WindowState::kAccepted;

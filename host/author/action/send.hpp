@@ -11,28 +11,26 @@
 #include "host/twin/bus/client.hpp"
 #include "host/twin/can/client.hpp"
 
-/// Sends actions to a running controller.
 namespace verp::action {
 
 enum class Offer {
-  kTaken,    ///< completely; it restarts with them
+  kTaken,    ///< it restarts with them
   kStopped,  ///< by the caller
-  kNotYet,   ///< it makes a place: offer again
+  kNotYet,   ///< offer again
   kRefused,  ///< window_fault has the reason
   kArmed,    ///< its servos hold torque
   kNoRoom,   ///< for so many bytes
-  kNotHere,  ///< it takes no actions in this way
+  kNotHere,  ///< not in this way
 };
 
-/// A controller's registers and the path for its actions. Throws bus::DeviceError if it does not
-/// answer.
+/// Throws bus::DeviceError without an answer.
 class ActionPort {
  public:
   virtual ~ActionPort() = default;
   /// The controller's name in errors.
   virtual std::string place() const = 0;
   virtual std::vector<std::uint8_t> read(const char* name) = 0;
-  /// Sends the image from its beginning. `went(bytes)` gets the progress; false stops.
+  /// From the beginning. `went(bytes)`: progress; false stops.
   virtual Offer offer(std::span<const std::uint8_t> image,
                       const std::function<bool(std::size_t)>& went) = 0;
 
@@ -44,11 +42,11 @@ class ActionPort {
   }
 };
 
-/// The registers' window at the operator's port of device `id`.
+/// By the registers' window of device `id`.
 std::unique_ptr<ActionPort> serial_action_port(const link::Endpoint& endpoint, std::uint8_t id);
 /// The caller keeps the client.
 std::unique_ptr<ActionPort> serial_action_port(bus::Client& client, std::uint8_t id);
-/// Node `id` on its robot's CAN bus: object 5002h.
+/// Node `id` on its robot's bus: object 5002h.
 std::unique_ptr<ActionPort> can_action_port(const link::Endpoint& endpoint, std::uint8_t id);
 std::unique_ptr<ActionPort> can_action_port(can::Client& client, std::uint8_t id);
 
@@ -56,13 +54,12 @@ struct SendOptions {
   std::string robot;
   int actions = 0;  ///< their number
   std::function<bool(std::size_t)> went = [](std::size_t) { return true; };
-  double place_s = 15;  ///< time limit to make a place
-  double start_s = 30;  ///< time limit to write and restart
+  double place_s = 15;  ///< to make a place
+  double start_s = 30;  ///< to write and restart
 };
 
-/// Sends the image (kept_image()) and waits until the controller restarts with it. False: `went`
-/// stopped it. Throws bus::DeviceError; unless that says otherwise, the controller keeps its old
-/// actions.
+/// Sends kept_image() and waits for the restart. False: `went` stopped it. Throws bus::DeviceError;
+/// unless it says otherwise, the old actions stay.
 bool send_actions(ActionPort& port, std::span<const std::uint8_t> image,
                   const SendOptions& options);
 

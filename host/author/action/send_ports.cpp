@@ -16,8 +16,8 @@ namespace {
 
 namespace table = dxl::controller;
 
-/// A flash programs a block in a few milliseconds. An erase, during which the chip is silent, takes
-/// two seconds or four (hal/contract/flash_pages.hpp); a request is made three times.
+/// An erase silences the chip for two seconds or four (hal/contract/flash_pages.hpp); a request is
+/// made three times.
 constexpr std::uint32_t kPatience_us = 2'000'000;
 constexpr auto kKind = static_cast<std::uint8_t>(app::ImageKind::kActions);
 
@@ -48,7 +48,7 @@ class SerialPort : public ActionPort {
  private:
   Offer send(std::span<const std::uint8_t> image, const std::function<bool(std::size_t)>& went) {
     write("window_kind", {kKind});
-    // The last block first: a controller with too little room says so before it erases.
+    // The last block first: too little room shows before an erase.
     const std::size_t last = (image.size() - 1) / table::kWindowBytes * table::kWindowBytes;
     put(image, last);
     for (std::size_t at = 0; at < last; at += table::kWindowBytes) {
@@ -67,7 +67,7 @@ class SerialPort : public ActionPort {
   void write(const char* name, const std::vector<std::uint8_t>& bytes) {
     client_.write(id_, table::find(name)->address, bytes);
   }
-  /// The answer may be lost, and the repeat may reach a controller that has restarted.
+  /// The repeat of a lost answer may reach a restarted controller.
   void commit() {
     try {
       write("window_commit", {1});

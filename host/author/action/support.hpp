@@ -8,16 +8,16 @@ namespace verp::action {
 
 using Torques = std::array<double, kMaxJoints>;
 
-/// Support of a robot in an action; carrying soles stand level.
+/// Carrying soles stand level.
 class Support {
  public:
   explicit Support(const Params& params) : params_(params) {}
 
-  /// Joint torques against weight alone, N m.
+  /// Against weight alone, N m.
   Torques torques(const PlayerOut& now) const;
-  /// The centre of mass relative to a standing sole: x and y in its frame, z above it.
+  /// Relative to a standing sole: x and y in its frame, z above.
   Vec3 com_over(const PlayerOut& now, int side) const;
-  /// Distance of a ground point, in that sole's frame, inside the carrying soles; negative outside.
+  /// Inside the carrying soles, for a point in that sole's frame; negative outside.
   double margin_m(const PlayerOut& now, int side, const Vec2& point_m) const;
 
  private:

@@ -8,7 +8,7 @@
 
 namespace verp::action {
 
-/// One line of a file, word by word; errors name file and line.
+/// A line, word by word; errors name file and line.
 class Words {
  public:
   Words(const std::filesystem::path& file, int line, const std::string& text)

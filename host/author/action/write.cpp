@@ -65,7 +65,7 @@ std::string text_of(const FrameText& frame) {
   return text + "\n";
 }
 
-/// Lines of 32 bytes, without those of a blank page.
+/// 32 bytes each, without a blank page's.
 std::string text_of(const PageText& page) {
   constexpr std::size_t kLine = 32;
   const Page blank = blank_page();

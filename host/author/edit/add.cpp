@@ -14,7 +14,7 @@ namespace {
 
 struct KindWords {
   const char *name, *words;
-  bool plain;  ///< a verp: element whose attributes are the words
+  bool plain;  ///< verp: element with the words as attributes
 };
 constexpr KindWords kKinds[] = {
     {"link", "name mass shape size radius length centre on", false},
@@ -57,7 +57,6 @@ std::string indented(const std::string& block) {
   return out;
 }
 
-/// Reads each word of a new part where it is needed.
 class Adder {
  public:
   Adder(const Document& document, const KindWords& kind, const Words& words)
@@ -104,7 +103,7 @@ class Adder {
   }
   std::string xml(const std::string& name) const { return escaped(word(name)); }
 
-  /// Numbers, separated by blanks or commas.
+  /// Separated by blanks or commas.
   std::string row(const std::string& name, std::size_t count,
                   const std::string& fallback = "") const {
     std::string text = fallback.empty() ? word(name) : word(name, fallback);
@@ -152,7 +151,7 @@ class Adder {
     return word_ == "z" ? "0 0 1" : row("axis", 3);
   }
 
-  /// With a mass, adds its link too.
+  /// With a mass, its link too.
   Edit joint() const {
     new_name(Kind::kJoint);
     const std::string type = word("type", "revolute"), name = word("name"),
@@ -192,7 +191,7 @@ class Adder {
     });
   }
 
-  /// Behind the last element of its kind.
+  /// Behind the last of its kind.
   Edit last(const std::string& block, int parent = -1) const {
     if (parent < 0) parent = document_.model();
     const std::string tag = block.substr(1, block.find_first_of(" >/", 1) - 1);

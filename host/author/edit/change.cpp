@@ -17,7 +17,6 @@ std::size_t line_begin(const std::string& text, std::size_t at) {
   return at == 0 ? 0 : text.rfind('\n', at - 1) + 1;  // npos + 1 is 0
 }
 
-/// Blanks at the line's begin, up to this place.
 std::string indent_at(const std::string& text, std::size_t at) {
   const std::size_t begin = line_begin(text, at);
   const std::size_t end = std::min(text.find_first_not_of(" \t", begin), at);
@@ -34,7 +33,7 @@ std::string indented(const std::string& block, const std::string& indent, const 
   return out;
 }
 
-/// Comments and blanks up to the line's end belong to the element before.
+/// The element owns comments up to the line's end.
 std::size_t end_of_line_of(const std::string& text, std::size_t at, std::size_t limit) {
   std::size_t end = at;
   while (end < limit) {
@@ -113,7 +112,7 @@ Edit set_text(const Document& document, int index, const std::string& value) {
   return {"", {{at.begin, before, escaped(value)}}};
 }
 
-/// Elements that a path lacks at its end, nested around a value.
+/// Nested elements that a path lacks, around a value.
 Edit make_missing(const Document& document, const std::string& path, const std::string& attribute,
                   const std::string& value) {
   std::string rest = path, open, close;

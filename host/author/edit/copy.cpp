@@ -25,7 +25,7 @@ bool is_within(const Document& document, int inner, int outer) {
   return a.begin >= b.begin && a.end <= b.end;
 }
 
-/// Copies elements with other names, ids and numbers.
+/// With other names, ids and numbers.
 class Copier {
  public:
   Copier(const Document& document, int element, Rename renamed, bool mirrored)
@@ -44,7 +44,7 @@ class Copier {
 
   Edit copies(const std::string& what) {
     std::map<int, std::pair<int, std::string>>
-        of_parent;  // the last original; the text that comes behind it
+        of_parent;  // the text comes behind the last original
     for (const int each : sources_) {
       const Element& element = document_.markup()[each];
       auto& [last, text] = of_parent[element.parent];
@@ -73,7 +73,7 @@ class Copier {
     for (const Mention& each : mentions(document_, kind)) {
       if (!each.defines || !is_source(each.element)) continue;
       const std::string name = renamed_(each.name);
-      // A sensor without a side keeps its name: its link distinguishes it.
+      // Its link distinguishes a sensor without a side.
       if (name.empty() && kind == Kind::kSensor) continue;
       if (name.empty()) {
         throw model::LoadError(document_.file().string(), document_.markup()[each.element].line,
@@ -88,7 +88,7 @@ class Copier {
     }
   }
 
-  /// Line break and indentation before an element; empty if it follows on its line.
+  /// Line break and indentation; empty within a line.
   std::string lead(int element) const {
     const std::string& text = document_.text();
     const std::size_t at = document_.markup()[element].whole.begin;
@@ -128,7 +128,7 @@ class Copier {
     }
   }
 
-  /// Renames limbs, shapes and others, and shape names in contact sensors.
+  /// Limbs, shapes and others, also in contact sensors.
   void plain_names(int element, std::vector<Splice>& changes) const {
     const auto& all = document_.markup().elements();
     const auto put = [&](Range at, const std::string& name) {
@@ -194,7 +194,7 @@ std::string free_name(const Document& document, const std::string& name) {
 std::string other_side(const std::string& name) {
   struct Pair {
     std::string_view from, to;
-    bool word;  ///< counts where letters of one case end, not only between other characters
+    bool word;  ///< also at the end of letters of one case
   };
   constexpr std::array<Pair, 10> kSides = {{{"left", "right", true},
                                             {"right", "left", true},
@@ -239,7 +239,7 @@ Edit duplicate(const Document& document, int element, const std::string& name) {
   const std::string what = "duplicate " + document.path(element);
   Edit edit = Copier(document, element, renamed, false).copies(what);
   if (!servo) return edit;
-  // A servo has no name of its own: set its joint's.
+  // A servo's name is its joint's.
   return together(document, what, [&](Document& copy) {
     copy.apply(edit);
     const auto& siblings = copy.markup()[copy.markup()[element].parent].children;
@@ -258,7 +258,7 @@ Edit mirror(const Document& document, int element) {
   const std::string what = "mirror " + document.path(element);
   Edit edit = Copier(document, element, other_side, true).copies(what);
   if (kind_of(document, element) != Kind::kNone) return edit;
-  // The copy of a servo or of a sensor's place refers to the other side's name.
+  // It refers to the other side's name.
   return together(document, what, [&](Document& copy) {
     copy.apply(edit);
     const auto& siblings = copy.markup()[copy.markup()[element].parent].children;

@@ -10,7 +10,7 @@ namespace verp::edit {
 namespace {
 
 constexpr std::size_t kAround = 3;              // context lines
-constexpr std::size_t kMostCells = 20'000'000;  // above this table size, all lines are one change
+constexpr std::size_t kMostCells = 20'000'000;  // above it, all lines are one change
 
 using Lines = std::vector<std::string_view>;
 
@@ -29,7 +29,7 @@ struct Row {
   std::string_view line;
 };
 
-/// Compares the lines between the common ends by longest common subsequence.
+/// Longest common subsequence between the common ends.
 std::vector<Row> rows_of(const Lines& from, const Lines& to) {
   std::vector<Row> rows;
   const std::size_t n = from.size(), m = to.size();

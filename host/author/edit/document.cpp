@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostBytes = 16u << 20;  // a robot's file is 50 kB
+constexpr std::uintmax_t kMostBytes = 16u << 20;  // a robot has 50 kB
 
 std::string empty_robot(const fs::path& file) {
   std::string name = file.stem().string();
@@ -142,7 +142,7 @@ Segment parted(std::string_view text) {
 
 }  // namespace
 
-/// The child that a segment names; empty if several match without a key.
+/// Empty if several match without a key.
 std::optional<int> Document::step(int from, std::string_view text) const {
   const Segment wanted = parted(text);
   std::vector<int> alike;
@@ -169,7 +169,7 @@ std::optional<int> Document::look_for(const std::string& path) const {
     rest.remove_prefix(std::min(slash + 1, rest.size()));
     if (first && segment == "model") continue;
     std::optional<int> next = step(at, segment);
-    // A name that only one part holds needs no longer path: servos are inside a bus.
+    // A unique name needs no longer path.
     for (std::size_t i = 0; first && !next && i < markup_.elements().size(); ++i) {
       if (int(i) == at) continue;
       const auto inner = step(int(i), segment);
@@ -187,10 +187,10 @@ std::optional<int> Document::look_for(const std::string& path) const {
 
 int Document::find(const std::string& path) const {
   if (const auto found = look_for(path)) return *found;
-  // Lists what exists where the path ends.
+  // Lists what exists there.
   const std::size_t slash = path.rfind('/');
   const auto whole = slash == path.npos ? std::optional(model()) : look_for(path.substr(0, slash));
-  if (!whole) return find(path.substr(0, slash));  // throws, nearer to the mistake
+  if (!whole) return find(path.substr(0, slash));  // throws nearer to the mistake
   const Segment wanted = parted(std::string_view(path).substr(slash + 1));  // npos + 1 is 0
   std::string same, any;
   for (std::size_t i = 0; i < markup_.elements().size(); ++i) {
@@ -212,7 +212,7 @@ int Document::at_line(int line) const {
   for (std::size_t i = 0; i < markup_.elements().size(); ++i) {
     const Element& element = markup_[int(i)];
     if (element.line > line || line_at(text_, element.whole.end) < line) continue;
-    // The first element that begins on the line, else the innermost.
+    // The first that begins on the line, else the innermost.
     if (markup_[found].line < element.line || found == markup_.root()) found = int(i);
   }
   return found;

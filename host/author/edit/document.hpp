@@ -15,7 +15,7 @@ struct Splice {
   std::string before, after;
 };
 
-/// One change as the user sees it: several splices in text order, not nested.
+/// As the user sees it: splices in text order, not nested.
 struct Edit {
   std::string what;  ///< "set mass of trunk"
   std::vector<Splice> splices;
@@ -26,11 +26,11 @@ struct Edit {
 
 // Errors are model::LoadError: one line with the remedy.
 
-/// A robot's text, its elements, and what was read from the disk.
+/// Text, elements, and the content read from the disk.
 class Document {
  public:
   /// Throws model::LoadError for an unreadable or malformed file. An empty file becomes an empty
-  /// robot named after it; so does a missing one if `may_be_new`.
+  /// robot named after it; with `may_be_new` a missing one, too.
   static Document open(const std::filesystem::path& file, bool may_be_new = false);
   Document(std::filesystem::path file, std::string text);
 
@@ -38,27 +38,25 @@ class Document {
   const std::string& text() const { return text_; }
   const Markup& markup() const { return markup_; }
   bool is_urdf() const { return markup_[markup_.root()].name == "robot"; }
-  /// <model> or <robot>, which holds links and joints.
+  /// The <model> or <robot>.
   int model() const;
 
   void apply(const Edit& edit);
   std::string with(const Edit& edit) const;
 
   bool changed() const { return !on_disk_ || *on_disk_ != text_; }
-  /// Writes the whole text or nothing. Throws LoadError if another program has changed the file or
-  /// it cannot be written; the message says where the text was put.
+  /// Whole or not at all. Throws LoadError if it cannot write or another program changed the file,
+  /// with the place of the text.
   void save();
-  /// Writes the text beside the file; returns a note that says where.
+  /// Returns a note with the place.
   std::string put_aside() const;
 
-  /// For users and find(): "link:trunk/inertial/mass".
+  /// For find(): "link:trunk/inertial/mass".
   std::string path(int element) const;
-  /// Throws LoadError that lists the candidates.
+  /// Throws LoadError with the candidates.
   int find(const std::string& path) const;
-  /// Empty if there is no such element.
   std::optional<int> look_for(const std::string& path) const;
   std::string text_of(int element) const { return markup_.text(element, text_); }
-  /// Empty if there is none.
   std::string child_text(int element, std::string_view child) const;
   std::string attribute(int element, std::string_view name) const;
   int child(int element, std::string_view name) const;  ///< -1: none
@@ -74,18 +72,17 @@ class Document {
   Markup markup_;
 };
 
-/// The first complaint of `verp check` and its part; empty if the robot is sound. For a URDF alone
-/// only XML and numbers are checked.
+/// First complaint of `verp check`; empty: sound. A URDF alone: only XML and numbers.
 struct Complaint {
   std::string file;
   int line = 1;
   std::string message, fix, part;
-  bool unfinished = true;  ///< true: something may be missing; false: it is wrong
+  bool unfinished = true;  ///< missing; false: wrong
   std::string line_of_text() const;
 };
 std::optional<Complaint> check(const Document& document);
 
-/// In the form of `diff -u`; may be empty.
+/// As `diff -u`; may be empty.
 std::string difference(const std::string& before, const std::string& after,
                        const std::string& file);
 

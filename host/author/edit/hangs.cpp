@@ -7,7 +7,7 @@
 namespace verp::edit {
 namespace {
 
-/// A joint's parent or child link.
+/// A joint's parent or child.
 std::string end_of(const Document& document, int joint, std::string_view which) {
   const int found = document.child(joint, which);
   if (found < 0) return "";
@@ -25,7 +25,7 @@ bool take(Group& group, std::set<std::string>& names, const std::string& name, i
   return group.elements.insert(element).second;
 }
 
-/// One pass; false if nothing was added.
+/// One pass; false: nothing was added.
 bool grow(const Document& document, Group& group) {
   bool more = false;
   for (const int each : document.markup()[document.model()].children) {
@@ -47,7 +47,7 @@ bool grow(const Document& document, Group& group) {
   return more;
 }
 
-/// The element that depends on the named part; -1 if it is only placed by it.
+/// -1: the element is only placed by the part.
 int dependent(const Document& document, int element) {
   const Markup& markup = document.markup();
   if (markup[element].name.starts_with("verp:")) return element;
@@ -62,7 +62,7 @@ void add_mentions(const Document& document, Kind kind, const std::set<std::strin
   for (const Mention& each : mentions(document, kind)) {
     if (each.defines || !names.contains(each.name)) continue;
     const int found = dependent(document, each.element);
-    // A limb depends on its tip; its base may carry other limbs.
+    // By its tip; its base may carry other limbs.
     const Element& element = document.markup()[each.element];
     const Attribute* base = element.attribute("base");
     if (base != nullptr && base->value_at.begin == each.at.begin) {
@@ -105,7 +105,7 @@ std::vector<int> what_hangs_on(const Document& document, int element) {
   add_mentions(document, Kind::kJoint, group.joints, group);
   add_mentions(document, Kind::kFrame, group.frames, group);
   add_mentions(document, Kind::kSensor, group.sensors, group);
-  std::vector<int> out;  // indices are in text order
+  std::vector<int> out;  // in text order
   std::size_t end = 0;
   for (const int each : group.elements) {
     if (document.markup()[each].whole.begin < end) continue;

@@ -10,7 +10,7 @@ namespace verp::edit {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\n";
-constexpr std::size_t kDeepest = 200;  // nesting depth; a robot has ten
+constexpr std::size_t kDeepest = 200;  // a robot has ten
 constexpr std::array<std::pair<std::string_view, char>, 5> kNamed = {
     {{"&lt;", '<'}, {"&gt;", '>'}, {"&amp;", '&'}, {"&quot;", '"'}, {"&apos;", '\''}}};
 
@@ -26,7 +26,7 @@ std::string unescaped(std::string_view text) {
   return out;
 }
 
-/// One pass with a stack: recursion would let the file choose its depth.
+/// A stack, no recursion: the file must not choose its depth.
 class Scanner {
  public:
   Scanner(std::string_view text, const std::string& file, std::vector<Element>& out)

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-/// Byte ranges of the elements and attributes of an XML text. tinyxml2 knows only lines and
-/// reformats a file; an editor that keeps the rest unchanged needs bytes.
+/// Byte ranges in an XML text. tinyxml2 knows only lines and reformats; an editor that keeps the
+/// rest needs bytes.
 namespace verp::edit {
 
 struct Range {
@@ -15,15 +15,15 @@ struct Range {
 
 struct Attribute {
   std::string name, value;  ///< unescaped: &lt; is <
-  Range at;                 ///< from the name to behind the closing quote
+  Range at;                 ///< name to closing quote
   Range value_at;           ///< inside the quotes
 };
 
 struct Element {
   std::string name;
   std::vector<Attribute> attributes;
-  Range whole;                  ///< from < to behind the last >
-  Range content;                ///< between the tags; empty and behind it for <a/>
+  Range whole;                  ///< < to the last >
+  Range content;                ///< between the tags; <a/>: empty, behind it
   bool closed_at_once = false;  ///< <a/>
   int line = 1;
   int parent = -1;            ///< index; -1: the root
@@ -34,14 +34,13 @@ struct Element {
 
 class Markup {
  public:
-  /// Throws model::LoadError that names `file` for malformed text.
+  /// Throws model::LoadError for malformed text.
   Markup(const std::string& text, const std::string& file);
 
   const std::vector<Element>& elements() const { return elements_; }
   const Element& operator[](int index) const { return elements_[std::size_t(index)]; }
   int root() const { return 0; }
-  /// An element's own text without surrounding spaces and comments; else an empty range at its
-  /// content's end. `of` is the scanned text.
+  /// Without surrounding spaces and comments; else empty, at its content's end. `of`: scanned text.
   Range text_at(int index, std::string_view of) const;
   /// That text, unescaped.
   std::string text(int index, std::string_view of) const;
@@ -50,7 +49,7 @@ class Markup {
   std::vector<Element> elements_;
 };
 
-/// Escapes text for an attribute or between tags.
+/// For an attribute or between tags.
 std::string escaped(std::string_view value);
 int line_at(std::string_view text, std::size_t byte);
 

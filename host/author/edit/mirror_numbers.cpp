@@ -9,7 +9,7 @@
 namespace verp::edit {
 namespace {
 
-/// Changes the sign and keeps the notation.
+/// Keeps the notation.
 std::string negated(const std::string& number) {
   const auto value = model::parse_number(number);
   if (value && *value == 0) return number;
@@ -17,7 +17,7 @@ std::string negated(const std::string& number) {
   return "-" + number.substr(number.starts_with('+') ? 1 : 0);
 }
 
-/// Negates some numbers of a row and keeps the blanks.
+/// Some of a row; keeps blanks.
 std::string negated(const std::string& row, const std::vector<std::size_t>& which) {
   std::string out;
   std::size_t number = 0;
@@ -33,7 +33,7 @@ std::string negated(const std::string& row, const std::vector<std::size_t>& whic
   return out;
 }
 
-/// A joint's axis: SDF's <axis><xyz> or URDF's <axis xyz>; x if URDF gives none.
+/// A joint's axis: SDF's <axis><xyz> or URDF's <axis xyz>; x if URDF leaves it out.
 std::vector<double> axis_of(const Document& document, int joint) {
   const int axis = document.child(joint, "axis");
   std::string text;
@@ -104,7 +104,7 @@ class Mirror {
     }
   }
 
-  /// A mirrored servo has its horn on the other side.
+  /// Its horn is on the other side.
   void turn(const Element& servo) {
     if (const Attribute* there = servo.attribute("direction")) {
       return put(there->value_at, there->value == "-1" ? "1" : "-1");
@@ -135,7 +135,7 @@ class Mirror {
       put(at, negated(document_.text().substr(at.begin, at.size()), which));
     };
     if (element.name == "pose") {
-      put_text({1, 3, 5});  // y, roll and yaw; for a quaternion y, qx and qz
+      put_text({1, 3, 5});  // y, roll, yaw; quaternion: y, qx, qz
     } else if (element.name == "xyz") {
       put_text(axis_signs());
     } else if (element.name == "ixy" || element.name == "iyz") {

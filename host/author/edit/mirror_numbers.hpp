@@ -6,12 +6,11 @@
 
 namespace verp::edit {
 
-/// An axis in the mirror plane (roll, yaw) keeps its direction, so angles change sign; a pitch axis
-/// is normal to it, so they do not.
+/// An axis in the mirror plane (roll, yaw) keeps its direction: angles change sign. A pitch axis is
+/// normal to it.
 bool angle_changes_sign(const Document& document, int joint);
 
-/// Changes for the mirror y -> -y. `sign_changes`: joints whose angles change sign; `joints`: all
-/// that are mirrored.
+/// For y -> -y. `sign_changes`: joints whose angles do; `joints`: all mirrored.
 std::vector<Splice> mirrored_numbers(const Document& document, int element,
                                      const std::set<std::string>& sign_changes,
                                      const std::set<std::string>& joints);

@@ -13,11 +13,11 @@ unsigned bit(Kind kind) {
 }
 
 struct Rule {
-  std::string_view element, attribute;  ///< empty element: any; empty attribute: the element's text
+  std::string_view element, attribute;  ///< empty: any; the element's text
   unsigned kinds;
 };
 
-// SDF's own and ours (host/guide/robot-file.md), then URDF's.
+// SDF's and ours (host/guide/robot-file.md), then URDF's.
 constexpr std::array kSdf = {
     Rule{"parent", "", kPlaces},
     Rule{"child", "", kPlaces},
@@ -71,7 +71,7 @@ Kind kind_of(const Document& document, int index) {
   const Element& element = document.markup()[index];
   if (element.name == "sensor") return Kind::kSensor;
   if (element.parent != document.model()) {
-    // A transmission's joints are only mentions.
+    // A transmission's joints are mentions.
     return Kind::kNone;
   }
   if (element.name == "link") return Kind::kLink;

@@ -5,15 +5,15 @@
 
 #include "host/author/edit/document.hpp"
 
-/// Names of parts, and where other parts mention them.
+/// Names of parts, and their mentions.
 namespace verp::edit {
 
 /// The name without "verp:".
 std::string short_name(std::string_view element);
-/// The name of an element, else of the joint, link, ... that it refers to.
+/// Its name, else that of the part it refers to.
 std::string key_of(const Element& element);
 
-/// Parts with names. SDF has one set of names for links, joints and frames; URDF has two.
+/// SDF has one set of names for links, joints and frames; URDF has two.
 enum class Kind { kNone, kLink, kJoint, kFrame, kSensor };
 Kind kind_of(const Document& document, int element);
 
@@ -23,7 +23,7 @@ struct Mention {
   std::string name;
   bool defines = false;
 };
-/// All places, in text order, that name or mention a part of that kind.
+/// Names and mentions, in text order.
 std::vector<Mention> mentions(const Document& document, Kind kind);
 
 bool is_taken(const Document& document, Kind kind, const std::string& name);

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns empty or the reason; removes the file on an error.
+/// Returns empty or the reason, without a file.
 std::string write(const fs::path& file, const std::string& text) {
   errno = 0;
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
@@ -27,7 +27,7 @@ std::string write(const fs::path& file, const std::string& text) {
   return why;
 }
 
-/// Writes an unsaved text into a new file and says which.
+/// Into a new file; says which.
 std::string keep(const fs::path& file, const std::string& text) {
   const char* temporary = std::getenv("TMPDIR");
   for (const fs::path& folder : {file.parent_path(), fs::path(temporary ? temporary : "/tmp")}) {
@@ -47,7 +47,7 @@ std::string keep(const fs::path& file, const std::string& text) {
   throw model::LoadError(file.string(), 0, "not saved: " + why, keep(file, text));
 }
 
-/// True if no user has write permission, even if the superuser could write.
+/// No user may write, even if the superuser could.
 bool is_read_only(const fs::path& file) {
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0) return false;

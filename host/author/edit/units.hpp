@@ -3,8 +3,8 @@
 
 namespace verp::edit {
 
-/// Unit of a value, from its path's last part: "kg" for link:trunk/inertial/mass, "rad" for
-/// servo:l_knee@lower_rad. Empty: no unit, or unknown.
+/// By the path's last part: "kg" for link:trunk/inertial/mass, "rad" for servo:l_knee@lower_rad.
+/// Empty: none, or unknown.
 std::string unit_of(const std::string& path);
 
 }  // namespace verp::edit

@@ -1,17 +1,17 @@
 #pragma once
 
-/// Promised cost of a controller tick on one core. tests/bench and `verp bench` check it.
+/// Checked by tests/bench and `verp bench`.
 namespace verp::board {
 
 inline constexpr const char* kPromisedBoard = "mps2_an386";  ///< Cortex-M4F
-/// Mean and worst tick, with actions, falls and the estimator.
+/// Mean and worst, with actions, falls and estimator.
 inline constexpr double kMostInstructions = 30000;
 inline constexpr double kMostInstructionsWorst = 45000;
 inline constexpr double kMostInstructionsDigest = 5000;  ///< part of those above
 inline constexpr double kMostStackBytes = 4096;          ///< by static analysis
 inline constexpr double kMostStateBytes = 3072;          ///< hashed every tick
 inline constexpr double kLeastLinkTicksPerS = 5000;      ///< without controller and physics
-/// The loop on any board with CAN, its robot on vcan0, without physics.
+/// Any board with CAN, robot on vcan0, no physics.
 inline constexpr double kLeastCanTicksPerS = 150;
 
 }  // namespace verp::board

@@ -10,9 +10,8 @@ namespace verp::board {
 
 namespace {
 
-/// A Cortex-R5F of QEMU's xlnx-zcu102 is off until a Cortex-A53 requests it from QEMU's firmware.
-/// These words at 0x200000 call PSCI's CPU_ON(core 4, 0x01000000) and then sleep.
-/// boards/zcu102_r5/README.md lists the instructions.
+/// QEMU's xlnx-zcu102: a Cortex-R5F is off until a Cortex-A53 requests it. These words at 0x200000
+/// call PSCI's CPU_ON(core 4, 0x01000000) and sleep; boards/zcu102_r5/README.md lists them.
 std::vector<std::string> wake_the_r5() {
   constexpr const char* kWords[] = {
       "addr=0x200000,data=0xf2800060d2b88000,data-len=8",

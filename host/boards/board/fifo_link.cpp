@@ -25,7 +25,7 @@ namespace {
 }  // namespace
 
 FifoLink::FifoLink() {
-  // If the firmware has ended, write() returns EPIPE; the signal would end this process.
+  // A firmware that has ended gives EPIPE; the signal would end this process.
   signal(SIGPIPE, SIG_IGN);
   for (const auto& path : {to_board(), from_board()}) {
     if (mkfifo(path.c_str(), 0600) != 0) fail(path, "can't make a FIFO");

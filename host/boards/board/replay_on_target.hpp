@@ -16,22 +16,20 @@ namespace verp::board {
 struct TargetReplay {
   std::vector<TickDigest> digests;  ///< one per Inputs
   std::optional<State> state;       ///< after the requested tick
-  std::uint32_t stack_bytes = 0;    ///< deepest stack of step(); 0 if not measured
+  std::uint32_t stack_bytes = 0;    ///< of step(); 0: not measured
 };
 
 struct TargetReplayOptions {
-  std::optional<std::uint32_t> state_after =
-      {};                   ///< index of the Inputs after which State is returned
-  std::string plugin = {};  ///< QEMU's -plugin option (tests/bench)
+  std::optional<std::uint32_t> state_after = {};  ///< Inputs after which State is returned
+  std::string plugin = {};                        ///< QEMU's -plugin option (tests/bench)
   std::uint32_t limit_s = 600;
 };
 
-/// Writes the job file, which is the first argument of a replay image; the second is the result
-/// file. Throws BoardError.
+/// A replay image's first argument; the second is the result file. Throws BoardError.
 void write_replay_job(const std::filesystem::path& path, const Params& params,
                       std::span<const Inputs> inputs, const TargetReplayOptions& options = {});
 
-/// Runs the controller over recorded inputs in firmware on an emulated board. Throws BoardError.
+/// Recorded inputs on an emulated board. Throws BoardError.
 TargetReplay replay_on(const std::string& board, const Params& params,
                        std::span<const Inputs> inputs, const TargetReplayOptions& options = {});
 

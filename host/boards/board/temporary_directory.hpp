@@ -4,8 +4,7 @@
 
 namespace verp::board {
 
-/// A new directory, removed with its contents. Throws BoardError if it cannot be created, because a
-/// board's link needs one.
+/// Removed with its contents. Throws BoardError, because a board's link needs one.
 class TemporaryDirectory : public files::TemporaryDirectory {
  public:
   TemporaryDirectory() try : files

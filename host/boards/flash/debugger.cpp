@@ -19,8 +19,7 @@ std::vector<std::string> gdb_words(const std::string& gdb, const fs::path& image
   return words;
 }
 
-/// QEMU halts before the first instruction. gdb uses QEMU's own streams, so the image's output goes
-/// to a file.
+/// QEMU halts at the start. gdb uses its streams, so output goes to a file.
 std::string qemu_behind_a_pipe(board::QemuProcess::Launch launch, const fs::path& folder) {
   launch.console = "words";
   launch.options.insert(
@@ -29,7 +28,7 @@ std::string qemu_behind_a_pipe(board::QemuProcess::Launch launch, const fs::path
   return "target remote | exec " + files::shell_line(board::QemuProcess::command(launch));
 }
 
-/// The ELF file beside the binary, with gdb's symbols.
+/// The ELF file with gdb's symbols.
 fs::path symbols_of(fs::path image) {
   return image.replace_extension(".elf");
 }
@@ -41,7 +40,7 @@ DebugPlan debug_chip(const std::string& gdb, const Recipe& recipe, BusProtocol p
   std::vector<std::string> openocd = {"openocd", "-f", recipe.probe, "-f",
                                       recipe.chip->openocd_target};
   if (!probe.empty()) openocd.insert(openocd.end(), {"-c", "adapter serial " + probe});
-  // OpenOCD's log would mix with its gdb protocol on the pipe.
+  // A log would mix with the gdb protocol.
   openocd.insert(openocd.end(), {"-c", "gdb_port pipe; log_output /dev/null"});
   return {gdb_words(gdb, symbols_of(code_image(recipe, protocol)),
                     "target extended-remote | exec " + files::shell_line(openocd),

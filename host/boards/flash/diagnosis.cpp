@@ -13,7 +13,7 @@ namespace {
 
 using Kind = FlashError::Kind;
 
-/// Text in a tool's output, and its meaning. {port} and {pins} are replaced.
+/// A tool's text and its meaning, with {port} and {pins}.
 struct Saying {
   const char* words;
   Kind kind;

@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds kStart{20};
-/// Longer than a boot check in an emulator on a busy machine.
+/// A boot check in an emulator on a busy machine.
 constexpr std::uint32_t kPatience_us = 5'000'000;
 
 bool is_emulated(const std::string& name) {
@@ -32,7 +32,7 @@ bool is_emulated(const std::string& name) {
                      [&](const board::EmulatedBoard& each) { return each.name == name; });
 }
 
-/// Throws unless the path fits QEMU's options and a socket's name.
+/// For QEMU's options and a socket's name.
 void require_plain(const fs::path& path) {
   if (path.string().size() < sizeof(sockaddr_un::sun_path) &&
       path.string().find_first_of(" ,") == std::string::npos) {
@@ -44,7 +44,7 @@ void require_plain(const fs::path& path) {
                        "VERP_FLASH_DIR to another folder, such as /tmp/verp");
 }
 
-/// STM32 board: two serial ports as sockets, and the pieces at their flash addresses.
+/// STM32: two serial ports as sockets, pieces at their addresses.
 void plan_serial(EmulationPlan& plan, const std::vector<Piece>& pieces, const fs::path& folder) {
   plan.launch.serial_ports = {folder / "servo.sock", folder / "operator.sock"};
   plan.launch.options = {"-accel", "tcg,thread=single"};
@@ -60,7 +60,7 @@ void plan_serial(EmulationPlan& plan, const std::vector<Piece>& pieces, const fs
   plan.links.push_back({"operator", "unix:" + plan.launch.serial_ports[1].string()});
 }
 
-/// MPS2 board: uses semihosting through two FIFOs (host/boards/board/fifo_link.hpp).
+/// MPS2: semihosting through two FIFOs (host/boards/board/fifo_link.hpp).
 void plan_fifos(EmulationPlan& plan, const fs::path& folder) {
   for (const char* name : {"to_board", "from_board"}) {
     plan.launch.arguments.push_back((folder / name).string());
@@ -87,8 +87,8 @@ EmulationPlan plan_emulation(const Recipe& recipe, BusProtocol protocol,
   }
   require_plain(folder / "operator.sock");
   const board::EmulatedBoard& emulated = board::find_emulated_board(board);
-  // Use the raw flash image of a chip. For an ELF file QEMU also clears memory behind the code, as
-  // much as the variables need, and the robot may be there.
+  // The chip's raw image: for an ELF file QEMU also clears memory behind the code, where the robot
+  // may be.
   const fs::path image =
       recipe.chip != nullptr ? code_image(recipe, protocol) : firmware_image(emulated, "loop");
   EmulationPlan plan{.launch = {.board = emulated, .image = image, .arguments = {}},

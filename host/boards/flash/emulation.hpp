@@ -7,12 +7,12 @@
 #include "host/boards/board/qemu.hpp"
 #include "host/boards/flash/plan.hpp"
 
-/// "Flashes" an emulated board by starting QEMU with the image; it has no persistent flash.
+/// Starts QEMU with the image: an emulated board has no persistent flash.
 namespace verp::flash {
 
 struct EmulatedLink {
   std::string what;   ///< "servo bus", "operator"
-  std::string place;  ///< endpoint for other commands, or FIFO paths
+  std::string place;  ///< endpoint, or FIFO paths
 };
 
 struct EmulationPlan {
@@ -21,20 +21,19 @@ struct EmulationPlan {
   BusProtocol protocol;
 };
 
-/// Plans the board with the image for this bus protocol, the pieces in its memory and its links in
-/// `folder`. Throws FlashError if there is no emulator or image, or a link path is too long;
-/// FlashError or NoSuchBoard if the image is not built.
+/// Image for this protocol, pieces in memory, links in `folder`. Throws FlashError without emulator
+/// or image, or for a long link path; NoSuchBoard for an unbuilt image.
 EmulationPlan plan_emulation(const Recipe& recipe, BusProtocol protocol,
                              const std::vector<Piece>& pieces, const std::filesystem::path& folder);
 
 /// A board that runs until this object ends.
 class Emulation {
  public:
-  /// Prepares the links, starts QEMU and waits for the links. Throws BoardError.
+  /// Starts QEMU and waits for the links. Throws BoardError.
   explicit Emulation(const EmulationPlan& plan);
 
-  /// Result of the boot check from the board's operator port, as a line for people; empty: no such
-  /// port. Throws DeviceError if the port does not answer.
+  /// Boot check by the operator port, for people; empty: no such port. Throws DeviceError without
+  /// an answer.
   std::string told() const;
 
   bool running() { return !firmware_->poll_status().has_value(); }

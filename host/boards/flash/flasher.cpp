@@ -33,7 +33,7 @@ Kind kind_of(link::LinkError::Kind kind) {
   }
 }
 
-/// Exclusive lock on the serial port while this object lives; the tool takes none.
+/// The tool takes no lock.
 class SerialPortLock {
  public:
   explicit SerialPortLock(const Job& job) {
@@ -87,8 +87,7 @@ void run_step(const Job& job, const Step& step, const FlashHooks& hooks) {
   }
 }
 
-/// A write failed after the sector was read: saves its other, non-empty contents. Returns the
-/// message.
+/// After a failed write: saves the sector's other contents. Returns the message.
 std::string keep(const Step& step) {
   const std::string sector = files::read(step.file).value_or("");
   std::string told;
@@ -115,7 +114,7 @@ void run(const Job& job, const std::vector<Step>& steps, const FlashHooks& hooks
       throw FlashError(error.kind(), error.what() + keep(step));
     }
   }
-  std::error_code error;  // left by an earlier failed run; obsolete now
+  std::error_code error;  // an earlier run's; obsolete
   std::filesystem::remove(job.folder / "kept_params.bin", error);
   std::filesystem::remove(job.folder / kKeptActions, error);
 }
@@ -148,7 +147,7 @@ Workspace::Workspace(const std::string& board) : path_(work_root() / board) {
 }
 
 void Workspace::hand_over() const {
-  ::fcntl(lock_, F_SETFD, 0);  // stays open, and so locked, after exec
+  ::fcntl(lock_, F_SETFD, 0);  // stays open and locked after exec
 }
 
 Workspace::~Workspace() {

@@ -8,30 +8,29 @@
 namespace verp::flash {
 
 struct FlashHooks {
-  /// Called before each step and at each progress report of its tool; share 0..1 of the step.
+  /// Before each step and at its progress; share 0..1.
   std::function<void(const Step&, double)> progress = [](const Step&, double) {};
   std::function<bool()> stop = [] { return false; };
 };
 
-/// Checks the port, then runs the steps until one fails. Throws FlashError; unless it says
-/// otherwise, nothing was written.
+/// Until a step fails. Throws FlashError; unless it says otherwise, nothing was written.
 void run(const Job& job, const std::vector<Step>& steps, const FlashHooks& hooks);
 
-/// Folder for runs: $VERP_FLASH_DIR, or build/flash.
+/// $VERP_FLASH_DIR, or build/flash.
 std::filesystem::path work_root();
 
-/// Folder for one run: work_root()/BOARD. At first it holds only what an earlier failed run could
-/// not write back.
+/// One run's folder: work_root()/BOARD; at first it holds only contents that a failed run could not
+/// write back.
 class Workspace {
  public:
-  /// Throws FlashError if the folder cannot be created or another run uses it.
+  /// Throws FlashError if it cannot be created or is in use.
   explicit Workspace(const std::string& board);
   ~Workspace();
   Workspace(const Workspace&) = delete;
   Workspace& operator=(const Workspace&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Keeps the lock for the program that this process becomes by exec.
+  /// For the program that this process becomes.
   void hand_over() const;
 
  private:

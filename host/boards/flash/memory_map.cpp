@@ -12,7 +12,7 @@
 namespace verp::flash {
 namespace {
 
-/// Text of a linker script without comments.
+/// The script without comments.
 std::string read_script(const std::filesystem::path& file) {
   std::optional<std::string> script = files::read(file);
   if (!script) {
@@ -33,7 +33,7 @@ class Script {
  public:
   explicit Script(const std::filesystem::path& file) : file_(file), text_(read_script(file)) {}
 
-  /// Value of `name = ...;`, or `otherwise` if it is missing.
+  /// `name = ...;`, or `otherwise`.
   std::uint32_t symbol(const std::string& name, std::uint32_t otherwise) const {
     std::smatch match;
     if (!std::regex_search(text_, match, std::regex("\\b" + name + "\\s*=\\s*([^;]*);"))) {

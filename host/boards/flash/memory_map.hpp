@@ -6,18 +6,17 @@
 
 namespace verp::flash {
 
-/// Memory regions of a board, read from the memory.ld that the linker uses.
+/// Regions from the linker's memory.ld.
 struct MemoryMap {
   Span code, ram;
-  Span params = {}, actions = {};  ///< empty if the board does not keep them in flash
+  Span params = {}, actions = {};  ///< empty: not in flash
 };
 
-/// Reads boards/<board>/memory.ld of the source tree. Throws FlashError if it is missing or this
-/// parser does not understand it.
+/// boards/<board>/memory.ld. Throws FlashError if missing or not understood.
 MemoryMap read_memory_map(const std::string& board);
 
-/// The same for any file: symbols verp_{params,actions}_{begin,bytes}, and FLASH and RAM of MEMORY.
-/// Each is a number, a name or `DEFINED(x) ? a : b`; b applies to flashed images.
+/// Symbols verp_{params,actions}_{begin,bytes}, and FLASH and RAM of MEMORY: a number, a name or
+/// `DEFINED(x) ? a : b`, where b is for flashed images.
 MemoryMap parse_memory_map(const std::filesystem::path& file);
 
 }  // namespace verp::flash

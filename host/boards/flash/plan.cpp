@@ -13,7 +13,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// All ST Cortex-M3 to M7 have DBGMCU_IDCODE here (RM0090 38.6.1).
+/// DBGMCU_IDCODE of all ST Cortex-M3 to M7 (RM0090 38.6.1).
 constexpr const char* kReadDeviceId =
     "echo [format {Device ID: 0x%04x} [expr {[lindex [read_memory 0xe0042000 32 1] 0] & 0xfff}]]";
 
@@ -22,15 +22,15 @@ Words with(Words words, const Words& more) {
   return words;
 }
 
-/// A serial port over a network or of a test. It has no parity, but stm32flash insists on the
-/// requested one. The even parity of the boot loader is then set at the real line.
+/// A network's or a test's port has no parity, but stm32flash insists on it; the boot loader's even
+/// parity is set at the real line.
 bool is_pseudo_terminal(const std::string& port) {
   std::error_code error;
   return std::filesystem::weakly_canonical(port, error).string().starts_with("/dev/pts/");
 }
 
-/// OpenOCD's commands are Tcl. Between braces, any text but these characters is one word. Throws
-/// FlashError for other words.
+/// OpenOCD's commands are Tcl: braces make one word of any text but these characters. Throws
+/// FlashError.
 void require_tcl_word(const std::string& word, const std::string& remedy) {
   const bool odd = std::any_of(word.begin(), word.end(), [](unsigned char each) {
     return each < ' ' || each == 0x7F || each == '{' || each == '}' || each == '\\';
@@ -41,7 +41,7 @@ void require_tcl_word(const std::string& word, const std::string& remedy) {
                                word, remedy));
 }
 
-/// Command lines of one tool; addresses are absolute.
+/// Addresses are absolute.
 class Commands {
  public:
   explicit Commands(const Job& job) : job_(job) {}
@@ -50,7 +50,7 @@ class Commands {
     switch (job_.tool) {
       case Tool::kOpenocd:
         return with(base(), {"-c", std::string("init; ") + kReadDeviceId + "; shutdown"});
-      case Tool::kStm32flash:  // a read, because Get ID also succeeds under readout protection
+      case Tool::kStm32flash:  // Get ID also succeeds under readout protection
         return read({kFlashBegin, 256}, job_.folder / "first.bin");
       case Tool::kDfuUtil:
         return with(base(), {"-l"});
@@ -98,7 +98,7 @@ class Commands {
         if (!job_.port.empty()) {
           words = with(words, {"-c", fmt::format("adapter serial {{{}}}", job_.port)});
         }
-        // Without servers it does not conflict with a second copy or a debugger.
+        // No servers: no conflict with another copy or a debugger.
         return with(words, {"-f", job_.recipe.chip->openocd_target, "-c",
                             "gdb_port disabled; tcl_port disabled; telnet_port disabled"});
       }
@@ -116,7 +116,7 @@ class Commands {
   const Job& job_;
 };
 
-/// True if writing these sectors destroys only what the pieces replace.
+/// Writing destroys only what the pieces replace.
 bool owns(const Job& job, const Span& sectors, const std::vector<Piece>& pieces) {
   const Span regions[] = {job.map.code, job.map.params, job.map.actions};
   const auto inside = std::count_if(std::begin(regions), std::end(regions), [&](const Span& each) {
@@ -146,7 +146,6 @@ void add_write(std::vector<Step>& steps, const Job& job, const std::string& what
       {Step::Kind::kCompare, "verifying " + what, {"cmp", file.string(), back.string()}});
 }
 
-/// Other contents of these sectors.
 std::vector<Piece> neighbours(const Job& job, const Span& sectors,
                               const std::vector<Piece>& pieces) {
   std::vector<Piece> others;
@@ -226,7 +225,7 @@ std::vector<Step> plan(const Job& job) {
   }
   std::vector<Step> steps = {
       {Step::Kind::kCheckChip, "checking the chip", Commands(job).check_chip()}};
-  std::map<std::uint32_t, std::vector<Piece>> groups;  // by the address of their first sector
+  std::map<std::uint32_t, std::vector<Piece>> groups;  // by first sector
   for (const Piece& piece : job.pieces) {
     groups[sectors_around(*job.recipe.chip, piece.region).begin].push_back(piece);
   }

@@ -26,8 +26,7 @@ const Chip kF746 = {"STM32F746",
                     "target/stm32f7x.cfg",
                     {{4, 32 * kKilobyte}, {1, 128 * kKilobyte}, {3, 256 * kKilobyte}}};
 
-/// A board for tests only. Its loop takes orders from a file and needs a twin on a CAN interface,
-/// so neither a flash tool nor an emulator alone is useful.
+/// For tests only: its loop takes orders from a file and needs a twin on CAN.
 bool is_for_tests(const std::string& board) {
   const auto& boards = board::emulated_boards();
   return std::any_of(boards.begin(), boards.end(), [&](const board::EmulatedBoard& each) {
@@ -61,7 +60,7 @@ const std::vector<Recipe>& recipes() {
        "olimex_h405",
        true},
       {"nucleo_f446re", &kF446, {kOpenocd, kStm32flash}, kStLink, "PA9, PA10", "olimex_h405", true},
-      // On OpenCR the serial pins of this chip's boot loader are only on the servo connectors.
+      // On OpenCR the boot loader's serial pins are only on the servo connectors.
       {"opencr", &kF746, {kDfuUtil, kOpenocd}, kStLink, "", "mps2_an500", true},
       {"mps2_an385", nullptr, {}, "", "", "mps2_an385"},
       {"mps2_an386", nullptr, {}, "", "", "mps2_an386"},

@@ -3,22 +3,22 @@
 #include <string>
 #include <vector>
 
-/// Flash recipes of the boards in boards/: one row per board, one per chip.
+/// One row per board, one per chip.
 namespace verp::flash {
 
 enum class Tool : std::uint8_t { kOpenocd, kStm32flash, kDfuUtil };
 
-/// Name of the program and of its Debian package.
+/// Name of the program and its Debian package.
 const char* name_of(Tool tool);
 
-/// Consecutive sectors of one size; the chip erases whole sectors.
+/// Sectors of one size; the chip erases whole ones.
 struct SectorRun {
   std::uint32_t count, bytes;
 };
 
 struct Chip {
   const char* name;
-  std::uint16_t device_id;  ///< DBGMCU_IDCODE bits 11:0, also in the boot loader's Get ID
+  std::uint16_t device_id;  ///< DBGMCU_IDCODE bits 11:0
   const char* openocd_target;
   std::vector<SectorRun> sectors;  ///< from kFlashBegin
 };
@@ -29,19 +29,18 @@ struct Recipe {
   const char* board;
   const Chip* chip;          ///< null: emulation only
   std::vector<Tool> tools;   ///< default first
-  const char* probe;         ///< OpenOCD configuration of the debug probe
-  const char* serial_pins;   ///< serial port of the boot loader
-  const char* replay_board;  ///< emulated board with the same core
-  bool can_image = false;    ///< has a second image for robots on CAN
+  const char* probe;         ///< OpenOCD configuration
+  const char* serial_pins;   ///< of the boot loader
+  const char* replay_board;  ///< emulated, same core
+  bool can_image = false;    ///< a second image for CAN
 };
 
 const std::vector<Recipe>& recipes();
 
-/// Throws FlashError with the valid boards.
+/// Throws FlashError with the boards.
 const Recipe& find_recipe(const std::string& board);
 
-/// A byte range of the flash: [begin, begin + bytes). sectors_around() returns the whole sectors
-/// that contain it.
+/// [begin, begin + bytes). sectors_around(): the whole sectors around it.
 struct Span {
   std::uint32_t begin, bytes;
   std::uint32_t end() const { return begin + bytes; }
@@ -49,7 +48,7 @@ struct Span {
 };
 Span sectors_around(const Chip& chip, const Span& span);
 
-/// Sectors in the notation of the chip's DFU boot loader: "04*016Kg,01*064Kg,07*128Kg".
+/// "04*016Kg,01*064Kg,07*128Kg", as the DFU boot loader has it.
 std::string dfu_layout(const Chip& chip);
 
 }  // namespace verp::flash

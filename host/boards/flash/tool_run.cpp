@@ -19,9 +19,9 @@ namespace verp::flash {
 namespace {
 
 constexpr int kLook_ms = 50;
-constexpr int kGrace_looks = 60;  ///< 3 s between SIGINT and SIGKILL
+constexpr int kGrace_looks = 60;  ///< from SIGINT to SIGKILL, 3 s
 
-/// A tool with both output streams in one pipe; it ends at the latest with this object.
+/// Both streams in one pipe; ends with this object.
 class StartedTool {
  public:
   StartedTool(const std::vector<std::string>& command, const std::string& package) {
@@ -42,7 +42,7 @@ class StartedTool {
   StartedTool(const StartedTool&) = delete;
   StartedTool& operator=(const StartedTool&) = delete;
 
-  /// Appends the output of the next kLook_ms. False: no more output will come.
+  /// The next kLook_ms; false: no more.
   bool read(std::string& output) const {
     pollfd waiting{.fd = out_, .events = POLLIN, .revents = 0};
     if (::poll(&waiting, 1, kLook_ms) <= 0) return true;
@@ -70,7 +70,7 @@ class StartedTool {
   std::optional<process::Child> child_;
 };
 
-/// The number before the last percent sign as a share; negative if there is none.
+/// Before the last percent sign; negative: none.
 double last_share(const std::string& output) {
   const std::size_t sign = output.rfind('%');
   if (sign == output.npos) return -1;

@@ -7,9 +7,9 @@
 namespace verp::edit {
 namespace {
 
-constexpr double kThin_m = 1e-3;  // a sheet has no thickness, a solid needs some
+constexpr double kThin_m = 1e-3;  // a solid needs thickness
 
-/// Candidate rotations: none, and along the points' principal axes.
+/// None, and along the principal axes.
 std::vector<Mat3> turns(const Triangles& mesh) {
   Vec3 mean = Vec3::Zero();
   for (const Vec3& p : mesh.points_m) mean += p / double(mesh.points_m.size());
@@ -19,7 +19,7 @@ std::vector<Mat3> turns(const Triangles& mesh) {
   if (axes.determinant() < 0) axes.col(0) *= -1;
   std::vector<Mat3> all;
   for (const Mat3& base : {Mat3(Mat3::Identity()), axes}) {
-    // Each axis once as z, the axis of capsules and cylinders.
+    // z is the axis of capsules and cylinders.
     for (int z = 0; z < 3; ++z) {
       Mat3 turn;
       turn << base.col((z + 1) % 3), base.col((z + 2) % 3), base.col(z);

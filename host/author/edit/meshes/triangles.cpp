@@ -14,9 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostBytes = 200u << 20;  // a whole robot for 3D printing is 50 MB
+constexpr std::uintmax_t kMostBytes = 200u << 20;  // a whole robot for printing has 50 MB
 constexpr std::size_t kMostTriangles = 2'000'000;
-constexpr double kMost_m = 10;  // size of a link; a robot is 2 m
+constexpr double kMost_m = 10;  // of a link
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what, const std::string& fix) {
   throw model::LoadError(file.string(), 0, what, fix);
@@ -50,7 +50,6 @@ void add(Triangles& out, const fs::path& file, const aiScene& scene, const aiNod
     add(out, file, scene, *node.mChildren[i], pose, unit_m);
 }
 
-/// Merges equal points of all parts.
 void weld(Triangles& mesh) {
   std::map<std::array<double, 3>, std::uint32_t> index;
   std::vector<std::uint32_t> where;
@@ -87,7 +86,7 @@ Triangles read_triangles(const fs::path& file, double unit_m) {
   if (fs::file_size(file, error) > kMostBytes)
     refuse(file, "a mesh of more than 200 MB", "simplify it");
   Assimp::Importer importer;
-  // Keeps the file's axes, as ROS and the simulators do.
+  // Keeps the file's axes, as ROS and simulators do.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene =
       importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_SortByPType);
@@ -113,7 +112,7 @@ Triangles read_triangles(const fs::path& file, double unit_m) {
 Filling filling(const Triangles& mesh) {
   Filling out;
   out.closed = is_closed(mesh);
-  // Sums signed volumes of tetrahedra from one point to each triangle.
+  // Signed volumes of tetrahedra from one point.
   const Vec3 from = mesh.points_m.front();
   double volume = 0;
   Vec3 first = Vec3::Zero();
@@ -128,7 +127,7 @@ Filling filling(const Triangles& mesh) {
     second += six / 120 *
               (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
   }
-  out.volume_m3 = std::abs(volume);  // negative if triangles face inward
+  out.volume_m3 = std::abs(volume);  // triangles may face inward
   if (out.volume_m3 < 1e-15) return out.closed = false, out;
   const Vec3 centre = first / volume;
   const Mat3 spread = second / volume - centre * centre.transpose();
