@@ -1,4 +1,4 @@
-# GCC for bare-metal Arm. cortex-*.cmake set VERP_CPU_FLAGS to the core and its FPU and include this file.
+# Bare-metal Arm. cortex-*.cmake set VERP_CPU_FLAGS (core and FPU) and include this file.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR arm)
 set(CMAKE_C_COMPILER arm-none-eabi-gcc)
@@ -8,7 +8,7 @@ set(CMAKE_ASM_COMPILER arm-none-eabi-gcc)
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 
-# Sections let the linker drop unused code. Without threads statics need no guards; without exit they need no destructors.
+# The linker drops unused sections. Without threads statics need no guards; without exit no destructors.
 set(verp_arm_flags "${VERP_CPU_FLAGS} -ffunction-sections -fdata-sections")
 set(CMAKE_C_FLAGS_INIT "${verp_arm_flags}")
 set(CMAKE_CXX_FLAGS_INIT

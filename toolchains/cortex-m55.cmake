@@ -1,3 +1,3 @@
-# Cortex-M55 with FPU and integer vectors. nomve.fp: its float vectors flush subnormals, whatever FPSCR says.
+# FPU and integer vectors. nomve.fp: float vectors flush subnormals, whatever FPSCR says.
 set(VERP_CPU_FLAGS "-mcpu=cortex-m55+nomve.fp -mthumb -mfloat-abi=hard")
 include(${CMAKE_CURRENT_LIST_DIR}/arm-none-eabi.cmake)

@@ -1,7 +1,6 @@
-# Build with Debian's packages, whatever the environment says: a sourced ROS, a conda, flags of another project. Included
-# before project(), which reads some of these variables. Anything foreign is asked for on cmake's command line, for
-# example by -DCMAKE_PREFIX_PATH=DIR or -DCMAKE_CXX_FLAGS=FLAGS.
-# `toolchains/compile` clears the variables that compilers and linkers read when they run.
+# Debian's packages, whatever the environment says: a sourced ROS, a conda, flags of another project. Included before
+# project(). Anything foreign is asked for on cmake's command line, such as -DCMAKE_PREFIX_PATH=DIR.
+# `toolchains/compile` clears the variables that compilers and linkers read.
 set(verp_ignored)
 if(CMAKE_TOOLCHAIN_FILE AND CMAKE_TOOLCHAIN_FILE STREQUAL "$ENV{CMAKE_TOOLCHAIN_FILE}")
   unset(CMAKE_TOOLCHAIN_FILE CACHE) # cmake has taken it from there
@@ -23,14 +22,14 @@ if(verp_ignored)
   message(STATUS "Environment variables without effect on this build: ${verp_ignored}")
 endif()
 
-# <PackageName>_ROOT, <PackageName>_DIR, packages that other builds have registered in ~/.cmake, and /usr/local.
+# <PackageName>_ROOT, <PackageName>_DIR, packages registered in ~/.cmake, and /usr/local.
 set(CMAKE_FIND_USE_CMAKE_ENVIRONMENT_PATH OFF)
 set(CMAKE_FIND_USE_PACKAGE_ROOT_PATH OFF)
 set(CMAKE_FIND_USE_PACKAGE_REGISTRY OFF)
 set(CMAKE_IGNORE_PREFIX_PATH /usr/local)
 
-# verp_left_out(WHAT PACKAGE): says that WHAT is not built or tested here because PACKAGE is missing, and keeps it for
-# left_out.txt of the build tree: `./verp test` fails if anything is listed there.
+# verp_left_out(WHAT PACKAGE): WHAT is not built or tested here because PACKAGE is missing. `./verp test` fails if
+# left_out.txt of the build tree lists anything.
 function(verp_left_out what package)
   message(STATUS "Left out: ${what} (${package} is missing)")
   set_property(GLOBAL APPEND_STRING PROPERTY VERP_LEFT_OUT "${what} (${package} is missing)\n")

@@ -1,5 +1,5 @@
-# The floating-point contract: flags of every translation unit, so that the same source gives the same bits on every
-# compiler, optimisation level and core.
+# The floating-point contract, for every translation unit: the same source gives the same bits on every compiler,
+# optimisation level and core.
 #
 #   -ffp-contract=off     a*b+c rounds twice everywhere; by default GCC and clang fuse it on M4F, M7, -march=native
 #   -fno-math-errno       __builtin_sqrtf becomes the instruction, not a call that sets errno

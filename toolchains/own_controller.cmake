@@ -1,4 +1,4 @@
-# For the CMakeLists.txt of a user's controller (verp new controller). VERP_ROOT: VERP's sources; VERP_BUILD: its build folder.
+# For a user's controller (verp new controller). VERP_ROOT: VERP's sources; VERP_BUILD: its build folder.
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -20,7 +20,7 @@ function(verp_own_flags target)
   target_link_libraries(${target} PRIVATE verp_floating_point ${verp_core})
 endfunction()
 
-# Builds controller.so from these sources, for `verp walk --controller`.
+# Builds controller.so for `verp walk --controller`.
 function(verp_own_controller)
   add_library(controller MODULE ${ARGN} ${VERP_ROOT}/host/run/own/module.cpp)
   verp_own_flags(controller)
@@ -31,7 +31,7 @@ function(verp_own_controller)
   set(VERP_OWN_SOURCES ${ARGN} PARENT_SCOPE)
 endfunction()
 
-# Builds a test program from these sources and the controller's; ctest runs it.
+# Builds a test program with the controller's sources; ctest runs it.
 function(verp_own_test source)
   cmake_path(GET source STEM name)
   add_executable(${name} ${source} ${ARGN} ${VERP_OWN_SOURCES})

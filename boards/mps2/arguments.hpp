@@ -3,8 +3,7 @@
 
 namespace verp::board {
 
-/// The words of the emulator's command line: [0] is the image, its arguments follow. Missing words
-/// are "".
+/// The emulator's command line: [0] is the image, its arguments follow. Missing words are "".
 class Arguments {
  public:
   static constexpr int kMax = 5;

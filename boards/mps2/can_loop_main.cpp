@@ -12,14 +12,14 @@
 #include "law.hpp"
 
 /// loop_<board> JOB RECORDS: the robot's control loop over the board's own CAN bus, with a twin in
-/// lockstep at the far end. File JOB holds the robot and the operator's orders (can_loop_job.hpp);
-/// each tick goes to file RECORDS. The controller reaches the robot over CAN alone. It is also a
-/// node there that publishes each tick, but takes no orders, since they are in the file.
+/// lockstep at the far end. JOB holds the robot and the operator's orders (can_loop_job.hpp); each
+/// tick goes to RECORDS. The controller is also a node that publishes each tick, but takes no
+/// orders.
 namespace {
 
 using verp::hal::semihosting::File;
 
-/// Nothing else needs serving, and each clock read costs an emulator more than a frame.
+/// Each clock read costs an emulator more than a frame.
 constexpr std::uint32_t kSlice_us = 100'000;
 
 /// Waits for ever: if the twin is gone, the PC ends the emulator.
@@ -31,7 +31,7 @@ using Log = verp::app::TickLog<>;
 using Node = verp::app::OperatorNode<verp::board::Can, Log>;
 
 struct Desk {
-  // OperatorLink. Orders of skipped ticks are skipped.
+  // OperatorLink. Skips orders of skipped ticks.
   verp::app::OperatorOrder order(std::uint32_t tick) {
     while (next <= tick && job.read(&latest, sizeof latest)) ++next;
     return latest;
@@ -86,7 +86,7 @@ int run(Desk& desk, const verp::app::CanLoopJob& job) {
                  .efforts = app.efforts()});
   }
   const verp::hal::CanErrors errors = can.errors();
-  // The twin alone never sends more than fits, and repeats what other nodes' frames displaced.
+  // The twin repeats frames that other nodes displaced.
   if (errors.overruns != 0 && node.asked() == 0) {
     return fail("loop: the CAN controller lost frames\n");
   }

@@ -3,9 +3,9 @@
 #include "firmware/boot/boot.hpp"
 #include "hal/chip/semihosting/semihosting.hpp"
 
-/// can_<board>: the board's CAN bus without a robot. Sends "ready" (identifier 0x700), then answers
-/// every frame with the same data and format at the next higher identifier. Frame 0x7FF is answered
-/// with the bus's error counters and ends the image, with status 1 if any counter is not 0.
+/// can_<board>: the CAN bus without a robot. Sends "ready" (identifier 0x700), then answers every
+/// frame with the same data and format at the next higher identifier. 0x7FF is answered with the
+/// error counters and ends the image, with status 1 if any is not 0.
 namespace {
 
 constexpr std::uint32_t kEnd = 0x7FF;

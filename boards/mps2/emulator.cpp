@@ -2,7 +2,7 @@
 #include "firmware/boot/boot.hpp"
 #include "hal/chip/semihosting/semihosting.hpp"
 
-/// Ends an image on an emulated board; the emulator exits with its status.
+/// The emulator exits with the image's status.
 namespace {
 
 constexpr int kFaultStatus = 70;  // EX_SOFTWARE of BSD's sysexits.h; differs from a failed run

@@ -5,7 +5,7 @@
 #include "hal/chip/semihosting/semihosting.hpp"
 
 /// fault_<board> overflow|jump|read: causes that fault, keeps the crash record and resets. The
-/// second start checks the record and prints it.
+/// second start prints it.
 namespace {
 
 using verp::hal::semihosting::print;
@@ -63,7 +63,7 @@ extern "C" void verp_exit(int status) {
 
 extern "C" void verp_fault(const verp::boot::FaultReport& report) {
   verp::boot::keep_crash(report);
-  // Application Interrupt and Reset Control Register: SYSRESETREQ (ARMv7-M ARM, B3.2.6).
+  // AIRCR: SYSRESETREQ (ARMv7-M ARM, B3.2.6).
   *reinterpret_cast<volatile std::uint32_t*>(0xE000ED0Cu) = 0x05FA0004u;
   for (;;) {
   }

@@ -1,10 +1,9 @@
-# Images <what>_<board>.elf for emulated boards that talk to the PC by semihosting. Called in the
-# board's folder.
+# Images <what>_<board>.elf for emulated boards, by semihosting. Called in the board's folder.
 set(VERP_MPS2_DIR ${CMAKE_CURRENT_LIST_DIR})
 set(VERP_GTEST_TARGET_DIR ${CMAKE_SOURCE_DIR}/tests/support/gtest_target)  # test support on boards
 include(${CMAKE_SOURCE_DIR}/tests/together.cmake)
 
-# <name>_<board>.elf from <what>_main.cpp and further sources; `machine` is QEMU's machine name.
+# <name>_<board>.elf from <what>_main.cpp and further sources; `machine` is QEMU's.
 function(verp_add_emulated_image name what machine)
   set(image ${name}_${VERP_BOARD})
   set(folder ${VERP_MPS2_DIR})
@@ -12,7 +11,7 @@ function(verp_add_emulated_image name what machine)
     set(folder ${VERP_GTEST_TARGET_DIR})
   endif()
   add_executable(${image} ${folder}/${what}_main.cpp ${ARGN})
-  if(NOT what STREQUAL fault)  # it defines its own exit
+  if(NOT what STREQUAL fault)  # has its own exit
     target_sources(${image} PRIVATE ${VERP_MPS2_DIR}/emulator.cpp)
   endif()
   target_include_directories(${image} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
@@ -25,7 +24,7 @@ function(verp_add_emulated_image name what machine)
     LINK_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/memory.ld;${CMAKE_SOURCE_DIR}/firmware/boot/sections.ld")
 endfunction()
 
-# <name>_<board>.elf runs the unit tests in the given sources with `VERP_WITH`; ctest name: `test`.
+# <name>_<board>.elf runs the unit tests in `VERP_WITH`'s sources; ctest name: `test`.
 function(verp_add_unit_image name test machine)
   set(library newlib.cpp)
   if(CMAKE_SYSTEM_PROCESSOR STREQUAL riscv32)
@@ -45,7 +44,7 @@ function(verp_add_unit_tests machine)
   verp_add_unit_image(unit unit.${VERP_BOARD} ${machine} ${tests})
 endfunction()
 
-# One image per folder of tests/unit, for boards whose RAM holds one folder's variables only.
+# One image per folder, for boards whose RAM holds one folder's variables only.
 function(verp_add_unit_tests_by_folder machine)
   file(GLOB folders CONFIGURE_DEPENDS LIST_DIRECTORIES true ${CMAKE_SOURCE_DIR}/tests/unit/*)
   foreach(folder ${folders})
@@ -57,8 +56,8 @@ function(verp_add_unit_tests_by_folder machine)
   endforeach()
 endfunction()
 
-# The suites of tests/contract, against the fakes and, where emulators lack the hardware, drivers
-# against chip models. CAN has its own image, because one chip's RAM does not hold both models.
+# tests/contract against the fakes and, where emulators lack the hardware, drivers against chip models. CAN has its own
+# image: one chip's RAM does not hold both models.
 function(verp_add_contract_tests machine)
   file(GLOB tests CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/contract/*_test.cpp)
   file(GLOB models CONFIGURE_DEPENDS
@@ -103,7 +102,7 @@ function(verp_add_deploy_test)
   endforeach()
 endfunction()
 
-# A user's controller in the board's loop, from its folder to the same digest as on the PC.
+# A user's controller, from its folder to the same digest as on the PC.
 function(verp_add_own_controller_test)
   add_test(NAME own.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/host/own/own_controller.sh ${VERP_HOST_DIR}/host/apps/tool/verp ${VERP_BOARD})
   set_tests_properties(own.${VERP_BOARD} PROPERTIES LABELS "loop;target")
@@ -116,21 +115,20 @@ function(verp_add_debug_test)
     ENVIRONMENT "VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 
-# Runs recorded inputs through the core on the board: short ones and the long trace of tests/replay.
+# Recorded inputs through the core: short ones and the long trace of tests/replay.
 function(verp_add_replay_tests machine)
   verp_add_emulated_image(replay replay ${machine})
   verp_add_target_test(replay TargetReplay)
-  # The long trace, whole.
   add_test(NAME trace.${VERP_BOARD} COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=LongTrace.*)
   set_tests_properties(trace.${VERP_BOARD} PROPERTIES LABELS "replay;target" REQUIRED_FILES $<TARGET_FILE:replay_${VERP_BOARD}>
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=100000;VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 
-# The board's own CAN driver in the emulator, on a CAN bus of this PC.
+# The board's CAN driver in the emulator, on a CAN bus of this PC.
 function(verp_add_can_tests machine)
   verp_add_emulated_image(can can ${machine})
   verp_add_emulated_image(loop can_loop ${machine})
-  add_custom_target(benchmarks DEPENDS loop_${VERP_BOARD})  # what `verp bench` runs
+  add_custom_target(benchmarks DEPENDS loop_${VERP_BOARD})  # for `verp bench`
   add_test(NAME can.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-can --timeout 1700 --slow 3 --memory 1500M
     ${VERP_HOST_DIR}/target/target_tests --gtest_filter=CanBoard.*)
   # RESOURCE_LOCK: two virtual machines would share a processor.
@@ -139,8 +137,7 @@ function(verp_add_can_tests machine)
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 
-# The loop over CAN for `ticks`; getting up and standing take nine seconds
-# (tests/target/twin_run.cpp).
+# Getting up and standing take nine seconds (tests/target/twin_run.cpp).
 function(verp_add_can_loop_test ticks)
   add_test(NAME can_loop.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-can --timeout 1700 --memory 1500M
     ${VERP_HOST_DIR}/target/target_tests --gtest_filter=CanLoop.*)
@@ -156,7 +153,7 @@ function(verp_add_can_tour_test)
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 
-# The crash record that a fault leaves for the next start.
+# The crash record for the next start.
 function(verp_add_fault_tests machine)
   verp_add_emulated_image(fault fault ${machine})
   foreach(how overflow jump read)
@@ -178,7 +175,7 @@ function(verp_add_serial_tests machine)
   add_test(NAME hil.${VERP_BOARD}.faults COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=SerialFaults.*)
   set_tests_properties(hil.${VERP_BOARD}.faults PROPERTIES LABELS "hil;target"
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=1050;VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
-  # Getting up and standing take nine seconds of these walks (tests/target/twin_run.cpp).
+  # Getting up and standing take nine seconds.
   foreach(ticks 1200 1900)
     set(name hil.${VERP_BOARD}.walk)
     set(labels "hil;target")
@@ -202,7 +199,7 @@ function(verp_add_mps2_images machine)
   verp_add_dry_run_test()
   verp_add_deploy_test()
   verp_add_emulated_image(link link ${machine})
-  add_custom_target(benchmarks DEPENDS replay_${VERP_BOARD} link_${VERP_BOARD})  # what `verp bench` runs
+  add_custom_target(benchmarks DEPENDS replay_${VERP_BOARD} link_${VERP_BOARD})  # for `verp bench`
   add_test(NAME bench.${VERP_BOARD} COMMAND ${VERP_HOST_DIR}/target/target_bench --check ${VERP_BOARD})
   # Measures the link, so it runs alone.
   set_tests_properties(bench.${VERP_BOARD} PROPERTIES LABELS "bench;target" RUN_SERIAL ON

@@ -4,15 +4,14 @@
 #include "firmware/boot/boot.hpp"
 #include "hal/chip/semihosting/semihosting.hpp"
 
-/// link_<board> TO_BOARD FROM_BOARD [step]: the traffic of a control tick (two frames with reply,
-/// two without, one record) without a robot, to measure the link alone; with `step` the controller
-/// runs too.
+/// link_<board> TO_BOARD FROM_BOARD [step]: a control tick's traffic (two frames with reply, two
+/// without, one record) without a robot, to measure the link; with `step` the controller runs too.
 namespace {
 
 using verp::hal::semihosting::File;
 using Remote = verp::app::RemoteBus<File, File>;
 
-constexpr std::size_t kFrameBytes = 200;  // about the traffic of 21 servos
+constexpr std::size_t kFrameBytes = 200;  // about 21 servos' traffic
 constexpr std::uint32_t kTimeoutUs = 1000;
 
 verp::Params params;

@@ -5,8 +5,7 @@
 #include "firmware/boot/stack.hpp"
 #include "hal/chip/semihosting/semihosting.hpp"
 
-/// replay_<board> JOB RESULT: runs the recorded inputs of file JOB (see replay_job.hpp) and writes
-/// RESULT. The instruction counter measures a tick with it.
+/// replay_<board> JOB RESULT: runs JOB's recorded inputs (replay_job.hpp) and writes RESULT.
 namespace {
 
 using verp::hal::semihosting::File;

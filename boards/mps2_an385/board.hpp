@@ -1,12 +1,11 @@
 #pragma once
 #include <cstdint>
 
-/// Arm MPS2 FPGA board with the AN385 image (Cortex-M3), as QEMU's mps2-an385 emulates it.
+/// Arm MPS2 with the AN385 image (Cortex-M3), as QEMU's mps2-an385.
 namespace verp::board {
 inline constexpr const char* kName = "mps2_an385";
 inline constexpr const char* kCore = "Cortex-M3";
-/// Ticks per replay block.
 inline constexpr int kReplayBlock = 256;
-/// An address without memory, for fault tests: no external memory.
+/// For fault tests: an address without memory.
 inline constexpr std::uintptr_t kNowhere = 0x6FFFFFF0;
 }  // namespace verp::board

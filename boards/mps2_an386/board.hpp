@@ -1,12 +1,11 @@
 #pragma once
 #include <cstdint>
 
-/// Arm MPS2 FPGA board with the AN386 image (Cortex-M4F), as QEMU's mps2-an386 emulates it.
+/// Arm MPS2 with the AN386 image (Cortex-M4F), as QEMU's mps2-an386.
 namespace verp::board {
 inline constexpr const char* kName = "mps2_an386";
 inline constexpr const char* kCore = "Cortex-M4F";
-/// Ticks per replay block.
 inline constexpr int kReplayBlock = 256;
-/// An address without memory, for fault tests: no external memory.
+/// For fault tests: an address without memory.
 inline constexpr std::uintptr_t kNowhere = 0x6FFFFFF0;
 }  // namespace verp::board

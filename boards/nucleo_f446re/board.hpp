@@ -1,8 +1,7 @@
 #pragma once
 #include "boards/stm32/f4_ports.hpp"
 
-/// ST Nucleo-F446RE: STM32F446RET6 (Cortex-M4F).
-/// Pins and alternate functions: DS10693, pin definitions and alternate function mapping; DMA
+/// ST Nucleo-F446RE: STM32F446RET6 (Cortex-M4F). Pins and alternate functions: DS10693; DMA
 /// streams: RM0390 9.3.4; clock, LED and virtual COM port: UM1724. README.md has the wiring.
 namespace verp::board {
 
@@ -10,7 +9,6 @@ namespace stm32 = hal::stm32;
 
 inline constexpr const char* kName = "nucleo_f446re";
 inline constexpr const char* kCore = "Cortex-M4F";
-/// Ticks per replay block.
 inline constexpr int kReplayBlock = 64;
 
 inline constexpr stm32::Family kFamily = stm32::Family::kF446;
@@ -19,7 +17,7 @@ using UsartKind = stm32::UsartV1;
 inline constexpr stm32::ClockPlan kClockPlan = {
     .crystal_hz = 8'000'000, .external = true, .vco_hz = 336'000'000, .sysclk_hz = 168'000'000};
 static_assert(stm32::is_possible(kClockPlan, kFamily));
-/// A chip without a clock controller is no F446: the timer refuses to open, and nothing runs.
+/// On another chip the timer refuses to open, and nothing runs.
 inline constexpr stm32::Clocks kWithoutClockController = {};
 
 /// Arduino pins D8, D2 and D4.

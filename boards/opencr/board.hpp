@@ -1,17 +1,15 @@
 #pragma once
 #include "boards/stm32/wiring.hpp"
 
-/// ROBOTIS OpenCR 1.0: STM32F746ZGT6 (Cortex-M7, single precision).
-/// Pins: ROBOTIS-GIT/OpenCR, arduino/opencr_arduino/opencr/variants/OpenCR (variant.cpp,
-/// drv_uart.c, drv_dxl.c, drv_can.c, hw/usb_cdc); alternate functions and DMA streams: its
-/// drv_uart.c. README.md has the wiring and the source of each pin.
+/// ROBOTIS OpenCR 1.0: STM32F746ZGT6 (Cortex-M7, single precision). Pins: ROBOTIS-GIT/OpenCR,
+/// arduino/opencr_arduino/opencr/variants/OpenCR (variant.cpp, drv_uart.c, drv_dxl.c, drv_can.c,
+/// hw/usb_cdc); alternate functions and DMA streams: its drv_uart.c. README.md has the wiring.
 namespace verp::board {
 
 namespace stm32 = hal::stm32;
 
 inline constexpr const char* kName = "opencr";
 inline constexpr const char* kCore = "Cortex-M7";
-/// Ticks per replay block.
 inline constexpr int kReplayBlock = 64;
 
 inline constexpr stm32::Family kFamily = stm32::Family::kF746;
@@ -20,10 +18,10 @@ using UsartKind = stm32::UsartV2;
 inline constexpr stm32::ClockPlan kClockPlan = {
     .crystal_hz = 25'000'000, .external = false, .vco_hz = 432'000'000, .sysclk_hz = 216'000'000};
 static_assert(stm32::is_possible(kClockPlan, kFamily));
-/// A chip without a clock controller is no F746: the timer refuses to open, and nothing runs.
+/// On another chip the timer refuses to open, and nothing runs.
 inline constexpr stm32::Clocks kWithoutClockController = {};
 
-/// The DYNAMIXEL connectors, both TTL and RS-485: one USART, one direction pin.
+/// The DYNAMIXEL connectors, TTL and RS-485: one direction pin.
 inline constexpr SerialPort kServoPort = {.wiring = {.base = stm32::base::kUsart3,
                                                      .dma_base = stm32::base::kDma1,
                                                      .dma_stream = 1,
@@ -45,7 +43,7 @@ inline constexpr CanPort kCanPort = {.base = stm32::base::kCan2,
                                      .receive = {'B', 12},
                                      .function = 9,
                                      .first_interrupt = stm32::irq::kCan2Tx};
-/// The USB connector. VBUS is not sensed: usb_cdc/usbd_conf.c.
+/// VBUS is not sensed: usb_cdc/usbd_conf.c.
 inline constexpr UsbPort kOperatorPort = {.minus = {'A', 11},
                                           .plus = {'A', 12},
                                           .function = 10,
@@ -65,13 +63,13 @@ inline constexpr ImuPort kImu = {.wiring = {.base = stm32::base::kSpi1,
                                             .select = {'A', 4},
                                             .function = 5},
                                  .on_apb2 = true};
-/// 3.3 V at the converter mean 18.81 V at the battery: variant.cpp, getPowerInVoltage().
+/// 3.3 V mean 18.81 V at the battery: variant.cpp, getPowerInVoltage().
 inline constexpr stm32::AnalogWiring kBattery = {.base = stm32::base::kAdc3,
                                                  .mask = stm32::rcc::kApb2Adc3,
                                                  .pin = {'C', 0},
                                                  .channel = 10,
                                                  .full_scale_mv = 18'810};
-/// Extension connector, pin 3; pin 2 beside it is ground.
+/// Extension connector, pin 3; pin 2 is ground.
 inline constexpr Pin kEmergencyStop = {'B', 10};
 inline constexpr Button kButtons[2] = {{.pin = {'G', 3}, .pressed_high = true},
                                        {.pin = {'C', 12}, .pressed_high = true}};

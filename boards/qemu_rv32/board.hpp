@@ -4,6 +4,5 @@
 namespace verp::board {
 inline constexpr const char* kName = "qemu_rv32";
 inline constexpr const char* kCore = "RV32IMAC";
-/// Ticks per replay block.
 inline constexpr int kReplayBlock = 256;
 }  // namespace verp::board

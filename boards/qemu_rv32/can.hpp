@@ -3,9 +3,8 @@
 
 #include "hal/chip/sja1000/sja1000.hpp"
 
-/// This board's CAN bus: the SJA1000 of a kvaser_pci card in QEMU's `virt`. Addresses: QEMU's
-/// hw/riscv/virt.c (memory map), hw/net/can/can_kvaser_pci.c (card), and the RISC-V PLIC and CLINT
-/// specifications.
+/// The SJA1000 of a kvaser_pci card in QEMU's `virt`. Addresses: QEMU's hw/riscv/virt.c (memory
+/// map), hw/net/can/can_kvaser_pci.c (card), and the RISC-V PLIC and CLINT specifications.
 namespace verp::board {
 
 class KvaserIo {
@@ -15,8 +14,8 @@ class KvaserIo {
     at<std::uint8_t>(kChip + offset) = value;
   }
 
-  /// Reads the core's view of the timer; reading the timer's registers would stop QEMU's other
-  /// threads. Call at least every seven minutes.
+  /// The core's view: reading the timer's registers would stop QEMU's other threads. Call at least
+  /// every seven minutes.
   std::uint64_t now_us() {
     std::uint32_t low;
     __asm__ volatile(".option push\n .option arch, +zicsr\n csrr %0, time\n .option pop"
@@ -32,13 +31,13 @@ class KvaserIo {
   void doze_until(std::uint64_t us) {
     set_alarm(us * kTicksPerUs);
     __asm__ volatile("wfi" ::: "memory");
-    // The caller serves the chip next, so its line falls and can rise for the next frame.
+    // The caller serves the chip next, so its line falls.
     if (const std::uint32_t source = at<std::uint32_t>(kPlicClaim); source != 0) {
       at<std::uint32_t>(kPlicClaim) = source;
     }
   }
 
-  /// Finds the card and enables its interrupt. False: no card (-device kvaser_pci).
+  /// Enables the card's interrupt. False: no card (-device kvaser_pci).
   static bool plug_in() {
     for (std::uint32_t slot = 0; slot < 32; ++slot) {
       const std::uint32_t config = kConfigSpace + (slot << 15);
@@ -46,7 +45,7 @@ class KvaserIo {
       at<std::uint32_t>(config + 0x10) = kBridgePort;
       at<std::uint32_t>(config + 0x14) = kChipPort;
       at<std::uint32_t>(config + 0x18) = kChipPort + 0x100;
-      at<std::uint16_t>(config + 0x04) = 1;  // enables I/O addresses
+      at<std::uint16_t>(config + 0x04) = 1;  // I/O addresses on
       at<std::uint32_t>(kPorts + kBridgePort + kBridgeInterrupts) = kBridgeLetsThrough;
       let_through(kFirstPciInterrupt + slot % 4);  // pin A, swizzled by slot
       return true;
@@ -55,12 +54,12 @@ class KvaserIo {
   }
 
  private:
-  /// An early alarm stays: the sleeper checks the clock and sleeps on. Most sleeps end with a
-  /// frame; setting the alarm each time would cost QEMU more than the sleep.
+  /// An early alarm stays: the sleeper checks the clock. Setting it each time would cost QEMU more
+  /// than the sleep.
   void set_alarm(std::uint64_t when) {
     if (time_ < alarm_ && alarm_ <= when) return;
     alarm_ = when;
-    at<std::uint32_t>(kTimeCompare + 4) = 0xFFFFFFFFu;  // keeps half-written values in the future
+    at<std::uint32_t>(kTimeCompare + 4) = 0xFFFFFFFFu;  // no half-written value is in the past
     at<std::uint32_t>(kTimeCompare) = static_cast<std::uint32_t>(when);
     at<std::uint32_t>(kTimeCompare + 4) = static_cast<std::uint32_t>(when >> 32);
   }
@@ -84,12 +83,12 @@ class KvaserIo {
   static void let_through(std::uint32_t interrupt) {
     at<std::uint32_t>(kPlic + 4 * interrupt) = 1;  // priority
     at<std::uint32_t>(kPlic + 0x2000 + 4 * (interrupt / 32)) = 1u << (interrupt % 32);
-    at<std::uint32_t>(kPlic + 0x200000) = 0;  // threshold of hart 0 in machine mode
+    at<std::uint32_t>(kPlic + 0x200000) = 0;  // threshold, hart 0, machine mode
     __asm__ volatile(".option push\n .option arch, +zicsr\n csrs mie, %0\n .option pop" ::"r"(
         kTimerAndExternal));
   }
 
-  std::uint64_t time_ = 0;   ///< last value read
+  std::uint64_t time_ = 0;   ///< last read
   std::uint64_t alarm_ = 0;  ///< the timer's compare value
 };
 
@@ -98,7 +97,7 @@ using Can = hal::sja1000::Sja1000<KvaserIo>;
 inline constexpr CanTiming kCanTiming = Can::timing(16'000'000, 1'000'000);  ///< the card's crystal
 static_assert(kCanTiming.possible());
 
-/// False: there is no card.
+/// False: no card.
 inline bool open_can(Can& can) {
   return KvaserIo::plug_in() && can.open(kCanTiming);
 }

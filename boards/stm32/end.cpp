@@ -2,8 +2,7 @@
 #include "firmware/boot/boot.hpp"
 #include "firmware/boot/crash.hpp"
 
-/// Ends an image on silicon by a reset. A fault keeps its crash record. The next start begins with
-/// torque off, as always.
+/// Ends an image by a reset. A fault keeps its crash record. The next start begins with torque off.
 namespace {
 
 [[noreturn]] void reset() {

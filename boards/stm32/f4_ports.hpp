@@ -1,10 +1,10 @@
 #pragma once
 #include "boards/stm32/wiring.hpp"
 
-/// Ports common to boards with an F405 or F446 in a 64-pin package.
+/// For an F405 or F446 in a 64-pin package.
 namespace verp::board {
 
-/// USART1 to the servos; the direction pin is PB5.
+/// USART1; the direction pin is PB5.
 constexpr SerialPort f4_servo_port(Pin transmit, Pin receive) {
   return {.wiring = {.base = hal::stm32::base::kUsart1,
                      .dma_base = hal::stm32::base::kDma2,

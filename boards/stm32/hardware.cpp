@@ -13,8 +13,8 @@ stm32::Buzzer<Io> buzzer(kBuzzer);
 
 namespace {
 
-// Servo replies must not wait for the operator. Handlers of one port share a priority, so that they
-// cannot interrupt each other.
+// Servo replies must not wait for the operator. One port's handlers share a priority: none
+// interrupts another.
 constexpr std::uint8_t kRobotPriority = 4;
 constexpr std::uint8_t kOperatorPriority = 8;
 constexpr std::uint8_t kTimerPriority = 12;
@@ -60,7 +60,7 @@ bool open_operator_port(const Start& start) {
 
 }  // namespace verp::board
 
-/// SysTick only ends a wait (hal/chip/stm32/tick_timer.hpp).
+/// It only ends a wait (hal/chip/stm32/tick_timer.hpp).
 extern "C" void verp_systick() {}
 
 namespace verp::board {

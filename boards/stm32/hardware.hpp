@@ -9,7 +9,7 @@
 #include "hal/chip/stm32/watchdog.hpp"
 #include "robot_port.hpp"
 
-/// The board's chip: its drivers and their start-up. Static, so that interrupts find them.
+/// The chip's drivers and their start-up. Static, so that interrupts find them.
 namespace verp::board {
 
 using Io = stm32::MemoryIo;
@@ -32,15 +32,14 @@ extern stm32::Buzzer<Io> buzzer;
 struct Start {
   stm32::Clocks clocks;
   stm32::ResetCause cause = stm32::ResetCause::kUnknown;
-  bool good = false;  ///< false: the timer does not count, so nothing can be timed
+  bool good = false;  ///< false: the timer does not count
 };
 
-/// Call once: starts clocks, pins, timer and interrupts. Ports are opened later at their baud
-/// rates.
+/// Call once: clocks, pins, timer and interrupts. Ports are opened later.
 Start start_hardware();
-/// False if the rate is not possible. Waits milliseconds at most.
+/// False: impossible rate. Waits milliseconds at most.
 bool open_robot_port(const Start& start, std::uint32_t baud);
-/// False if it cannot be clocked or does not answer. USB takes 25 ms.
+/// False: no clock or no answer. USB takes 25 ms.
 bool open_operator_port(const Start& start);
 
 }  // namespace verp::board

@@ -1,20 +1,19 @@
-# The image of an STM32 board: loop_<board>.elf, checked against its budget of flash, RAM and stack.
+# loop_<board>.elf, checked against its budget of flash, RAM and stack.
 set(VERP_STM32_DIR ${CMAKE_CURRENT_LIST_DIR})
 
-# <image>.elf reaches the robot by the robot_port.hpp of folder `way`: serial or can.
+# <image>.elf with the robot_port.hpp of `way`: serial or can.
 function(verp_add_stm32_image image way)
   add_executable(${image} ${VERP_STM32_DIR}/loop_main.cpp ${VERP_STM32_DIR}/hardware.cpp ${VERP_STM32_DIR}/end.cpp)
   target_include_directories(${image} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${VERP_STM32_DIR}/${way})
   target_link_libraries(${image} PRIVATE verp_boot verp_law verp_app verp_core verp_warnings)
-  # Flash is scarce here, not time: verp_core computes the tick with its own flags; the rest mostly
-  # waits.
+  # Flash is scarce here, not time: verp_core has its own flags.
   target_compile_options(${image} PRIVATE -Os)
   target_link_options(${image} PRIVATE -T ${CMAKE_CURRENT_SOURCE_DIR}/memory.ld)
   set_target_properties(${image} PROPERTIES
     SUFFIX .elf
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/images
     LINK_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/memory.ld;${CMAKE_SOURCE_DIR}/firmware/boot/sections.ld")
-  # The raw bytes for a boot loader, and the budget check, which can fail the build.
+  # Raw bytes for a boot loader; the budget check can fail the build.
   add_custom_command(TARGET ${image} POST_BUILD
     COMMAND ${CMAKE_OBJCOPY} -O binary $<TARGET_FILE:${image}> ${CMAKE_BINARY_DIR}/images/${image}.bin
     COMMAND ${VERP_STM32_DIR}/budget $<TARGET_FILE:${image}> ${CMAKE_SOURCE_DIR}/host/boards/board/stack_depth
@@ -26,22 +25,20 @@ function(verp_add_budget_test name image)
   set_tests_properties(${name} PROPERTIES LABELS "gate;target")
 endfunction()
 
-# loop_<board> for a robot on the servo port.
+# For a robot on the servo port.
 function(verp_add_stm32_loop)
   verp_add_stm32_image(loop_${VERP_BOARD} serial)
   verp_add_budget_test(budget.${VERP_BOARD} loop_${VERP_BOARD})
   verp_add_dry_run_test()
 endfunction()
 
-# loop_can_<board> for a robot on CAN. One image for both would almost fill the flash before the
-# robot's sector.
+# For a robot on CAN. One image for both would almost fill the flash before the robot's sector.
 function(verp_add_stm32_can_loop)
   verp_add_stm32_image(loop_can_${VERP_BOARD} can)
   verp_add_budget_test(budget.${VERP_BOARD}.can loop_can_${VERP_BOARD})
 endfunction()
 
-# The real image through a flash tool, as far as possible without silicon: `tests` of
-# tests/host/flash.
+# The image through a flash tool, without silicon: `tests` of tests/host/flash.
 function(verp_add_flash_tests tests)
   add_test(NAME flash.${VERP_BOARD}.real COMMAND ${VERP_HOST_DIR}/tests/host/flash/verp_flash_test --gtest_filter=${tests})
   set_tests_properties(flash.${VERP_BOARD}.real PROPERTIES LABELS "flash;target"

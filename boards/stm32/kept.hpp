@@ -6,9 +6,9 @@
 #include "firmware/store/shared_page.hpp"
 #include "hal/chip/stm32/flash_pages.hpp"
 
-/// Data that the board keeps in its own flash, in the sectors that every memory.ld leaves free. One
-/// holds the robot, with its actions in the second half. Two hold a log of settings; a new robot or
-/// new actions wait in the one without a log.
+/// The board's own flash, sectors that every memory.ld leaves free. One holds the robot, with its
+/// actions in the second half. Two hold a log of settings; a new robot or new actions wait in the
+/// one without a log.
 namespace verp::board {
 
 class Kept {
@@ -20,13 +20,13 @@ class Kept {
   using Room = store::WaitingRoom<Pages, Pages, Log>;
 
  public:
-  /// Call at start, before using robot or actions: finishes what a power loss interrupted.
+  /// At start, before robot or actions are used: finishes what a power loss interrupted.
   static void finish(Dog& dog) {
     Pages robot = robot_pages(dog), log = log_pages(dog);
     store::finish_waiting(robot, log, [&dog] { dog.feed(); });
   }
 
-  /// `actions` follow the robot in its sector and have `actions_bytes`.
+  /// `actions` follow the robot in its sector.
   Kept(Dog& dog, const ParamsImage& robot, const std::uint8_t* actions, std::size_t actions_bytes)
       : dog_(dog),
         log_pages_(log_pages(dog)),
@@ -41,9 +41,8 @@ class Kept {
   bool has_news() const {
     return images.accepted_robot() != nullptr || images.accepted_actions() > 0;
   }
-  /// Writes the operator's new images over the active ones, which must not be used afterwards:
-  /// reset next. A power loss leaves the old or the new ones. The boot check and the check of the
-  /// actions detect a flash failure.
+  /// Writes the operator's new images over the active ones: reset next. A power loss leaves the old
+  /// or the new ones. The boot check detects a flash failure.
   void write_news() {
     room_.replace(reinterpret_cast<const std::uint8_t*>(images.accepted_robot()),
                   sizeof(ParamsImage), images.accepted_actions(), images.actions_bytes(),
@@ -71,7 +70,7 @@ class Kept {
 
  public:
   using Images = app::RobotImages<Room>;
-  Images images;  ///< for the operator's window
+  Images images;
 };
 
 }  // namespace verp::board

@@ -23,12 +23,12 @@
 #include "law.hpp"
 
 /// loop_<board>: the robot's control loop over the board's ports; loop_can_<board>: the same on CAN
-/// (robot_port.hpp of serial/ and can/). The far end of the robot's port may be servos, or a twin
-/// that answers the greeting (firmware/app/lockstep_messages.hpp and its CAN counterpart); the
-/// image tries both in turn. Torque is off until one answers. At the operator's port the controller
-/// is a Dynamixel device from the start, whatever the boot check found.
+/// (robot_port.hpp of serial/ and can/). The far end may be servos, or a twin that answers the
+/// greeting (firmware/app/lockstep_messages.hpp and its CAN counterpart); the image tries both in
+/// turn. Torque is off until one answers. At the operator's port the controller is a Dynamixel
+/// device from the start, whatever the boot check found.
 extern "C" const std::uint8_t verp_params_begin[];
-extern "C" const std::uint8_t verp_params_bytes[];  ///< its address is the size (memory.ld)
+extern "C" const std::uint8_t verp_params_bytes[];  ///< the address is the size (memory.ld)
 extern "C" const std::uint8_t verp_actions_begin[];
 extern "C" const std::uint8_t verp_actions_bytes[];
 
@@ -37,17 +37,17 @@ namespace {
 
 constexpr std::uint64_t kGreeting_us = 300'000;
 constexpr std::uint64_t kForever_us = ~std::uint64_t{0};
-/// After this long without a new tick the twin's torque no longer blocks the operator.
+/// Silence after which a twin's torque no longer blocks the operator.
 constexpr std::uint64_t kTwinSilent_us = 5'000'000;
-/// For ticks of 5 to 20 ms. A shorter timeout would fire when a lost reply delays the loop.
+/// Ticks of 5 to 20 ms; shorter would fire when a lost reply delays the loop.
 constexpr std::uint32_t kWatchdog_us = 100'000;
 
-/// After this many ticks a run counts as healthy.
+/// Ticks after which a run counts as healthy.
 constexpr std::uint32_t kSettledTicks = 1000;
-/// A real-time loop stops serving the operator this long before the period ends: one SysTick
-/// millisecond, if the compare interrupt is late, and a slice of the operator's bytes.
+/// Before the period's end, a real-time loop stops serving the operator: one SysTick millisecond,
+/// if the compare interrupt is late, and a slice of bytes.
 constexpr std::uint64_t kServingEnds_us = 2'000;
-/// The longest reply plus the one to Reboot take half of it at 1 Mbaud.
+/// The longest reply and Reboot's take half of it at 1 Mbaud.
 constexpr std::uint64_t kLastWords_us = 40'000;
 
 using app::table::StartFault;
@@ -78,8 +78,8 @@ struct Board {
     return setup;
   }
 
-  /// Runs whenever nothing arrives. It feeds the watchdog while waiting for a twin; a dead
-  /// loop never gets here.
+  /// Whenever nothing arrives. Feeds the watchdog while waiting for a twin; a dead loop never gets
+  /// here.
   void idle() {
     dog.feed();
     serve();
@@ -94,29 +94,28 @@ struct Board {
     if (sign.changed) gpio.write(kLed, sign.lit);
     say(sign.tone);
   }
-  /// Stops all ticks and torque for good and keeps reporting the reason.
+  /// Stops ticks and torque for good; keeps reporting the reason.
   [[noreturn]] void refuse(StartFault why) {
     fault = why;
     operator_device.show(why);
     for (;;) idle();
   }
 
-  /// Serves the operator's link. True if there was anything to do.
+  /// True: there was something to do.
   bool serve() {
     if (fault == StartFault::kOperatorPort) return false;
     const bool wanted = operator_device.reboot_asked() || kept.has_news();
     if (wanted && !operator_device.armed()) start_anew();
     return operator_device.poll();
   }
-  /// Restarts for a reboot or new images. The caller has checked that torque is off. Nothing ticks
-  /// afterwards.
+  /// For a reboot or new images. The caller has checked that torque is off.
   [[noreturn]] void start_anew() {
     const std::uint64_t end_us = timer.now_us() + kLastWords_us;
     while (timer.now_us() < end_us) operator_device.poll();
     if (kept.has_news()) kept.write_news();
     verp_exit(0);
   }
-  /// Serves the operator, otherwise sleeps until an interrupt or SysTick.
+  /// Sleeps until an interrupt or SysTick if there is nothing to serve.
   void serve_until(std::uint64_t end_us) {
     while (timer.now_us() < end_us) {
       if (!serve()) timer.doze_until(end_us, [] { return false; });
@@ -174,7 +173,7 @@ struct Board {
   StartFault fault = StartFault::kNone;
 };
 
-/// Runs while bring-up waits for the robot's port, when no tick feeds the watchdog.
+/// Runs while bring-up waits, when no tick feeds the watchdog.
 struct UntilTicks {
   void operator()() const {
     if (ticking) return;
@@ -198,10 +197,10 @@ struct Patience {
   const std::uint64_t& until_us;
 };
 
-/// Serves a twin while it is there, or returns why there is none. The board's own IMU and stop do
-/// not know the twin's world and are ignored; so is the torque limit, because the twin compares
-/// each frame with its own. A silent twin may be paused: the loop waits for ever, then goes on with
-/// the same bits. Meanwhile the operator can restart the board.
+/// Serves a twin, or returns why there is none. The board's own IMU and stop do not know the twin's
+/// world and are ignored; so is the torque limit, because the twin compares each frame. A silent
+/// twin may be paused: the loop waits for ever, then goes on with the same bits. Meanwhile the
+/// operator can restart the board.
 lockstep::Verdict run_in_lockstep(Board& board, const Params& params) {
   std::uint64_t until_us = timer.now_us() + kGreeting_us;
   LockstepOn<Node::LoopPort, Patience> bus(board.node.port(), {board, until_us});
@@ -221,8 +220,8 @@ lockstep::Verdict run_in_lockstep(Board& board, const Params& params) {
   return verdict;
 }
 
-/// Drives servos until power-off. Returns if some are missing, or after an emergency stop cut their
-/// power. `held_us`: how long devices between port and servos may delay bytes.
+/// Until power-off; returns if servos are missing, or after an emergency stop cut their power.
+/// `held_us`: how long devices between port and servos may delay bytes.
 void run_in_real_time(Board& board, Servos& servos, const Params& params, std::uint32_t held_us) {
   bool ticking = false;
   RealTimeOn<Node::LoopPort, Timer, UntilTicks> way(board.node.port(), timer, {board, ticking},
@@ -256,8 +255,7 @@ void run_in_real_time(Board& board, Servos& servos, const Params& params, std::u
   }
 }
 
-/// Runs before the watchdog starts, with its own handle to it, because the board does not exist
-/// yet.
+/// Before the watchdog starts and the board exists, with its own handle to it.
 [[gnu::noinline]] void finish_kept(const Start& start) {
   stm32::IndependentWatchdog<Io> dog(start.cause);
   Kept::finish(dog);
@@ -269,8 +267,7 @@ StartFault judge(bool has_desk, control::BootVerdict verdict, const Params& para
   return params.bus_protocol == kProtocol ? StartFault::kNone : StartFault::kProtocol;
 }
 
-/// Keeps its State on the stack, which is free before a loop runs; a variable would take RAM
-/// permanently.
+/// Its State is on the stack, which is free before a loop runs.
 [[gnu::noinline]] control::BootReport check_boot(std::size_t size, Params& scratch) {
   State state;
   return control::check_boot(verp_params_begin, size, scratch, state);
@@ -291,11 +288,11 @@ extern "C" int verp_main() {
   const bool has_desk = board::open_operator_port(start);
   board::finish_kept(start);
   const auto size = reinterpret_cast<std::uintptr_t>(verp_params_bytes);
-  // Constructed here: an initialised variable would put its 4 KB of defaults into flash.
+  // An initialised variable would put its 4 KB into flash.
   alignas(Params) static std::byte room[sizeof(Params)];
   Params& scratch = *new (room) Params;
   const control::BootReport boot_check = board::check_boot(size, scratch);
-  scratch = {};  // the default robot of a board without one
+  scratch = {};  // for a board without a robot
   const bool has_robot = check_image(verp_params_begin, size) == ImageFault::kNone;
   const Params& params =
       has_robot ? reinterpret_cast<const ParamsImage*>(verp_params_begin)->params : scratch;
@@ -308,7 +305,7 @@ extern "C" int verp_main() {
     here.supply.set(true);  // unless a stop cut the power
     const lockstep::Verdict twin = board::run_in_lockstep(here, params);
     if (twin == lockstep::Verdict::kAccepted) continue;
-    // A twin in real time answers through a PC and perhaps a USB adapter.
+    // A real-time twin answers through a PC and perhaps a USB adapter.
     const bool through_pc = twin == lockstep::Verdict::kNoLockstep;
     board::run_in_real_time(here, servos, params, through_pc ? params.period_us / 4 : 0);
   }

@@ -6,9 +6,9 @@
 
 namespace verp::board {
 
-/// Reports a timer that does not count: the LED blinks the fault, timed roughly by instructions.
+/// The timer does not count: the LED blinks the fault, timed roughly by instructions.
 [[noreturn]] inline void refuse_without_time(const Start& start) {
-  constexpr std::uint32_t kStep_us = 1000, kCycles = 8;  // of one round, about
+  constexpr std::uint32_t kStep_us = 1000, kCycles = 8;  // of one round
   constexpr std::uint32_t kSlowest_hz = 16'000'000;      // internal oscillator
   const std::uint32_t core_hz = start.clocks.sysclk_hz != 0 ? start.clocks.sysclk_hz : kSlowest_hz;
   const std::uint32_t rounds = core_hz / 1'000'000 * kStep_us / kCycles;

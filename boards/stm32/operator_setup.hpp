@@ -7,13 +7,13 @@
 /// The result of this start for the operator's registers.
 namespace verp::board {
 
-/// Takes the crash record; call once.
+/// Takes the crash record: call once.
 inline app::OperatorSetup operator_setup(const Start& start,
                                          const control::BootReport& boot_check) {
   using dxl::controller::ClockSource;
   using dxl::controller::ResetCause;
   using dxl::controller::SelfTest;
-  // Register values equal those of boot check and chip; self-test and clock are one higher.
+  // Values equal those of boot check and chip; self-test and clock are one higher.
   static_assert(static_cast<int>(SelfTest::kControl) ==
                 static_cast<int>(control::BootVerdict::kControl) + 1);
   static_assert(static_cast<int>(ClockSource::kAbsent) ==

@@ -7,7 +7,7 @@
 #include "hal/chip/invensense/ranges.hpp"
 #include "hal/chip/stm32/spi_master.hpp"
 
-/// The board's own IMU, if board.hpp names one whose scales match the robot's Params.
+/// The board's own IMU, if its scales match the robot's Params.
 namespace verp::board {
 
 using app::table::ImuCalibrationOrder;
@@ -48,7 +48,7 @@ class OwnImu<true, Log> {
     spi_.open(kImu.on_apb2 ? start.clocks.apb2_hz : start.clocks.apb1_hz);
     chip_.load();
   }
-  /// Call before loading the settings: sets which IMU sources the operator may choose.
+  /// Call before loading the settings: sets the IMU sources on offer.
   void offer(app::OperatorSetup& setup) const {
     using app::table::ImuSource;
     if (!fits_) return;
@@ -57,7 +57,7 @@ class OwnImu<true, Log> {
     setup.imu_sources = 1 << static_cast<int>(ImuSource::kChip);
     setup.imu_source = ImuSource::kChip;
   }
-  /// Call regularly: executes the operator's calibration order and stores the result.
+  /// Call regularly: executes the operator's calibration order; stores the result.
   void serve(ImuCalibrationOrder order, bool armed) {
     if (armed) chip_.abandon();
     if (order == ImuCalibrationOrder::kMeasure) chip_.measure(timer.now_us());

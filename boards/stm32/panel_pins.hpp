@@ -5,8 +5,8 @@
 
 namespace verp::board {
 
-/// The emergency stop and buttons of board.hpp. The stop circuit normally connects its pin to
-/// ground; a pull-up makes an open circuit read as pressed.
+/// board.hpp's emergency stop and buttons. The stop circuit connects its pin to ground; a pull-up
+/// makes an open circuit read as pressed.
 template <hal::stm32::Io Access>
 class PanelPins {
  public:

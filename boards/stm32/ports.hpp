@@ -8,7 +8,7 @@
 #include "hal/chip/stm32/usart.hpp"
 #include "hal/chip/usb/cdc_acm.hpp"
 
-/// The two kinds of port that a board.hpp may name, with one interface: make, connect, open.
+/// The kinds of port in a board.hpp, with one interface.
 namespace verp::board {
 
 /// The driver of a kind of port, chosen by its wiring type.

@@ -6,9 +6,9 @@
 
 namespace verp::board {
 
-/// The servo power switch (high is on) and the emergency stop, which normally connects its pin to
-/// ground. While that circuit is open, power stays off. Power that a stop cut or prevented returns
-/// only after permit(), whether or not a loop ticks. Either pin may be missing.
+/// The servo power switch (high is on) and the emergency stop, whose circuit connects its pin to
+/// ground. While that is open, power stays off. Power that a stop cut or prevented returns only
+/// after permit(). Either pin may be missing.
 template <hal::stm32::Io Access>
 class ServoPower {
  public:
@@ -25,18 +25,18 @@ class ServoPower {
     on_ = on && !taken_;
     gpio_.output(power_, on_);
   }
-  /// Call while no tick reads the stop: an open circuit cuts the power at once.
+  /// While no tick reads the stop: an open circuit cuts the power at once.
   void watch() {
     if (on_ && gpio_.read(stop_)) take();
   }
-  /// Call after each tick of a loop that drives servos: kAnew asks for a new bring-up.
+  /// After each tick of a loop that drives servos: kAnew asks for a new bring-up.
   app::DrivePower::Step after_tick(app::DrivePower& drive, bool pressed, safety::Mode mode) {
     const auto step = drive.after_tick(pressed || taken(), mode);
     if (step == app::DrivePower::Step::kOff && on_) take();
     return exists() ? step : app::DrivePower::Step::kOn;
   }
-  /// Call regularly. `relax_asked`: the operator wrote `request` 0 since the last call. A request
-  /// while the circuit is open is ignored.
+  /// Regularly. `relax_asked`: `request` 0 was written since the last call; ignored while the
+  /// circuit is open.
   void permit(bool relax_asked) {
     if (relax_asked && !gpio_.read(stop_)) taken_ = false;
     if (!on_ && gpio_.read(stop_)) taken_ = true;

@@ -13,13 +13,12 @@ namespace verp::board {
 
 using hal::stm32::Pin;
 
-/// A peripheral's clock: its RCC register and bit.
+/// A peripheral's clock: RCC register and bit.
 struct ClockGate {
   std::uint32_t enable_register = 0;
   std::uint32_t mask = 0;
 };
 
-/// A serial port: pins, interrupts and DMA stream.
 struct SerialPort {
   hal::stm32::UsartWiring wiring;
   Pin transmit;
@@ -33,7 +32,7 @@ struct SerialPort {
   std::uint32_t baud = 0;  ///< operator's port only; the robot sets the servos'
 };
 
-/// A bxCAN on APB1. Its pins go to a CAN transceiver.
+/// A bxCAN on APB1, with a CAN transceiver.
 struct CanPort {
   std::uint32_t base = 0;
   hal::stm32::CanFilterBanks filters;
@@ -55,7 +54,7 @@ struct UsbPort {
   static constexpr unsigned dma_interrupt = interrupt;  ///< no other
 };
 
-/// A motion sensor of hal/chip/invensense on the board; {}: none.
+/// A motion sensor of hal/chip/invensense; {}: none.
 struct ImuPort {
   hal::stm32::SpiWiring wiring;
   bool on_apb2 = false;

@@ -4,6 +4,5 @@
 namespace verp::board {
 inline constexpr const char* kName = "zcu102_r5";
 inline constexpr const char* kCore = "Cortex-R5F";
-/// Ticks per replay block.
 inline constexpr int kReplayBlock = 256;
 }  // namespace verp::board

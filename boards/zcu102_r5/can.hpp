@@ -3,14 +3,14 @@
 
 #include "hal/chip/zynqmp_can/zynqmp_can.hpp"
 
-/// This board's CAN bus: CAN 0 of the Zynq UltraScale+ in QEMU's xlnx-zcu102. Polled, because QEMU
-/// has no interrupt controller for its R5s. Addresses: UG1085, table 10-3.
+/// CAN 0 of the Zynq UltraScale+ in QEMU's xlnx-zcu102. Polled: QEMU has no interrupt controller
+/// for its R5s. Addresses: UG1085, table 10-3.
 namespace verp::board {
 
 class Can0Io {
  public:
   Can0Io() {
-    // PMCR: cycle counter on, every 64th cycle; PMCNTENSET: that counter (ARMv7-AR ARM, B4.1.116).
+    // PMCR: every 64th cycle; PMCNTENSET: that counter (ARMv7-AR ARM, B4.1.116).
     __asm__ volatile(
         "mcr p15, 0, %0, c9, c12, 0\n"
         "mcr p15, 0, %1, c9, c12, 1\n" ::"r"(0xDu),
@@ -19,8 +19,8 @@ class Can0Io {
   std::uint32_t read32(std::uint32_t offset) { return at(offset); }
   void write32(std::uint32_t offset, std::uint32_t value) { at(offset) = value; }
 
-  /// The core's cycle counter; call at least every four minutes. A read costs QEMU several system
-  /// calls, so one value serves kStands calls, a few frames' time.
+  /// Call at least every four minutes. A read costs QEMU several system calls, so one value serves
+  /// kStands calls.
   std::uint64_t now_us() {
     if (asked_++ % kStands != 0) return (high_ + last_) * 64 / kCyclesPerUs;
     std::uint32_t count;
@@ -29,8 +29,8 @@ class Can0Io {
     last_ = count;
     return (high_ + count) * 64 / kCyclesPerUs;
   }
-  /// Nothing wakes this core. It counts for some microseconds, because polling controller and clock
-  /// at once would stop QEMU's other threads.
+  /// Nothing wakes this core. It counts for some microseconds: polling at once would stop QEMU's
+  /// other threads.
   void doze_until(std::uint64_t) {
     for (int i = 0; i < kPause; ++i) __asm__ volatile("");
     asked_ = 0;

@@ -3,23 +3,21 @@
 #include <cstddef>
 #include <cstdint>
 
-/// ByteLink: a full-duplex byte stream to an operator, another program or a serial device, without
-/// framing.
+/// ByteLink: a full-duplex byte stream without framing, to an operator, a program or a serial
+/// device.
 ///
 /// A backend promises (times are wall time, or the fake's script time):
 ///  - write(data, size, timeout_us): queues bytes from the front until all are queued or timeout_us
-///    has passed; returns the count. With timeout 0 it queues what fits and returns at once. Queued
-///    bytes leave in order without another call.
+///    has passed; returns the count. Queued bytes leave in order without another call.
 ///  - read(buffer, capacity, timeout_us): waits for a byte or timeout_us; stores at most capacity
-///    bytes in order; returns the count. Later reads get the rest.
+///    bytes in order; returns the count.
 ///  - connected(): false once the far end is known to be gone (device unplugged, peer closed).
-///    Never waits; changes only within read() and write(). A wire without a detect line is always
-///    connected.
+///    Never waits; changes only within read() and write(). Without a detect line always true.
 ///  - Loss: bytes sent before a peer closed are still read; unplugging a device loses its unread
-///    bytes. The read() that sees the loss returns at once; later calls wait out their timeout for
-///    the far end. Queued bytes may be lost, but never appear twice or after later ones.
-///  - errors(): counts since open, modulo 2^32; a loss does not reset them. A byte with a framing
-///    or noise error may be delivered or dropped.
+///    bytes. The read() that sees the loss returns at once; later calls wait out their timeout.
+///    Queued bytes may be lost, but never appear twice or after later ones.
+///  - errors(): counts since open, modulo 2^32. A byte with a framing or noise error may be
+///    delivered or dropped.
 ///  - No call throws or blocks past its timeout; on a microcontroller none allocates.
 namespace verp::hal {
 

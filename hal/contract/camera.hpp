@@ -9,14 +9,12 @@
 ///  - read(frame): the newest whole picture, or why there is none. Never waits. Only kFresh changes
 ///    the frame. A second read of a picture is kStale.
 ///  - The backend owns the bytes, which stay valid until the next read that is not kStale, or its
-///    end. The caller copies what it needs longer.
+///    end.
 ///  - Rows run from the top, pixels from the left; `stride_bytes` from row to row may exceed a
-///    row's bytes. A compressed picture has stride 0. size_bytes is the whole picture.
-///  - sequence counts the sensor's frames, lost those that the reader missed: sequence = last
-///    sequence + lost + 1, modulo 2^32, unless the camera restarts. An incomplete picture counts as
-///    lost.
-///  - time_us: when the sensor captured the frame, by the PC's monotonic or the twin's simulated
-///    clock; it rises.
+///    row's bytes (0: compressed). size_bytes is the whole picture.
+///  - sequence counts the sensor's frames, lost those that the reader missed or that were
+///    incomplete: sequence = last sequence + lost + 1, modulo 2^32, unless the camera restarts.
+///  - time_us: capture time by the PC's monotonic or the twin's simulated clock; it rises.
 ///  - After kFault (unplugged, driver failed) later reads retry. faults() counts kFault reads,
 ///    modulo 2^32.
 ///  - No call throws.
@@ -26,9 +24,9 @@ enum class PixelFormat : std::uint8_t {
   kNone,
   kGrey,  ///< one byte a pixel
   kRgb,   ///< three bytes: red, green, blue
-  kYuyv,  ///< two pixels in four bytes: Y, Cb, Y, Cr (BT.601: Y 16 to 235, C 16 to 240)
-  kJpeg,  ///< a JPEG file
-  kPng    ///< a PNG file
+  kYuyv,  ///< two pixels, four bytes: Y, Cb, Y, Cr (BT.601: Y 16 to 235, C 16 to 240)
+  kJpeg,
+  kPng
 };
 
 struct CameraFrame {

@@ -4,17 +4,16 @@
 #include <cstdint>
 
 /// FlashPages: two flash pages, 0 and 1, that are erased separately: sectors of 16 to 128 KB on an
-/// STM32F4, of 32 to 256 KB on an F7.
+/// STM32F4, 32 to 256 KB on an F7.
 ///
 /// A backend promises:
 ///  - kUnit: bytes programmed at once: 1, 2, 4 or 8. page_bytes(page): a multiple of 8.
 ///  - read(page, offset, to, size): any bytes within a page.
 ///  - program(page, offset, from): writes kUnit bytes at a multiple of kUnit and waits for the end
-///    (at most 100 us a unit: DS8626, flash memory programming). It only clears bits: the result is
-///    (old & from). Programming a 0 bit again makes it firm. False: the memory reported an error.
-///  - erase(page): sets all bits of the page. False: the memory reported an error. It may take
-///    seconds (2 s for 128 KB: the same table) in which the processor may stall; the backend keeps
-///    the watchdog from firing.
+///    (at most 100 us a unit: DS8626, flash memory programming). The result is (old & from).
+///    Programming a 0 bit again makes it firm. False: the memory reported an error.
+///  - erase(page): sets all bits of the page; false as above. It may take seconds (2 s for 128 KB:
+///    the same table) in which the processor may stall; the backend keeps the watchdog from firing.
 ///  - A power cut during program() leaves the changing bits of that unit unsure; during erase(),
 ///    any bit of the page. An unsure bit may read differently at each start until it is programmed
 ///    to 0 or erased.

@@ -6,21 +6,20 @@
 ///
 /// A backend promises:
 ///  - read(sample): the mean of all complete samples since the last read, or why there is none.
-///    Waits at most kImuMaxWait_us. Only kFresh changes the sample. The mean keeps rotation: each
-///    rate times its interval sums to the full turn, up to the mismatch of chip rate and read rate.
+///    Waits at most kImuMaxWait_us. Only kFresh changes the sample. The mean keeps rotation: rates
+///    times intervals sum to the full turn, up to the mismatch of chip rate and read rate.
 ///  - Reads at most kImuMostPause_us apart miss nothing. After a longer pause the backend may drop
 ///    samples and return kStale once.
 ///  - All six counts come from the same samples, in the chip's axes and resolution, saturated at
 ///    the int16 limits and rounded to nearest. Params hold scale, range and mounting. A read
-///    without a new sample is kStale. time_us is when the newest was fetched, by the board's
+///    without a new sample is kStale. time_us: when the newest was fetched, by the board's
 ///    TickSource; it rises.
-///  - After kFault (silent, stuck or unknown chip) later reads retry without waiting longer.
-///    faults() counts faults, modulo 2^32.
+///  - After kFault (silent, stuck or unknown chip) later reads retry. faults() counts, modulo 2^32.
 ///  - The backend applies no calibration. No call allocates or throws.
 namespace verp::hal {
 
 inline constexpr std::uint32_t kImuMaxWait_us = 500;
-inline constexpr std::uint32_t kImuMostPause_us = 22'000;  ///< the longest period plus 10 %
+inline constexpr std::uint32_t kImuMostPause_us = 22'000;  ///< longest period plus 10 %
 
 struct ImuSample {
   std::int16_t gyro_count[3] = {};
@@ -38,7 +37,7 @@ class ImuMean {
     }
     ++count_;
   }
-  /// Sets the counts of `sample` to the mean since the last take(). False: there were no samples.
+  /// Takes the mean since the last take(). False: there were no samples.
   bool take(ImuSample& sample) {
     if (count_ == 0) return false;
     for (int axis = 0; axis < 3; ++axis) {

@@ -3,16 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 
-/// RangeFinder: a rotating laser that measures distances step by step.
+/// RangeFinder: a rotating laser that measures distances.
 ///
 /// A backend promises:
 ///  - read(scan): the newest whole scan, or why there is none. Never waits. Only kFresh changes the
 ///    scan. A second read of a scan is kStale.
-///  - Steps count anticlockwise seen from above, as angles do; the robot file gives each step's
-///    angle. All ranges belong to one turn. Range 0: nothing in range, no measurement, or too far
-///    for range_mm.
-///  - time_us: when the scan was measured, by the sensor's clock; it rises unless the sensor
-///    restarts.
+///  - Steps count anticlockwise seen from above; the robot file gives each step's angle. All ranges
+///    belong to one turn. Range 0: nothing in range, no measurement, or too far for range_mm.
+///  - time_us: when the scan was measured, by the sensor's clock; it rises unless that restarts.
 ///  - After kFault (silent, gone, or the sensor reports a defect) later reads retry. faults()
 ///    counts kFault reads, modulo 2^32.
 ///  - No call allocates or throws.

@@ -3,20 +3,20 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Store: small non-volatile values by key: calibration, settings, the crash record.
+/// Store: small non-volatile values by key.
 ///
 /// A backend promises:
 ///  - get(key, to, capacity): the size of the value that would survive a power cut now; copies its
 ///    first min(size, capacity) bytes. 0: no such key.
 ///  - put(key, from, size): copies a new value; size 0 removes the key. kAccepted is durable once
-///    work() returns kIdle; until then further puts return kBusy. kNoRoom: the store cannot hold
-///    it; nothing changed. kBadKey: 0 and 0xFFFF are not keys.
+///    work() returns kIdle; until then further puts return kBusy. kNoRoom: nothing changed.
+///    kBadKey: 0 and 0xFFFF are not keys.
 ///  - work(may_erase): one step that fits a control period; the backend states its maximum of
 ///    bytes. It erases, which can stop the processor for seconds, only if may_erase (torque off).
 ///    kNeedsErase: it cannot continue without. kFailed: the memory rejected the value; the old one
 ///    stays, and put() works again.
-///  - A power cut at any time, even within an erase or a word, leaves the old or the new value of
-///    each key; from the next start on always the same one.
+///  - A power cut at any time leaves the old or the new value of each key; from the next start on
+///    always the same one.
 ///  - No call allocates or throws.
 namespace verp::hal {
 

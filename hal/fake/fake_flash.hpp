@@ -5,8 +5,8 @@
 #include "hal/contract/flash_pages.hpp"
 
 /// Flash in RAM with power cuts in the middle of any write. A cut leaves the changing bits unsure:
-/// each power_up() decides what they read as, often all alike, as after a cut at the very start or
-/// end of the write. Plain data: a copy is a second flash in the same state.
+/// each power_up() decides what they read as, often all alike. A copy is a second flash in the same
+/// state.
 namespace verp::hal {
 
 template <std::size_t kPageBytes, std::size_t kUnitBytes>
@@ -18,13 +18,13 @@ class FakeFlash {
     for (std::size_t i = 0; i < 2 * kPageBytes; ++i) cell_[i] = 0xFF;
   }
 
-  /// Cuts the power in the middle of the write that follows `writes` more program() or erase()
-  /// calls. Nothing is written after that until power_up().
+  /// Cuts the power in the write that follows `writes` more program() or erase() calls. Nothing is
+  /// written after that until power_up().
   void cut_after(std::uint32_t writes) {
     writes_left_ = writes;
     cut_planned_ = true;
   }
-  /// Ends the cut and draws new values for the unsure bits.
+  /// Draws new values for the unsure bits.
   void power_up() {
     dark_ = false;
     cut_planned_ = false;
@@ -37,7 +37,7 @@ class FakeFlash {
     }
   }
   bool dark() const { return dark_; }
-  /// The next `writes` calls of program() report an error and clear only some of their bits.
+  /// The next `writes` program() calls report an error and clear only some of their bits.
   void refuse(std::uint32_t writes) { refusals_ = writes; }
   /// Flips bits, as ageing does.
   void damage(std::size_t page, std::size_t offset, std::uint8_t mask) {
@@ -46,13 +46,12 @@ class FakeFlash {
   }
   std::uint32_t programs() const { return programs_; }
   std::uint32_t erases() const { return erases_; }
-  /// Calls outside the contract: past a page's end, or not at a multiple of the unit.
+  /// Calls past a page's end, or not at a multiple of the unit.
   std::uint32_t misuses() const { return misuses_; }
 
   // FlashPages
   std::size_t page_bytes(std::size_t) const { return kPageBytes; }
 
-  /// The page's address as memory.
   const std::uint8_t* memory(std::size_t page) const { return cell_ + page * kPageBytes; }
 
   void read(std::size_t page, std::size_t offset, std::uint8_t* to, std::size_t size) const {

@@ -4,8 +4,8 @@
 
 #include "hal/contract/byte_link.hpp"
 
-/// Two ByteLinks in one thread, each the other's far end: for tests on the PC and on target.
-/// Nothing else runs while a call waits, so a wait only advances the wire's clock.
+/// Two ByteLinks in one thread, each the other's far end. Nothing else runs while a call waits, so
+/// a wait only advances the wire's clock.
 namespace verp::hal {
 
 class MemoryWire;
@@ -20,7 +20,7 @@ class MemoryLink {
  private:
   friend class MemoryWire;
   MemoryLink(MemoryWire& wire, MemoryLink& far) : wire_(wire), far_(far) {}
-  /// Updates connected_ as far as this end can know it now.
+  /// Updates connected_ as far as this end can know it.
   void look();
 
   static constexpr std::size_t kBytes = 256;
@@ -40,7 +40,7 @@ class MemoryWire {
   void cut() { whole_ = false; }
   void mend() { whole_ = true; }
   bool whole() const { return whole_; }
-  /// Counts a byte with a bad stop bit, or with noise, at `link`.
+  /// Counts a byte with a bad stop bit, or with noise.
   static void spoil_framing(MemoryLink& link) { ++link.errors_.framing; }
   static void spoil_noise(MemoryLink& link) { ++link.errors_.noise; }
   std::uint64_t now_us() const { return now_us_; }

@@ -4,13 +4,13 @@
 
 #include "hal/contract/frame_bus.hpp"
 
-/// A FrameBus that plays a script: each exchange names the expected frame, the reply and its delay.
-/// Fixed capacity without heap, so it also runs on a microcontroller. Frames take no time.
+/// Plays a script: each exchange names the expected frame, the reply and its delay. Also runs on a
+/// microcontroller. Frames take no time.
 namespace verp::hal {
 
 class ScriptedBus {
  public:
-  /// Expects `frame` next; `reply`, if not empty, arrives `delay_us` later. False: script full.
+  /// `reply`, if not empty, arrives `delay_us` after `frame`. False: script full.
   bool expect(const std::uint8_t* frame, std::size_t frame_size, const std::uint8_t* reply,
               std::size_t reply_size, std::uint32_t delay_us) {
     if (exchanges_ == kExchanges || used_ + frame_size + reply_size > kBytes) return false;
@@ -18,16 +18,16 @@ class ScriptedBus {
     exchange = {keep(frame, frame_size), frame_size, keep(reply, reply_size), reply_size, delay_us};
     return true;
   }
-  /// Bytes that arrive at `time_us` whatever the master does; call in time order.
+  /// Bytes that arrive at `time_us` in any case; call in time order.
   bool inject(const std::uint8_t* data, std::size_t size, std::uint64_t time_us) {
     if (used_ + size > kBytes || arrivals_ == kExchanges) return false;
     arrival_[arrivals_++] = {keep(data, size), size, 0, time_us};
     return true;
   }
-  /// Most bytes that one poll returns; 1 delivers every reply in pieces.
+  /// Most bytes in one poll; 1 delivers every reply in pieces.
   void set_piece(std::size_t bytes) { piece_ = bytes; }
 
-  /// After the test: whether every exchange happened and no other frame was sent.
+  /// True if every exchange happened and no other frame was sent.
   bool finished() const { return mismatches_ == 0 && played_ == exchanges_; }
   std::size_t mismatches() const { return mismatches_; }
 

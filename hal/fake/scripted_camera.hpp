@@ -4,19 +4,17 @@
 
 #include "hal/contract/camera.hpp"
 
-/// A Camera that plays a script of pictures and faults. The script owns the bytes, for as long as
-/// the contract says.
+/// Plays a script of pictures and faults. The script owns the bytes, as long as the contract says.
 namespace verp::hal {
 
 class ScriptedCamera {
  public:
-  /// Makes a picture available; one that was not read is lost. Sets sequence and lost itself.
+  /// A picture that was not read is lost. Sets sequence and lost.
   void show(const CameraFrame& frame) {
     frame_ = frame;
     frame_.sequence = made_++;
     fetched_ = false;
   }
-  /// The next `reads` reads return kFault.
   void fail(std::uint32_t reads) { failures_left_ = reads; }
 
   CameraStatus read(CameraFrame& frame) {

@@ -4,17 +4,16 @@
 
 #include "hal/contract/can_bus.hpp"
 
-/// A CanBus that plays a script of expected frames and timed answers. Fixed capacity without heap,
-/// so it also runs on a microcontroller. Frames take no time: an accepted frame has left, unless
-/// the bus is held.
+/// Plays a script of expected frames and timed answers. Also runs on a microcontroller. Frames take
+/// no time: an accepted frame has left, unless the bus is held.
 namespace verp::hal {
 
 class ScriptedCan {
  public:
-  static constexpr std::size_t kFrames = 112;  ///< capacity for frames that have not arrived yet
-  static constexpr std::size_t kScript = 16;   ///< expected frames in a script
+  static constexpr std::size_t kFrames = 112;  ///< frames that have not arrived yet
+  static constexpr std::size_t kScript = 16;   ///< expected frames
   static constexpr std::size_t kAnswers = 16;
-  static constexpr std::size_t kHeard = 64;  ///< capacity for sent frames that wait for take_sent()
+  static constexpr std::size_t kHeard = 64;         ///< sent frames that wait for take_sent()
   static constexpr std::uint32_t kBusOffUs = 1408;  ///< 128 times 11 bits at 1 Mbit/s
 
   /// Expects `frame` next. False: script full.
@@ -29,7 +28,7 @@ class ScriptedCan {
     answer_[answers_++] = {frame, delay_us, expected_};
     return true;
   }
-  /// `frame` arrives at `time_us` whatever the master does.
+  /// `frame` arrives at `time_us` in any case.
   bool inject(const CanFrame& frame, std::uint64_t time_us) {
     if (arrivals_ == kFrames) return false;
     std::size_t at = arrivals_++;
@@ -37,7 +36,7 @@ class ScriptedCan {
     arrival_[at] = {frame, time_us, 0};
     return true;
   }
-  /// After the test: whether every expected frame was sent, in order, and no other.
+  /// True if every expected frame was sent, in order, and no other.
   bool finished() const { return mismatches_ == 0 && played_ == expected_; }
   std::size_t mismatches() const { return mismatches_; }
 
@@ -53,7 +52,7 @@ class ScriptedCan {
     held_ = yes;
     if (!yes) let_go();
   }
-  /// Simulates bus-off: drops waiting frames and refuses new ones for kBusOffUs.
+  /// Drops waiting frames and refuses new ones for kBusOffUs.
   void bus_off() {
     ++errors_.bus_offs;
     errors_.dropped += static_cast<std::uint32_t>(queued_ - left_);
@@ -92,7 +91,7 @@ class ScriptedCan {
   struct Line {
     CanFrame frame;
     std::uint64_t time_us;
-    std::size_t after;  ///< for an answer: the number of frames expected before it
+    std::size_t after;  ///< for an answer: expected frames before it
   };
 
   void let_go() {

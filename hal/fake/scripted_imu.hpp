@@ -4,12 +4,12 @@
 
 #include "hal/contract/imu.hpp"
 
-/// An Imu that plays a script of samples and faults.
+/// Plays a script of samples and faults.
 namespace verp::hal {
 
 class ScriptedImu {
  public:
-  /// Adds a sample to those not read yet. False: it is not newer than the last.
+  /// Adds a sample. False: it is not newer than the last.
   bool measure(const ImuSample& sample) {
     if (measured_ && sample.time_us <= newest_us_) return false;
     mean_.add(sample);
@@ -17,7 +17,6 @@ class ScriptedImu {
     measured_ = true;
     return true;
   }
-  /// The next `reads` reads return kFault.
   void fail(std::uint32_t reads) { failures_left_ = reads; }
 
   ImuStatus read(ImuSample& sample) {

@@ -4,17 +4,16 @@
 
 #include "hal/contract/range_finder.hpp"
 
-/// A RangeFinder that plays a script of scans and faults.
+/// Plays a script of scans and faults.
 namespace verp::hal {
 
 class ScriptedRangeFinder {
  public:
-  /// Makes a scan available; it replaces one that was not read.
+  /// Makes a scan available; replaces one that was not read.
   void measure(const RangeScan& scan) {
     scan_ = scan;
     fetched_ = false;
   }
-  /// The next `reads` reads return kFault.
   void fail(std::uint32_t reads) { failures_left_ = reads; }
 
   RangeStatus read(RangeScan& scan) {

@@ -9,14 +9,14 @@
 #include "hal/chip/stm32/bxcan.hpp"
 #include "hal/chip/stm32/clock_gate.hpp"
 
-/// The port to a robot on a CAN bus: the board's bxCAN. boards/stm32/serial has the alternative.
+/// The port to a robot on the board's bxCAN. Alternative: boards/stm32/serial.
 namespace verp::board {
 
 inline constexpr BusProtocol kProtocol = BusProtocol::kCia402;
 inline constexpr unsigned kRobotInterrupts[] = {
     kCanPort.first_interrupt, kCanPort.first_interrupt + 1, kCanPort.first_interrupt + 2,
     kCanPort.first_interrupt + 3};
-/// The usual rate; a clock that cannot make it does not compile.
+/// A clock that cannot make the usual rate does not compile.
 static_assert(hal::stm32::bxcan_timing(kClockPlan, 1'000'000).bitrate == 1'000'000);
 
 template <class Io, class UsartKind, class Timer>
@@ -35,14 +35,14 @@ struct RobotWiring {
       hal::stm32::enable_interrupt(io, each, priority);
     }
   }
-  /// False if the clock is not the crystal or cannot make this rate. The filters accept all
-  /// identifiers, because a bring-up listens for any other controller.
+  /// False: the clock is not the crystal or cannot make this rate. Accepts all identifiers: a
+  /// bring-up listens for any other controller.
   static bool open(Port& port, const hal::stm32::Clocks& clocks, std::uint32_t baud) {
     hal::stm32::BxCanTiming timing;
     return hal::stm32::choose_bxcan_timing(clocks.apb1_hz, baud, timing) &&
            port.open(clocks, timing);
   }
-  /// Resets every node, which removes a drive's torque. Sent three times, since there is no reply.
+  /// Resets every node, which removes torque. Three times, since there is no reply.
   static void release(Port& port) {
     for (int times = 0; times < 3; ++times) {
       port.send(canopen::nmt_frame(canopen::NmtCommand::kResetNode, 0));
@@ -50,7 +50,7 @@ struct RobotWiring {
   }
 };
 
-/// The controller as a node that publishes each tick; the loop uses it as its port.
+/// A node that publishes each tick; the loop uses it as its port.
 template <class Port, class Store>
 class RobotNode : public app::OperatorNode<Port, Store> {
  public:
@@ -59,7 +59,6 @@ class RobotNode : public app::OperatorNode<Port, Store> {
   RobotNode& port() { return *this; }
 };
 
-/// The far end is a twin in lockstep.
 template <class Port, class Idle>
 using LockstepOn = app::LockstepCan<Port, Idle>;
 

@@ -10,8 +10,7 @@
 #include "firmware/app/lockstep_bus.hpp"
 #include "firmware/app/operator_registers.hpp"
 
-/// The port to a robot on a serial bus: the board's servo port. boards/stm32/can has the
-/// alternative.
+/// The port to a robot on the servo port. Alternative: boards/stm32/can.
 namespace verp::board {
 
 inline constexpr BusProtocol kProtocol = BusProtocol::kDynamixel2;
@@ -24,7 +23,7 @@ struct RobotWiring {
 
   static Port make(Timer& timer) { return Side::make(kServoPort, kFamily, timer); }
   static void connect(std::uint8_t priority) { Side::connect(kServoPort, priority); }
-  /// False if no divider makes this rate.
+  /// False: no divider makes this rate.
   static bool open(Port& port, const hal::stm32::Clocks& clocks, std::uint32_t baud) {
     return Side::open(port, kServoPort, clocks, baud);
   }
@@ -38,7 +37,7 @@ struct RobotWiring {
   }
 };
 
-/// On a serial bus ticks are published only at the operator's port.
+/// Ticks are published only at the operator's port.
 template <class Port, class Store>
 class RobotNode {
  public:
@@ -51,11 +50,10 @@ class RobotNode {
   Port& port_;
 };
 
-/// The far end is a twin in lockstep.
 template <class Port, class Idle>
 using LockstepOn = app::LockstepBus<Port, Idle>;
 
-/// The far end is real servos. `Watch` is called whenever the port is read and no tick is due soon.
+/// The far end is real servos. `Watch` is called when the port is read and no tick is due soon.
 template <class Port, class Timer, class Watch>
 class RealTimeOn {
   struct Patient {

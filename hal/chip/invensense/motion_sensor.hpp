@@ -7,15 +7,15 @@
 #include "hal/contract/imu.hpp"
 
 /// An MPU-9250 or ICM-20648 behind SPI as an Imu; the driver detects which. Each read() takes one
-/// step of the start-up or fetches the FIFO, and never waits for the chip. After a fault it
-/// restarts the chip and returns kStale for the 150 ms of its start-up.
+/// step of the start-up or fetches the FIFO, and never waits. After a fault it restarts the chip
+/// and returns kStale for 150 ms.
 ///
-/// A landing foot jolts the body for less than a tick. One sample a tick would miss part of the
-/// jolt and falsify the integrated rotation; hence the mean.
+/// A landing foot jolts the body for less than a tick. One sample a tick would falsify the
+/// integrated rotation; hence the mean.
 namespace verp::hal::invensense {
 
-/// exchange(out, in, size, max_hz): transfers bytes both ways in one selection, at most at max_hz;
-/// false on failure. `in` may equal `out`. Takes at most twice the bytes' time plus 20 us.
+/// exchange(out, in, size, max_hz): bytes both ways in one selection, at most at max_hz; false on
+/// failure. `in` may equal `out`. Takes at most twice the bytes' time plus 20 us.
 template <class Spi>
 concept SpiBus = requires(Spi& spi, const std::uint8_t* out, std::uint8_t* in, std::size_t size,
                           std::uint32_t max_hz) {
@@ -47,17 +47,16 @@ class MotionSensor {
 
  private:
   enum class Phase : std::uint8_t { kSearch, kResetting, kStarting, kRunning };
-  /// After DEVICE_RESET: at most 100 ms (both data sheets, "start-up time for register
-  /// read/write").
+  /// Longest time after DEVICE_RESET (both data sheets, "start-up time for register read/write").
   static constexpr std::uint64_t kReset_us = 100'000;
-  /// From sleep to valid rates: 35 ms typical (both data sheets), plus the filter.
+  /// Sleep to valid rates: 35 ms typical (both data sheets), plus the filter.
   static constexpr std::uint64_t kStart_us = 50'000;
-  /// Fifty sample periods without a sample mean that the chip has stopped.
+  /// Fifty sample periods: the chip has stopped.
   static constexpr std::uint64_t kSilence_us = 100'000;
   static constexpr std::uint8_t kRead = 0x80;
   static constexpr std::size_t kSampleSize = 12;
-  /// kImuMostPause_us of samples, plus one for the rate's tolerance: the wait covers them from 6
-  /// MHz up. Far below the FIFO's 512 bytes, so the driver never trusts a full FIFO.
+  /// kImuMostPause_us of samples, plus one for the rate's tolerance. Far below the FIFO's 512
+  /// bytes, so the driver never trusts a full FIFO.
   static constexpr std::size_t kMostSize = 14 * kSampleSize;
 
   ImuStatus fault() {
@@ -121,8 +120,8 @@ class MotionSensor {
     return true;
   }
 
-  // Empties a FIFO that holds too much (after a pause) or is out of step, since its bytes would
-  // belong to other axes. The guard register is read last: it vouches for the data.
+  // Empties a FIFO that holds too much (after a pause) or is out of step: its bytes would belong to
+  // other axes. The guard register, read last, vouches for the data.
   ImuStatus fetch(ImuSample& sample) {
     std::uint8_t data[1 + kMostSize] = {};
     std::size_t size = 0;
@@ -132,7 +131,7 @@ class MotionSensor {
     const bool done = fits && in_step ? fetch_fifo(data, size) : empty_fifo();
     if (!done || !keeps_settings()) return fault();
     if (fits ? in_step && size > 0 : !overfull_) alive_us_ = now_us;
-    overfull_ = !fits;  // once is a pause; twice is a FIFO that does not empty
+    overfull_ = !fits;  // once: a pause; twice: it does not empty
     if (now_us - alive_us_ > kSilence_us) return fault();
     if (!fits || !in_step || size == 0) return ImuStatus::kStale;
     take_mean(data + 1, size, sample);
@@ -168,7 +167,7 @@ class MotionSensor {
     return static_cast<std::int16_t>(static_cast<std::uint16_t>(data[0] << 8 | data[1]));
   }
 
-  // Until the chip is known, uses the clock that both kinds accept.
+  // The clock that both kinds accept, until the chip is known.
   std::uint32_t registers_hz() const {
     return phase_ == Phase::kSearch ? kMpu9250.registers_hz : kind_->registers_hz;
   }
@@ -191,7 +190,7 @@ class MotionSensor {
     value = data[1];
     return true;
   }
-  /// `data` has `size` + 1 bytes: the address goes out first.
+  /// `data` has `size` + 1 bytes: the address first.
   bool fetch_bytes(std::uint8_t address, std::uint8_t* data, std::size_t size,
                    std::uint32_t max_hz) {
     data[0] = static_cast<std::uint8_t>(address | kRead);
@@ -208,7 +207,7 @@ class MotionSensor {
   std::uint64_t alive_us_ = 0;  ///< when the FIFO last held samples
   std::uint32_t faults_ = 0;
   Phase phase_ = Phase::kSearch;
-  std::uint8_t bank_ = kUnknownBank;  ///< currently selected
+  std::uint8_t bank_ = kUnknownBank;  ///< bank that is selected
   bool overfull_ = false;             ///< the FIFO held too much at the last read
 };
 

@@ -6,7 +6,7 @@
 namespace verp::hal::invensense {
 
 namespace detail {
-/// The step, of `steps` that double from `finest`, within 2 % of `wanted`; -1: none.
+/// Within 2 % of `wanted`; `steps` double from `finest`; -1: none.
 constexpr int nearest_step(float wanted, float finest, int steps) {
   float step = finest;
   for (int i = 0; i < steps; ++i, step *= 2.0F) {
@@ -16,9 +16,8 @@ constexpr int nearest_step(float wanted, float finest, int steps) {
 }
 }  // namespace detail
 
-/// The full scales that match the robot's Params. False: the chip has no such scale, so it is not
-/// the robot's sensor. Finest on both chips: 250 deg/s (in rad/s) and 2 g (in m/s^2) over 32768
-/// counts.
+/// The robot's full scales. False: the chip lacks them, so it is not the robot's sensor. Finest on
+/// both chips: 250 deg/s (in rad/s) and 2 g (in m/s^2) over 32768 counts.
 constexpr bool choose_ranges(float gyro_rad_s_per_count, float accel_m_s2_per_count,
                              Ranges& ranges) {
   constexpr float kGyroFinest = 4.36332313F / 32768.0F;

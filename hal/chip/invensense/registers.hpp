@@ -2,25 +2,25 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Registers and set-up of MPU-9250 (register map RM-MPU-9250A-00) and ICM-20648 (DS-000179). Both
-/// by default: +-2000 deg/s, +-4 g, low pass of 20 to 24 Hz, about 500 samples a second. A FIFO
-/// sample is twelve bytes, high byte first: acceleration x, y, z, then rates x, y, z; no
-/// temperature. Both sensors use one divider, so that a sample always has both.
+/// Registers and set-up of MPU-9250 (register map RM-MPU-9250A-00) and ICM-20648 (DS-000179). By
+/// default: +-2000 deg/s, +-4 g, low pass of 20 to 24 Hz, about 500 samples a second. A FIFO sample
+/// is twelve bytes, high byte first: acceleration x, y, z, then rates x, y, z. One divider for
+/// both, so that a sample always has both.
 namespace verp::hal::invensense {
 
-inline constexpr std::uint8_t kReset = 0x80;   ///< PWR_MGMT_1
-inline constexpr std::uint8_t kAutoClock = 1;  ///< PWR_MGMT_1: awake, best available clock
-inline constexpr std::uint8_t kI2cOff = 0x10;  ///< USER_CTRL: otherwise SPI noise can look like I2C
-inline constexpr std::uint8_t kFifoOn = 0x40;  ///< USER_CTRL
-inline constexpr std::uint8_t kBankSelect = 0x7F;  ///< ICM-20648; bank number from bit 4
+inline constexpr std::uint8_t kReset = 0x80;       ///< PWR_MGMT_1
+inline constexpr std::uint8_t kAutoClock = 1;      ///< PWR_MGMT_1: awake, best clock
+inline constexpr std::uint8_t kI2cOff = 0x10;      ///< USER_CTRL: SPI noise can look like I2C
+inline constexpr std::uint8_t kFifoOn = 0x40;      ///< USER_CTRL
+inline constexpr std::uint8_t kBankSelect = 0x7F;  ///< ICM-20648; bank from bit 4
 
-/// Full scale: 0 is the finest; each step doubles.
+/// 0 is the finest; each step doubles.
 struct Ranges {
   std::uint8_t gyro = 3;   ///< 250, 500, 1000, 2000 deg/s
   std::uint8_t accel = 1;  ///< 2, 4, 8, 16 g
 };
 
-/// One register to write. `range` and `range_shift`: which range is added at which bit.
+/// `range` and `range_shift`: the range to add, and its bit.
 struct Setting {
   enum Range : std::uint8_t { kNone, kGyro, kAccel };
   std::uint8_t bank = 0;
@@ -38,14 +38,13 @@ struct Setting {
 struct Kind {
   std::uint8_t who_am_i_at, who_am_i;
   std::uint8_t power, user_control;  ///< PWR_MGMT_1, USER_CTRL
-  std::uint8_t fifo_size_at;         ///< bytes in the FIFO, high byte first
-  std::uint8_t fifo_at;              ///< each read returns the FIFO's next byte
+  std::uint8_t fifo_size_at;         ///< bytes, high byte first
+  std::uint8_t fifo_at;              ///< each read returns the next byte
   Setting empty_fifo[2];             ///< written in turn; bank 0
   bool has_banks;
   std::uint32_t registers_hz;  ///< highest clock for any register
   std::uint32_t data_hz;       ///< highest clock for FIFO and size
-  /// A register whose value shows whether the chip kept its settings; differs from its power-up
-  /// value.
+  /// Shows whether the chip kept its settings; differs from its power-up value.
   std::uint8_t guard_at, guard;
   const Setting* settings;
   std::size_t setting_count;
@@ -56,8 +55,8 @@ struct Kind {
 inline constexpr Setting kMpu9250Settings[] = {
     {0, 0x19, 1}, {0, 0x1A, 4},   {0, 0x1B, 0, Setting::kGyro, 3}, {0, 0x1C, 0, Setting::kAccel, 3},
     {0, 0x1D, 4}, {0, 0x23, 0x78}};
-/// Speeds: PS-MPU-9250A-01 table 6; for the FIFO, not listed there, the value of public drivers.
-/// FIFO_RST clears itself; older chips of the family need FIFO_EN off meanwhile.
+/// Speeds: PS-MPU-9250A-01 table 6; for the FIFO, public drivers. FIFO_RST clears itself; older
+/// chips need FIFO_EN off meanwhile.
 inline constexpr Kind kMpu9250 = {
     .who_am_i_at = 0x75,
     .who_am_i = 0x71,
@@ -85,7 +84,7 @@ inline constexpr Setting kIcm20648Settings[] = {{2, 0x00, 1},
                                                 {0, 0x03, kI2cOff | kFifoOn},
                                                 {0, 0x67, 0x1E}};
 /// Speed: DS-000179 table 4. FIFO_RST holds the FIFO empty until it is cleared. After power-up the
-/// chip sleeps, which the guard detects.
+/// chip sleeps; the guard shows it.
 inline constexpr Kind kIcm20648 = {.who_am_i_at = 0x00,
                                    .who_am_i = 0xE0,
                                    .power = 0x06,

@@ -14,8 +14,7 @@ enum class Call : std::uint32_t {
 };
 constexpr std::uint32_t kApplicationExit = 0x20026;  // ADP_Stopped_ApplicationExit
 
-// How each core family calls ("The semihosting interface"). RISC-V adds its own sequence, which
-// must lie in one memory page.
+// "The semihosting interface". RISC-V's sequence must lie in one memory page.
 #if defined(__riscv)
 std::int32_t call(Call number, const void* argument) {
   register std::uint32_t a0 __asm__("a0") = static_cast<std::uint32_t>(number);

@@ -12,16 +12,15 @@
 /// The SJA1000 in PeliCAN mode as a CanBus.
 ///
 /// The chip holds one frame to send and 64 bytes of received frames; the driver queues the rest.
-/// on_interrupt() moves frames between chip and memory. Every bus call does the same, so a board
-/// without interrupts must only call often enough: before 64 bytes of frames arrive. A more urgent
-/// frame replaces the frame in the chip unless that is already being sent.
+/// on_interrupt() and every bus call move frames between chip and memory, so a board without
+/// interrupts must only call often enough. A more urgent frame replaces the chip's unless that is
+/// already being sent.
 namespace verp::hal::sja1000 {
 
-/// How the driver reaches the chip and core:
-///  - read8(offset), write8(offset, value): one register;
+/// Access to chip and core:
+///  - read8(offset), write8(offset, value);
 ///  - now_us(): microseconds, never decreasing;
-///  - mask_interrupts(): masks interrupts; true if they were enabled. unmask_interrupts() undoes
-///    it;
+///  - mask_interrupts(): true if they were enabled. unmask_interrupts() undoes it;
 ///  - doze_until(us): called with interrupts masked; returns when one is pending or the time has
 ///    come, perhaps earlier.
 template <class Access>
@@ -42,7 +41,7 @@ class Sja1000 {
 
   explicit Sja1000(Access io) : io_(io) {}
 
-  /// The timing for `crystal_hz`; check possible() at compile time.
+  /// Check possible() at compile time.
   static constexpr CanTiming timing(std::uint32_t crystal_hz, std::uint32_t bit_rate_hz) {
     return can_timing(crystal_hz / kClockDivider, bit_rate_hz, kMostPrescaler);
   }
@@ -57,9 +56,9 @@ class Sja1000 {
     io_.write8(kIer, 0);
     for (std::uint32_t i = 0; i < 4; ++i) {
       io_.write8(kAcceptance + i, 0);
-      io_.write8(kMask + i, 0xFF);  // accept all frames
+      io_.write8(kMask + i, 0xFF);  // accepts all frames
     }
-    // QEMU's model does not return the bit timing.
+    // QEMU does not return the bit timing.
     if (io_.read8(kCdr) != kPeliCan || io_.read8(kMask) != 0xFF) return false;
     const auto btr0 = static_cast<std::uint8_t>((timing.jump - 1) << 6 | (timing.prescaler - 1));
     const auto btr1 = static_cast<std::uint8_t>((timing.after - 1) << 4 | (timing.before - 1));
@@ -105,7 +104,6 @@ class Sja1000 {
   void on_interrupt() { serve(); }
 
  private:
-  /// Masks interrupts during its lifetime.
   class Held {
    public:
     explicit Held(Access& io) : io_(io), mine_(io.mask_interrupts()) {}
@@ -150,8 +148,8 @@ class Sja1000 {
     if (!off_) transmit(status);
   }
 
-  /// After 255 errors the chip enters reset mode; once released, it waits for the bus as the
-  /// standard requires.
+  /// After 255 errors the chip enters reset mode; released, it waits for the bus as the standard
+  /// requires.
   void follow_bus(std::uint8_t status) {
     const bool off = (status & kSrBusOff) != 0;
     if (off && !off_) {
@@ -229,7 +227,7 @@ class Sja1000 {
   }
 
   [[no_unique_address]] Access io_;
-  CanOutbox<kCanQueue + 1> queue_;  ///< one extra for a frame that the chip gives back
+  CanOutbox<kCanQueue + 1> queue_;  ///< one extra, for a frame that the chip gives back
   CanFrame chip_;                   ///< the frame in the chip, if in_chip_
   Received ring_[kReceived] = {};
   std::size_t first_ = 0;

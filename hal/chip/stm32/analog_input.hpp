@@ -7,11 +7,11 @@
 #include "hal/chip/stm32/registers/adc.hpp"
 #include "hal/chip/stm32/registers/rcc.hpp"
 
-/// One ADC channel as a slow voltage; poll_mv() never waits.
+/// A slow voltage; poll_mv() never waits.
 namespace verp::hal::stm32 {
 
 struct AnalogWiring {
-  std::uint32_t base = 0;  ///< ADC1 to ADC3; 0: no such input
+  std::uint32_t base = 0;  ///< ADC1 to ADC3; 0: none
   std::uint32_t mask = 0;  ///< its bit in rcc::kApb2enr
   Pin pin;
   std::uint8_t channel = 0;         ///< 0 to 15
@@ -27,8 +27,7 @@ class AnalogInput {
   AnalogInput(const AnalogWiring& wiring, Timer& timer, Access io = {})
       : io_(io), wiring_(wiring), timer_(timer) {}
 
-  /// Call once before poll_mv(). `bus_hz` is the APB2 clock. The converters share one clock
-  /// divider.
+  /// Call once, first. `bus_hz` is the APB2 clock. The converters share one divider.
   void open(std::uint32_t bus_hz) {
     if (!wiring_.exists()) return;
     enable_clock(io_, rcc::kApb2enr, wiring_.mask);
@@ -46,8 +45,8 @@ class AnalogInput {
     asked_us_ = timer_.now_us();
   }
 
-  /// Fetches a finished conversion and starts the next. Returns the running mean of about kWeight
-  /// results; 0: none yet, or the converter has stopped.
+  /// Fetches a conversion and starts the next. Returns the running mean of about kWeight results;
+  /// 0: none yet, or the converter has stopped.
   std::uint32_t poll_mv() {
     if (!wiring_.exists()) return 0;
     const std::uint64_t now_us = timer_.now_us();
@@ -64,16 +63,16 @@ class AnalogInput {
     asked_ = true;
     return mean_mv();
   }
-  /// Conversions that timed out, modulo 2^32.
+  /// Timeouts of conversions, modulo 2^32.
   std::uint32_t timeouts() const { return timeouts_; }
 
  private:
-  /// DS8626, ADC characteristics: 36 MHz, 3 us to power up; the same on F446 and F746.
+  /// DS8626, ADC characteristics: 36 MHz, 3 us to power up; F446 and F746 likewise.
   static constexpr std::uint32_t kMost_hz = 36'000'000;
   static constexpr std::uint64_t kPowerUp_us = 4;
   /// A conversion takes 492 cycles of at least 2 MHz (APB2 16 MHz / 8).
   static constexpr std::uint64_t kPatience_us = 1000;
-  static constexpr std::uint32_t kLongest = 7;  ///< SMPR: 480 cycles, for a divider of 100 kohm
+  static constexpr std::uint32_t kLongest = 7;  ///< SMPR: 480 cycles, for 100 kohm
   static constexpr std::uint32_t kWeight = 16;
 
   std::uint32_t at(std::uint32_t offset) const { return wiring_.base + offset; }
@@ -90,7 +89,7 @@ class AnalogInput {
   AnalogWiring wiring_;
   Timer& timer_;
   std::uint64_t asked_us_ = 0;
-  std::uint32_t sum_ = 0;  ///< kWeight times the mean count; 0: none
+  std::uint32_t sum_ = 0;  ///< kWeight times the mean; 0: none
   std::uint32_t timeouts_ = 0;
   bool asked_ = false;
 };

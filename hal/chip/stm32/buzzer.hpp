@@ -8,8 +8,8 @@
 #include "hal/chip/stm32/registers/rcc.hpp"
 #include "hal/chip/stm32/registers/timer.hpp"
 
-/// A passive buzzer on a pin without a timer channel: TIM3's interrupt toggles the pin. A tone
-/// stops itself and its interrupts, even if a flag does not clear.
+/// A passive buzzer: TIM3's interrupt toggles the pin. A tone stops itself and its interrupts, even
+/// if a flag does not clear.
 namespace verp::hal::stm32 {
 
 template <Io Access>
@@ -25,7 +25,7 @@ class Buzzer {
     io_.write32(at(timer::kPsc), timer_hz / kCount_hz - 1);
   }
 
-  /// Starts a tone of `hz`, 20 to 20000, in place of the current one. 0 ms: silence.
+  /// `hz`: 20 to 20000; replaces the current tone. 0 ms: silence.
   void sound(std::uint32_t hz, std::uint32_t duration_ms) {
     if (!pin_.exists() || hz < kLeast_hz || hz > kMost_hz) return;
     const Masked<Access> masked(io_);

@@ -8,25 +8,24 @@
 #include "hal/chip/stm32/interrupts.hpp"
 #include "hal/contract/can_bus.hpp"
 
-/// bxCAN as a CanBus. The three mailboxes hold the most urgent waiting frames: a more urgent frame
-/// replaces the least urgent one. Only one frame per identifier is in a mailbox at a time, which
-/// keeps their order. Interrupts fetch and time-stamp received frames, late by the interrupt's
-/// latency.
+/// bxCAN as a CanBus. The three mailboxes hold the most urgent waiting frames, only one per
+/// identifier, which keeps their order. Interrupts fetch and time-stamp received frames, late by
+/// their latency.
 ///
 /// The board calls on_interrupt() from all four vectors, all of one priority. open() requires the
 /// crystal: the internal oscillator is too inaccurate for a bit of 1 us.
 namespace verp::hal::stm32 {
 
-/// Accepts frames whose identifier equals `id` in the bits that `mask` sets.
+/// Accepts identifiers that equal `id` in the bits of `mask`.
 struct CanFilterRule {
   std::uint32_t id = 0;
   std::uint32_t mask = 0;
   bool extended = false;
 };
 
-/// Where a bxCAN's filters are. CAN1 also holds CAN2's filters, so CAN1's clock must be on.
+/// CAN1 also holds CAN2's filters, so CAN1's clock must be on.
 struct CanFilterBanks {
-  std::uint32_t base = 0;  ///< bxCAN that holds them; 0: this one
+  std::uint32_t base = 0;  ///< bxCAN of the filters; 0: this one
   unsigned first = 0;
 };
 inline constexpr CanFilterBanks kCan2Filters = {.base = base::kCan1, .first = can::kCan2FirstBank};
@@ -43,7 +42,7 @@ class BxCan {
   }
 
   /// Clocks and pins are on. Without rules it accepts all frames. False: the clock does not fit,
-  /// there are too many rules, or the peripheral does not answer.
+  /// too many rules, or no answer.
   bool open(const Clocks& clocks, const BxCanTiming& timing, const CanFilterRule* rules = nullptr,
             std::size_t count = 0) {
     if (!clocks.good_enough_for_can() || timing.clock_hz != clocks.apb1_hz) return false;
@@ -55,10 +54,9 @@ class BxCan {
                          can::kIerLecie | can::kIerErrie);
     expect_next_error();
     opened_us_ = begun_us_ = timer_.now_us();
-    // ABOM: rejoin after bus-off when the standard allows it. RFLM: a full FIFO keeps its frames.
+    // ABOM: rejoin after bus-off. RFLM: a full FIFO keeps its frames.
     write(can::kMcr, can::kMcrDbf | can::kMcrAbom | can::kMcrRflm);
-    // bxCAN joins after it has seen the bus idle; on a bus that is never idle, send() refuses
-    // frames.
+    // bxCAN joins an idle bus; on one that is never idle, send() refuses frames.
     const std::uint64_t deadline_us = opened_us_ + kIdle_us;
     while (!on_bus() && timer_.now_us() < deadline_us) {
     }
@@ -84,7 +82,7 @@ class BxCan {
         stands_ = false;
         return false;
       }
-      // A frame of ours that starts meanwhile extends the deadline; the loop computes it anew.
+      // A frame of ours meanwhile extends the deadline.
       timer_.doze_until(deadline_us, [this] { return arrived_ != taken_; });
     }
   }
@@ -109,13 +107,13 @@ class BxCan {
   std::uint32_t stuck() const { return stuck_; }
 
  private:
-  // A request takes effect at the end of the frame on the wire: 160 bits at 10 kbit/s take 16 ms.
+  // At the end of the frame on the wire: 160 bits at 10 kbit/s take 16 ms.
   static constexpr std::uint64_t kInitialise_us = 20'000;
   static constexpr std::uint64_t kIdle_us = 2000;
   static constexpr int kReleasePolls = 100;  // a few bus clocks
 
   struct Arrived {
-    CanReceived received;  ///< a quarter of a CanFrame's size; the interrupt decodes nothing
+    CanReceived received;  ///< a quarter of a CanFrame; decoded later
     std::uint32_t stamp_us;
   };
 
@@ -145,7 +143,7 @@ class BxCan {
     constexpr CanFilterRule kAll[] = {{}};
     const std::size_t used = count == 0 ? 1 : count;
     const std::uint32_t banks = ((1u << used) - 1) << banks_.first;
-    modify32(io_, base + can::kFs1r, 0, banks);  // one 32-bit filter a bank
+    modify32(io_, base + can::kFs1r, 0, banks);  // one 32-bit filter each
     modify32(io_, base + can::kFm1r, banks, 0);
     modify32(io_, base + can::kFfa1r, banks, 0);  // all to FIFO 0
     for (std::size_t i = 0; i < used; ++i) {
@@ -166,7 +164,7 @@ class BxCan {
     const Arrived& first = inbox_[taken_++ % kInbox];
     frame = first.received.frame();
     const std::uint32_t age_us = static_cast<std::uint32_t>(time_us) - first.stamp_us;
-    // An interrupt after the clock was read gives a stamp in the future.
+    // The stamp may be newer than the clock's reading.
     const std::uint64_t end_us = (age_us < 0x80000000u ? time_us - age_us : time_us) - opened_us_;
     if (end_us > last_us_) last_us_ = end_us;
     stands_ = true;
@@ -176,7 +174,7 @@ class BxCan {
     begun_ = stamp_us;
     begun_new_ = true;
   }
-  /// When the last accepted frame began, as far as is known, by the timer.
+  /// When the last accepted frame began, as far as known, by the timer.
   std::uint64_t last_begin_us(std::uint64_t time_us) {
     const Masked<Access> masked(io_);
     if (begun_new_) {
@@ -187,7 +185,7 @@ class BxCan {
     return begun_us_;
   }
 
-  /// Sets LEC to the value that hardware never writes, so that the next error shows.
+  /// Sets LEC to a value that hardware never writes.
   void expect_next_error() {
     modify32(io_, base_ + can::kEsr, can::kEsrLec, can::kLecUnused << can::kEsrLecShift);
   }
@@ -201,7 +199,7 @@ class BxCan {
     if (off && !was_off_) leave_bus();
     was_off_ = off;
   }
-  /// Drops waiting frames: they would leave after bus-off, when they are stale.
+  /// Drops waiting frames: they would be stale after bus-off.
   void leave_bus() {
     ++errors_.bus_offs;
     errors_.dropped += static_cast<std::uint32_t>(outbox_.size());
@@ -228,7 +226,7 @@ class BxCan {
       if ((flags & can::kTsrTxok) != 0) {
         begins(timer_.stamp_us() - can_frame_us(box.frame, bitrate_));
       } else if (box.busy && !box.dropped) {
-        outbox_.put_back(box.frame);  // a more urgent frame replaced it
+        outbox_.put_back(box.frame);  // replaced by a more urgent one
       }
       box.busy = box.aborted = box.dropped = false;
     }
@@ -272,7 +270,7 @@ class BxCan {
   void fetch() {
     for (unsigned i = 0; i <= can::kFifoDepth; ++i) {
       const std::uint32_t status = read(can::kRf0r);
-      // One flag covers any number of lost frames; with prompt interrupts it is one.
+      // One flag may cover several lost frames.
       if ((status & can::kRfrFovr) != 0) {
         ++errors_.overruns;
         write(can::kRf0r, can::kRfrFovr);
@@ -310,8 +308,8 @@ class BxCan {
   bool stands_ = false;  ///< now_us() stands still since a poll returned a frame
   bool was_off_ = false;
   bool begun_new_ = false;
-  std::uint32_t begun_ = 0;     ///< timer stamp when the last frame was accepted or began
-  std::uint64_t begun_us_ = 0;  ///< the same in 64 bits, once last_begin_us() was called
+  std::uint32_t begun_ = 0;     ///< timer stamp of the last accepted frame
+  std::uint64_t begun_us_ = 0;  ///< the same in 64 bits, after last_begin_us()
   std::uint32_t stuck_ = 0;
   CanErrors errors_;
   std::uint32_t arrived_ = 0;  ///< frames since open(), like taken_

@@ -7,12 +7,12 @@
 /// Frame layout in bxCAN's mailboxes and FIFOs.
 namespace verp::hal::stm32 {
 
-/// The driver's record of a transmit mailbox.
+/// One transmit mailbox.
 struct CanMailbox {
   CanFrame frame;
   bool busy = false;
-  bool aborted = false;  ///< abort requested; it may come too late
-  bool dropped = false;  ///< not needed any more
+  bool aborted = false;  ///< abort requested, maybe too late
+  bool dropped = false;  ///< no longer needed
 };
 
 constexpr std::uint32_t can_identifier(std::uint32_t id, bool extended, bool remote) {
@@ -27,7 +27,7 @@ constexpr std::uint32_t can_data_word(const CanFrame& frame, unsigned from) {
   return word;
 }
 
-/// A frame as RIR, RDTR, RDLR and RDHR of a FIFO hold it.
+/// A frame as RIR, RDTR, RDLR and RDHR hold it.
 struct CanReceived {
   std::uint32_t identifier, length, low, high;
 
@@ -45,7 +45,7 @@ struct CanReceived {
   }
 };
 
-/// Time on the wire without stuff bits, from start to end of frame.
+/// Time on the wire without stuff bits.
 constexpr std::uint32_t can_frame_us(const CanFrame& frame, std::uint32_t bitrate) {
   const std::uint32_t bits = (frame.extended ? 64u : 44u) + (frame.remote ? 0u : 8u * frame.size);
   return bits * 1000 / (bitrate / 1000);

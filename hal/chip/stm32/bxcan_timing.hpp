@@ -19,7 +19,7 @@ struct BxCanTiming : CanTiming {
   }
 };
 
-/// False: this clock gives no sample point within 85 to 90 % of a bit, as CiA 301 requires.
+/// False: no sample point within 85 to 90 % of a bit, as CiA 301 requires.
 constexpr bool choose_bxcan_timing(std::uint32_t clock_hz, std::uint32_t bitrate,
                                    BxCanTiming& timing) {
   timing = {can_timing(clock_hz, bitrate, 1024, {.least = 850}), clock_hz, bitrate};
@@ -27,11 +27,11 @@ constexpr bool choose_bxcan_timing(std::uint32_t clock_hz, std::uint32_t bitrate
   return timing.possible();
 }
 
-/// Never defined: calling it in a constant expression is the compile error.
+/// Never defined: a call in a constant expression is the compile error.
 void no_such_bxcan_timing();
 
-/// The timing for a board's clock plan. A plan without one does not compile: `constexpr BxCanTiming
-/// kTiming = bxcan_timing(kClockPlan, 1'000'000);`
+/// A clock plan without a timing does not compile: `constexpr BxCanTiming kTiming =
+/// bxcan_timing(kClockPlan, 1'000'000);`
 consteval BxCanTiming bxcan_timing(const ClockPlan& plan, std::uint32_t bitrate) {
   BxCanTiming timing;
   if (plan.crystal_hz == 0 || !choose_bxcan_timing(plan.sysclk_hz / 4, bitrate, timing)) {

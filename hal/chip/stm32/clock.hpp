@@ -8,15 +8,14 @@
 #include "hal/chip/stm32/registers/pwr.hpp"
 #include "hal/chip/stm32/registers/rcc.hpp"
 
-/// The clock tree: crystal, PLL, overdrive, bus clocks, flash wait states. Every wait ends. If the
-/// crystal or the PLL on it fails, the PLL runs on the internal oscillator at the same speed. If
-/// that or the needed overdrive also fails, the processor runs on the slow internal oscillator
-/// itself.
+/// Crystal, PLL, overdrive, bus clocks, flash wait states. Every wait ends. If the crystal or the
+/// PLL on it fails, the PLL runs on the internal oscillator at the same speed. If that or the
+/// needed overdrive also fails, the processor runs on the slow internal oscillator itself.
 namespace verp::hal::stm32 {
 
 enum class ClockSource : std::uint8_t {
   kCrystal = 0,
-  kInternalPll = 1,  ///< PLL on HSI, within 1 % (DS8626, HSI accuracy): for USART, not CAN
+  kInternalPll = 1,  ///< within 1 % (DS8626, HSI accuracy): for USART, not CAN
   kInternal = 2,     ///< HSI, 16 MHz
   kAbsent = 3,       ///< no clock controller answers: an emulator
 };
@@ -24,7 +23,7 @@ enum class ClockSource : std::uint8_t {
 struct ClockPlan {
   std::uint32_t crystal_hz = 0;
   bool external = false;        ///< HSE is a clock signal, not a crystal
-  std::uint32_t vco_hz = 0;     ///< twice SYSCLK: P divides by 2
+  std::uint32_t vco_hz = 0;     ///< twice SYSCLK
   std::uint32_t sysclk_hz = 0;  ///< APB1 runs at a quarter, APB2 at half
 };
 
@@ -35,7 +34,7 @@ struct Clocks {
   std::uint32_t apb2_hz = 0;
   std::uint32_t apb1_timer_hz = 0;  ///< twice the bus clock where that is divided
 
-  /// A CAN bit of 1 us does not tolerate an oscillator error of 1 %.
+  /// A CAN bit of 1 us does not tolerate an error of 1 %.
   bool good_enough_for_can() const { return source == ClockSource::kCrystal; }
 };
 
@@ -45,7 +44,7 @@ class ClockTree {
   ClockTree(Family family, const ClockPlan& plan, Access io = {})
       : io_(io), family_(family), plan_(plan) {}
 
-  /// Call once, right after a reset. Returns the clocks that the processor now runs on.
+  /// Call once, right after a reset. Returns the clocks in use.
   Clocks start() {
     if (!is_set(rcc::kCr, rcc::kCrHsirdy)) return {};
     prepare_flash();
@@ -60,9 +59,9 @@ class ClockTree {
   }
 
  private:
-  // On HSI (16 MHz) a read and test take about 10 cycles. Crystal: 2 ms typical, some take ten
-  // times that. PLL: at most 300 us (DS8626). Overdrive: at most 100 us (DS10916, over-drive
-  // switching characteristics). All limits have a margin of about ten.
+  // A poll takes about 10 cycles of HSI (16 MHz). Crystal: 2 ms typical, some ten times that. PLL:
+  // 300 us (DS8626). Overdrive: 100 us (DS10916, over-drive switching characteristics). Margin:
+  // about ten.
   static constexpr std::uint32_t kCrystalPolls = 200'000;
   static constexpr std::uint32_t kLockPolls = 5'000;
   static constexpr std::uint32_t kOverdrivePolls = 2'000;
@@ -103,8 +102,8 @@ class ClockTree {
            set_wait_states() && switch_to(rcc::kClockPll);
   }
 
-  // Overdrive must be entered in this order while the PLL settles (RM0385 4.1.4, RM0390 5.1.4).
-  // After a reset the regulator has its highest scale.
+  // In this order while the PLL settles (RM0385 4.1.4, RM0390 5.1.4). A reset sets the regulator's
+  // highest scale.
   bool overdrive() {
     if (plan_.sysclk_hz <= limits(family_).sysclk_max_hz) return true;
     enable_clock(io_, rcc::kApb1enr, rcc::kApb1Pwr);
@@ -118,7 +117,7 @@ class ClockTree {
     return false;
   }
 
-  // Divides the bus clocks before SYSCLK rises, so that no bus ever runs too fast.
+  // Bus dividers come first: no bus ever runs too fast.
   bool switch_to(std::uint32_t clock) {
     const std::uint32_t dividers = clock == rcc::kClockPll ? rcc::kPpre4 << rcc::kCfgrPpre1Shift |
                                                                  rcc::kPpre2 << rcc::kCfgrPpre2Shift
@@ -136,10 +135,10 @@ class ClockTree {
     modify32(io_, at(rcc::kCr), rcc::kCrPllon | rcc::kCrHseon, 0);
   }
 
-  // A crystal that fails later raises the NMI, which ends in the fault handler and a reset.
+  // A crystal that fails later raises the NMI: the fault handler and a reset.
   void watch_crystal() { modify32(io_, at(rcc::kCr), 0, rcc::kCrCsson); }
 
-  // F4: enables the flash caches. F7: its prefetch and ART serve a bus that we don't use.
+  // F4: flash caches. F7: its prefetch and ART serve a bus that we don't use.
   void prepare_flash() {
     if (family_ == Family::kF746) return;
     modify32(io_, base::kFlash + flash::kAcr, 0,
@@ -168,7 +167,7 @@ class ClockTree {
   ClockPlan plan_;
 };
 
-/// Whether the plan keeps the family's limits, overdrive included, and divides evenly.
+/// True if the plan keeps the family's limits and divides evenly.
 constexpr bool is_possible(const ClockPlan& plan, Family family) {
   const Limits& limit = limits(family);
   const std::uint32_t n = plan.vco_hz / 1'000'000;

@@ -6,7 +6,7 @@
 
 namespace verp::hal::stm32 {
 
-/// Switches peripheral clocks on. `enable_register` is an offset such as rcc::kApb1enr.
+/// `enable_register` is an offset such as rcc::kApb1enr.
 template <Io Access>
 void enable_clock(Access io, std::uint32_t enable_register, std::uint32_t mask) {
   modify32(io, base::kRcc + enable_register, 0, mask);

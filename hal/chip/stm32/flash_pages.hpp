@@ -7,10 +7,9 @@
 #include "hal/chip/stm32/registers/memory_map.hpp"
 #include "hal/contract/flash_pages.hpp"
 
-/// Two sectors of the chip's own flash as FlashPages. The chip has one bank, so the processor
-/// stalls during an erase: the watchdog gets its longest timeout, and received bytes may be lost.
-/// Programming 32-bit words needs a supply of 2.7 to 3.6 V. `Timer` is a TickTimer, `Dog` an
-/// IndependentWatchdog.
+/// Two sectors of the chip's own flash as FlashPages. An erase stalls the processor: the watchdog
+/// gets its longest timeout, and received bytes may be lost. Programming 32-bit words needs 2.7 to
+/// 3.6 V. `Timer` is a TickTimer, `Dog` an IndependentWatchdog.
 namespace verp::hal::stm32 {
 
 template <Io Access, class Timer, class Dog>
@@ -18,13 +17,12 @@ class SectorPages {
  public:
   static constexpr std::size_t kUnit = 4;
 
-  /// `first` and `second`: sector numbers of pages 0 and 1, from kSector... of memory_map.hpp.
+  /// `first`, `second`: sector numbers of pages 0 and 1 (kSector..., memory_map.hpp).
   SectorPages(Family family, std::uint8_t first, std::uint8_t second, Timer& timer, Dog& dog,
               Access io = {})
       : io_(io), family_(family), sector_{first, second}, timer_(timer), dog_(dog) {}
 
   std::size_t page_bytes(std::size_t page) const { return place(page).bytes; }
-  /// The page's address as memory.
   const std::uint8_t* memory(std::size_t page) const {
     return reinterpret_cast<const std::uint8_t*>(std::uintptr_t{place(page).address});
   }
@@ -67,7 +65,7 @@ class SectorPages {
 
  private:
   static constexpr std::uint32_t kWords = flash::kPsize32 << flash::kCrPsizeShift;
-  /// At most 100 us (DS8626, flash memory programming); a poll takes at least 10 cycles of 216 MHz.
+  /// 100 us (DS8626, flash memory programming); a poll takes at least 10 cycles of 216 MHz.
   static constexpr std::uint32_t kProgramPolls = 20'000;
   /// 2 s for 128 KB on an F4, 4 s for 256 KB on an F7 (DS10916), plus half.
   static constexpr std::uint64_t kErase_us = 6'000'000;
@@ -79,7 +77,7 @@ class SectorPages {
   bool busy() { return (io_.read32(at(flash::kSr)) & flash::kSrBsy) != 0; }
   bool no_errors() { return (io_.read32(at(flash::kSr)) & flash::kSrErrors) == 0; }
 
-  /// Clears old errors and unlocks the flash. False: busy or still locked.
+  /// Clears errors, unlocks. False: busy or still locked.
   bool open() {
     if (busy()) return false;
     io_.write32(at(flash::kSr), flash::kSrErrors | flash::kSrEop);
@@ -89,7 +87,7 @@ class SectorPages {
     }
     return (io_.read32(at(flash::kCr)) & flash::kCrLock) == 0;
   }
-  // A locked flash ignores stray writes. While it is busy it cannot be locked.
+  // A locked flash ignores stray writes.
   void close(std::uint32_t command) {
     if (busy()) return;
     modify32(io_, at(flash::kCr), command, 0);
@@ -110,7 +108,7 @@ class SectorPages {
     }
     return true;
   }
-  // The F4's data cache may hold erased contents (RM0090 3.5.2); it can be flushed only while off.
+  // The F4's data cache may hold erased contents (RM0090 3.5.2); flush it while off.
   void cache_data(bool on) {
     if (family_ == Family::kF746) return;
     if (!on) {

@@ -7,7 +7,7 @@
 #include "hal/chip/stm32/registers/memory_map.hpp"
 #include "hal/chip/stm32/registers/rcc.hpp"
 
-/// Pins. Each function first enables its port's clock.
+/// Each function enables its port's clock.
 namespace verp::hal::stm32 {
 
 struct Pin {
@@ -22,7 +22,7 @@ class Gpio {
  public:
   explicit Gpio(Access io = {}) : io_(io) {}
 
-  /// Hands the pin to a peripheral. A pull-up keeps an open receive line high, which is idle.
+  /// A pull-up keeps an open receive line idle.
   void alternate(Pin pin, std::uint32_t function, std::uint32_t pull = gpio::kPullNone) {
     if (!pin.exists()) return;
     enable(pin);

@@ -4,13 +4,12 @@
 
 namespace verp::hal::stm32 {
 
-/// Enables the Cortex-M7's instruction cache: at 216 MHz the flash has 7 wait states. Code never
-/// changes while it runs. The data cache stays off: variables lie in DTCM, which is never cached,
-/// and the flash that the Store writes must read back as written. PM0253 4.8.
+/// Cortex-M7: at 216 MHz the flash has 7 wait states. The data cache stays off: variables lie in
+/// DTCM, and the flash that the Store writes must read back as written. PM0253 4.8.
 template <Io Access>
 void enable_instruction_cache(Access io) {
   io.barrier();
-  io.write32(cortex_m::kIciallu, 0);  // discard the undefined contents after power-up
+  io.write32(cortex_m::kIciallu, 0);  // contents are undefined after power-up
   io.barrier();
   modify32(io, cortex_m::kCcr, 0, cortex_m::kCcrIc);
   io.barrier();

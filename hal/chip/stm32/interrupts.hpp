@@ -6,7 +6,6 @@
 
 namespace verp::hal::stm32 {
 
-/// Masks interrupts during its lifetime.
 template <Io Access>
 class Masked {
  public:
@@ -22,7 +21,7 @@ class Masked {
   bool were_on_;
 };
 
-/// Enables interrupt `number`. Priority 0 is the most urgent, 15 the least.
+/// Priority 0 is the most urgent, 15 the least.
 template <Io Access>
 void enable_interrupt(Access io, unsigned number, std::uint8_t priority) {
   io.write8(cortex_m::kNvicIpr + number,

@@ -3,18 +3,18 @@
 #include <cstddef>
 #include <cstdint>
 
-/// How drivers access hardware. A driver is a template over Io and holds one by value
-/// (`[[no_unique_address]] Io io_;`). On silicon Io is the empty MemoryIo; in tests it is a handle
-/// to a model of the chip (tests/support/stm32). Both run the same driver source.
+/// A driver is a template over Io and holds one by value (`[[no_unique_address]] Io io_;`). On
+/// silicon Io is the empty MemoryIo; in tests a handle to a model of the chip
+/// (tests/support/stm32).
 ///
-/// An Io promises (addresses are those of the chip's memory map):
+/// An Io promises, for addresses of the chip's memory map:
 ///  - read8/16/32(address), write8/16/32(address, value): one bus access of that width, in program
-///    order. Most registers need 32 bits; USART and SPI data and flash memory do not.
-///  - bus_address(data, size): the DMA controller's address of this memory. The memory stays there
-///    until the next bus_address() of the same data, or for ever.
+///    order. USART and SPI data and flash memory may have 8 or 16 bits.
+///  - bus_address(data, size): the DMA controller's address. The memory stays there until the next
+///    bus_address() of the same data.
 ///  - barrier(): completes earlier memory accesses before later ones begin (DSB).
-///  - mask_interrupts(): masks interrupts; true if they were enabled before. A matching
-///    unmask_interrupts() enables them again.
+///  - mask_interrupts(): true if they were enabled before. A matching unmask_interrupts() enables
+///    them again.
 ///  - wait_for_interrupt(): returns when an enabled interrupt is pending; may return early.
 namespace verp::hal::stm32 {
 
@@ -35,8 +35,7 @@ concept Io = std::copyable<Access> &&
   { io.wait_for_interrupt() } -> std::same_as<void>;
 };
 
-/// Clears and sets bits of a 32-bit register with one read and one write. Not for registers whose
-/// flags are cleared by writing back what was read.
+/// One read and one write. Not for registers whose flags are cleared by writing back what was read.
 template <Io Access>
 void modify32(Access& io, std::uint32_t address, std::uint32_t clear, std::uint32_t set) {
   io.write32(address, (io.read32(address) & ~clear) | set);

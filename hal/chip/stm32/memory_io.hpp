@@ -4,8 +4,7 @@
 
 #include "hal/chip/stm32/io.hpp"
 
-/// The real chip: volatile accesses to its address space and Armv7-M instructions (Armv7-M
-/// Architecture Reference Manual, A7.7 DSB, WFI, CPS). Only for the target's compiler.
+/// The real chip: volatile accesses and Armv7-M instructions (Armv7-M ARM, A7.7 DSB, WFI, CPS).
 namespace verp::hal::stm32 {
 
 class MemoryIo {

@@ -7,16 +7,15 @@
 #include "hal/chip/stm32/otg_fs_core.hpp"
 #include "hal/contract/byte_link.hpp"
 
-/// USB full speed as a ByteLink: a serial port of a USB host. `Function` answers requests at the
-/// control endpoint (hal/chip/usb/cdc_acm.hpp); this class moves packets between the bulk endpoints
-/// and two rings. Connected means that a host program has the port open: the device is configured,
-/// DTR is set, the bus is awake.
+/// USB full speed as a ByteLink. `Function` answers requests at the control endpoint
+/// (hal/chip/usb/cdc_acm.hpp); this class moves packets between the bulk endpoints and two rings.
+/// Connected: a host program has the port open (configured, DTR set, bus awake).
 ///
-/// The host gets NAK while the ring has no room for a packet, so no byte sent while connected is
-/// lost. A loss drops the queued bytes; received bytes are read first.
+/// The host gets NAK while the ring is full, so no byte sent while connected is lost. A loss drops
+/// the queued bytes; received bytes are read first.
 ///
-/// The board calls on_interrupt() from OTG_FS's vector. It may take a fraction of a millisecond to
-/// cancel a transfer. Every wait ends: a stuck transfer loses its bytes and is counted.
+/// The board calls on_interrupt() from OTG_FS's vector. Every wait ends: a stuck transfer loses its
+/// bytes and is counted.
 namespace verp::hal::stm32 {
 
 /// `Timer` is a TickTimer.
@@ -26,8 +25,8 @@ class OtgFs {
   OtgFs(Family family, Function& function, Timer& timer, Access io = {})
       : io_(io), core_(family, io), control_(core_, function), function_(function), timer_(timer) {}
 
-  /// The core's clocks (48 MHz within 0.25 %, and the bus clock `hclk_hz`) and pins are on. Takes
-  /// the 25 ms that the core needs to become a device. False: it did not.
+  /// 48 MHz within 0.25 %, the bus clock `hclk_hz` and pins are on. Takes the 25 ms in which the
+  /// core becomes a device. False: it did not.
   bool open(std::uint32_t hclk_hz, bool sense_vbus) {
     if (otg_fs::turnaround(hclk_hz) == 0 || !core_.reset()) return false;
     core_.force_device(hclk_hz);
@@ -75,7 +74,7 @@ class OtgFs {
     const std::uint32_t before = moved_;
     core_.clear(status);
     if ((status & otg_fs::kGintRxflvl) != 0) fetch();
-    // A resume may follow at once; the next suspend needs 3 ms of silence.
+    // The next suspend needs 3 ms of silence.
     if ((status & otg_fs::kGintUsbsusp) != 0) suspended_ = true;
     if ((status & otg_fs::kGintWkup) != 0) suspended_ = false;
     if ((status & otg_fs::kGintOtg) != 0 && (core_.take_otg() & otg_fs::kGotgintSedet) != 0) {
@@ -102,7 +101,7 @@ class OtgFs {
 
   // Called by the interrupt.
 
-  /// Fetches received packets; bounded by the FIFO's size in case its flag is stuck.
+  /// Fetches packets; bounded by the FIFO's size in case its flag is stuck.
   void fetch() {
     for (std::uint32_t i = 0; i < otg_fs::kFifoWords; ++i) {
       const auto arrival = core_.arrival();
@@ -149,7 +148,7 @@ class OtgFs {
     if (control_.serve_out()) {
       ++moved_;
       follow_host();
-      pump();  // an endpoint may have been released
+      pump();  // an endpoint may be free
     }
     if (core_.take_out(kData) == 0) return;
     ++moved_;
@@ -169,12 +168,12 @@ class OtgFs {
     full_ = false;
     if (sending_) core_.cancel_send(kData);
     sending_ = false;
-    expecting_ = false;  // so that listen() does not request a packet twice
+    expecting_ = false;  // listen() must not request a packet twice
   }
 
   // Also called by read() and write() with interrupts masked.
 
-  /// Allows the next packet if there is room for it.
+  /// Allows the next packet if there is room.
   void listen() {
     if (!up_ || expecting_ || kRing - (received_ - taken_) < kPacket) return;
     expecting_ = true;
@@ -229,7 +228,7 @@ class OtgFs {
   }
   bool see_loss() {
     const Masked<Access> masked(io_);
-    const bool seen = lost_ && connected_;  // otherwise the caller never saw that connection
+    const bool seen = lost_ && connected_;  // else the caller never saw that connection
     lost_ = false;
     if (!seen) return false;
     connected_ = false;
@@ -248,15 +247,15 @@ class OtgFs {
   Timer& timer_;
   bool suspended_ = false;
   bool up_ = false;
-  bool connected_ = false;  ///< `up_` as read() and write() last saw it
-  bool lost_ = false;       ///< a loss that they have not seen
+  bool connected_ = false;  ///< `up_` as the caller saw it
+  bool lost_ = false;       ///< a loss that the caller has not seen
   bool sending_ = false;
-  bool full_ = false;       ///< the last packet was full and the end is not marked
-  bool expecting_ = false;  ///< a packet may arrive
+  bool full_ = false;  ///< the last packet was full and the end is not marked
+  bool expecting_ = false;
   std::uint32_t lost_at_ = 0;
   std::uint32_t losses_ = 0;
   std::uint32_t overruns_ = 0;
-  std::uint32_t moved_ = 0;  ///< packets and stages; tells an interrupt storm from work
+  std::uint32_t moved_ = 0;  ///< packets and stages; no interrupt storm while it grows
   std::uint32_t storm_ = 0;
   std::uint32_t received_ = 0;  ///< bytes since open(), like the next three
   std::uint32_t taken_ = 0;

@@ -6,8 +6,8 @@
 
 namespace verp::hal::stm32 {
 
-/// The control endpoint of OTG_FS: moves each request, its data and its status, and applies
-/// `Function`'s decisions to the other endpoints. Called by the interrupt.
+/// Moves each request, its data and its status, and applies `Function`'s decisions to the other
+/// endpoints. Called by the interrupt.
 template <Io Access, class Function>
 class OtgFsControl {
   using Core = OtgFsCore<Access>;
@@ -15,13 +15,13 @@ class OtgFsControl {
  public:
   OtgFsControl(Core& core, Function& function) : core_(core), function_(function) {}
 
-  /// Call after a bus reset.
+  /// After a bus reset.
   void start_over() { stage_ = Stage::kIdle; }
 
   void fetch_setup(std::uint32_t size) { fetch(setup_, sizeof setup_, size); }
   void fetch_data(std::uint32_t size) { data_size_ = fetch(data_, sizeof data_, size); }
 
-  /// True if a packet has left.
+  /// True: a packet has left.
   bool serve_in() {
     if (core_.take_in(0) == 0) return false;
     if (stage_ == Stage::kSending) {
@@ -31,7 +31,7 @@ class OtgFsControl {
     }
     return true;
   }
-  /// True if a request or a packet has arrived.
+  /// True: a request or a packet has arrived.
   bool serve_out() {
     const std::uint32_t flags = core_.take_out(0);
     if ((flags & otg_fs::kDoepXfrc) != 0) serve_data();
@@ -73,7 +73,7 @@ class OtgFsControl {
         return refuse();
     }
   }
-  /// Sends the next packet of an answer, or starts the host's status stage.
+  /// Sends the next packet, or starts the host's status stage.
   void send_answer() {
     if (left_ == 0 && ended_) {
       stage_ = Stage::kStatusOut;
@@ -137,7 +137,7 @@ class OtgFsControl {
   std::uint8_t data_[kPacket] = {};
   std::size_t data_size_ = 0;
   const std::uint8_t* answer_ = nullptr;
-  std::uint32_t left_ = 0;  ///< bytes of answer_ still to send
+  std::uint32_t left_ = 0;  ///< bytes of answer_ to send
   bool ended_ = true;       ///< no empty packet must follow
   Stage stage_ = Stage::kIdle;
 };

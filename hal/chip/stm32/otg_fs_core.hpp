@@ -6,19 +6,19 @@
 #include "hal/chip/stm32/registers/memory_map.hpp"
 #include "hal/chip/stm32/registers/otg_fs.hpp"
 
-/// OTG_FS as a device controller, one packet at a time: reset, FIFO memory, endpoints. It
-/// interprets no USB request. Every wait ends, and timeouts are counted.
+/// OTG_FS as a device controller, one packet at a time. It interprets no USB request. Every wait
+/// ends; timeouts are counted.
 namespace verp::hal::stm32 {
 
 template <Io Access>
 class OtgFsCore {
  public:
-  static constexpr unsigned kEndpoints = 3;  ///< in use: control, bulk, notification
+  static constexpr unsigned kEndpoints = 3;  ///< control, bulk, notification
   static constexpr std::uint32_t kPacket = 64;
 
   OtgFsCore(Family family, Access io) : io_(io), family_(family) {}
 
-  /// False: the core does not answer; it has no 48 MHz clock or does not exist.
+  /// False: no 48 MHz clock, or no core.
   bool reset() {
     write(otg_fs::kGahbcfg, 0);
     if (!wait_for(otg_fs::kGrstctl, otg_fs::kGrstctlAhbidl, otg_fs::kGrstctlAhbidl)) return false;
@@ -26,8 +26,7 @@ class OtgFsCore {
     return wait_for(otg_fs::kGrstctl, otg_fs::kGrstctlCsrst, 0) &&
            wait_for(otg_fs::kGrstctl, otg_fs::kGrstctlAhbidl, otg_fs::kGrstctlAhbidl);
   }
-  /// Forces device mode whatever the ID pin says; it holds after kForceModeTime_ms, see
-  /// is_device().
+  /// Ignores the ID pin; holds after kForceModeTime_ms, see is_device().
   void force_device(std::uint32_t hclk_hz) {
     modify32(io_, at(otg_fs::kGusbcfg),
              otg_fs::kGusbcfgTrdt | otg_fs::kGusbcfgSrpcap | otg_fs::kGusbcfgHnpcap,
@@ -35,8 +34,7 @@ class OtgFsCore {
   }
   bool is_device() { return (read(otg_fs::kGintsts) & otg_fs::kGintCmod) == 0; }
 
-  /// Sets the device up; connect() then joins the bus. With `sense_vbus` pin PA9 detects the host;
-  /// without, PA9 is free for other uses.
+  /// Call before connect(). With `sense_vbus` pin PA9 detects the host.
   void set_up(bool sense_vbus, std::uint32_t interrupts) {
     set(otg_fs::kDctl, otg_fs::kDctlSdis);
     write(otg_fs::kPcgcctl, 0);
@@ -54,7 +52,7 @@ class OtgFsCore {
   }
   void connect() { modify32(io_, at(otg_fs::kDctl), otg_fs::kDctlSdis, 0); }
 
-  // Enabled interrupts that are pending now.
+  // Enabled interrupts that are pending.
   std::uint32_t pending() { return read(otg_fs::kGintsts) & read(otg_fs::kGintmsk); }
   void clear(std::uint32_t flags) { write(otg_fs::kGintsts, flags & kClearable); }
   void ignore(std::uint32_t flags) { modify32(io_, at(otg_fs::kGintmsk), flags, 0); }
@@ -76,7 +74,7 @@ class OtgFsCore {
     return flags;
   }
 
-  /// After a bus reset: address 0, no transfers, control endpoint only.
+  /// After a bus reset: address 0, control endpoint only.
   void start_over() {
     set_address(0);
     for (unsigned endpoint = 0; endpoint < kEndpoints; ++endpoint) {
@@ -94,7 +92,7 @@ class OtgFsCore {
              std::uint32_t{address} << otg_fs::kDcfgDadShift);
   }
 
-  /// Opens endpoint 1 or 2 by its address: on, empty, not halted, DATA0 next.
+  /// Opens endpoint 1 or 2: on, empty, not halted, DATA0 next.
   void open_endpoint(std::uint8_t address, std::uint32_t type, std::uint32_t packet) {
     const unsigned endpoint = address & 0xFu;
     const bool in = is_in(address);
@@ -115,13 +113,13 @@ class OtgFsCore {
     control(control_of(address), otg_fs::kEpctlUsbaep, otg_fs::kEpctlSnak);
   }
   void stall(std::uint8_t address) { control(control_of(address), 0, otg_fs::kEpctlStall); }
-  /// Not for endpoint 0, where a new request ends the STALL.
+  /// At endpoint 0 a new request ends the STALL.
   void unstall(std::uint8_t address) {
     control(control_of(address), otg_fs::kEpctlStall, otg_fs::kEpctlSd0pid);
   }
 
   /// Sends one packet, perhaps empty, after the previous one has gone; `byte(i)` is its i-th byte.
-  /// False: the endpoint kept an old packet; it stays silent until the next bus reset.
+  /// False: an old packet is stuck; silent until the next bus reset.
   template <class Byte>
   bool send(unsigned endpoint, std::uint32_t size, Byte&& byte) {
     const std::uint32_t words = (size + 3) / 4;
@@ -142,7 +140,7 @@ class OtgFsCore {
     }
     return true;
   }
-  /// Discards a packet that has not gone (RM0385 37.15: disabling an IN endpoint).
+  /// Discards a packet that has not gone (RM0385 37.15).
   void cancel_send(unsigned endpoint) {
     const std::uint32_t was = read(otg_fs::diepctl(endpoint));
     if ((was & otg_fs::kEpctlEpena) != 0) {
@@ -162,7 +160,7 @@ class OtgFsCore {
     flush_sent(endpoint << otg_fs::kGrstctlTxfnumShift);
   }
 
-  /// Allows one packet; until then the host gets NAK. Does nothing new if one is allowed already.
+  /// Allows one packet; until then the host gets NAK.
   void expect(unsigned endpoint) {
     if ((read(otg_fs::doepctl(endpoint)) & otg_fs::kEpctlEpena) == 0) {
       write(otg_fs::doeptsiz(endpoint),
@@ -170,7 +168,7 @@ class OtgFsCore {
     }
     control(otg_fs::doepctl(endpoint), 0, otg_fs::kEpctlEpena | otg_fs::kEpctlCnak);
   }
-  /// Allows requests: at most three in a row, of which the last counts.
+  /// Allows requests: at most three in a row; the last counts.
   void expect_setup() {
     if ((read(otg_fs::doepctl(0)) & otg_fs::kEpctlEpena) != 0) return;
     write(otg_fs::kDoeptsiz, kSetups | 1u << otg_fs::kTsizPktcntShift | kSetupBytes);
@@ -203,8 +201,8 @@ class OtgFsCore {
 
  private:
   static constexpr unsigned kOutEndpoints = 2;
-  // A read and test take at least 10 cycles, so all polls take at least 100 us at 216 MHz. A core
-  // reset takes microseconds; a packet on the wire ends within 50.
+  // All polls take at least 100 us at 216 MHz. A core reset takes microseconds; a packet ends
+  // within 50.
   static constexpr int kPolls = 4000;
   static constexpr std::uint32_t kClearable = otg_fs::kGintUsbsusp | otg_fs::kGintUsbrst |
                                               otg_fs::kGintEnumdne | otg_fs::kGintSrq |
@@ -212,8 +210,8 @@ class OtgFsCore {
   static constexpr std::uint32_t kSetups = 3u << otg_fs::kDoeptsizStupcntShift;
   static constexpr std::uint32_t kSetupBytes = 3 * 8;
 
-  // FIFO memory in words. Reception needs (RM0385 37.13, RxFIFO): 10 for requests, two packets with
-  // their status, a word for the end of each transfer, one for the global NAK. The rest is reserve.
+  // In words. Reception needs (RM0385 37.13, RxFIFO): 10 for requests, two packets with their
+  // status, a word for each transfer's end, one for the global NAK. The rest is reserve.
   static constexpr std::uint32_t kReceiveWords = 128;
   static constexpr std::uint32_t kSendWords[kEndpoints] = {16, 64, 16};
   static_assert(kReceiveWords >= 10 + 2 * (kPacket / 4 + 1) + 2 * kOutEndpoints + 1);
@@ -224,8 +222,7 @@ class OtgFsCore {
   std::uint32_t read(std::uint32_t offset) { return io_.read32(at(offset)); }
   void write(std::uint32_t offset, std::uint32_t value) { io_.write32(at(offset), value); }
   void set(std::uint32_t offset, std::uint32_t mask) { modify32(io_, at(offset), 0, mask); }
-  /// Changes an endpoint's control register. Never writes a read EPENA back: the core may have
-  /// cleared it meanwhile.
+  /// Never writes a read EPENA back: the core may have cleared it.
   void control(std::uint32_t offset, std::uint32_t clear, std::uint32_t mask) {
     modify32(io_, at(offset), clear | otg_fs::kEpctlEpena | otg_fs::kEpctlEpdis, mask);
   }
@@ -241,7 +238,7 @@ class OtgFsCore {
     return is_in(address) ? otg_fs::diepctl(address & 0xFu) : otg_fs::doepctl(address & 0xFu);
   }
 
-  /// Bit 7 of DOEPINT is reserved but not 0; write it as read.
+  /// Bit 7 of DOEPINT is reserved but not 0.
   void clear_out(unsigned endpoint, std::uint32_t flags) {
     write(otg_fs::doepint(endpoint), flags | (read(otg_fs::doepint(endpoint)) & bit(7)));
   }
@@ -277,7 +274,7 @@ class OtgFsCore {
   [[no_unique_address]] Access io_;
   Family family_;
   std::uint32_t stuck_ = 0;
-  std::uint32_t broken_ = 0;  ///< IN endpoints that could not be disabled, one bit each
+  std::uint32_t broken_ = 0;  ///< bit mask of IN endpoints that could not be disabled
 };
 
 }  // namespace verp::hal::stm32

@@ -16,13 +16,13 @@ enum class ResetCause : std::uint8_t {
   kLowPower = 5,
 };
 
-/// Returns why the chip started and clears the flags for the next start. If several are set (every
-/// reset also pulls the pin), the rarest counts. RM0090 7.3.21.
+/// Clears the flags for the next start. If several are set (every reset also pulls the pin), the
+/// rarest counts. RM0090 7.3.21.
 template <Io Access>
 ResetCause take_reset_cause(Access io) {
   const std::uint32_t csr = io.read32(base::kRcc + rcc::kCsr);
   modify32(io, base::kRcc + rcc::kCsr, 0, rcc::kCsrRmvf);
-  modify32(io, base::kRcc + rcc::kCsr, rcc::kCsrRmvf, 0);  // left set, it would clear later flags
+  modify32(io, base::kRcc + rcc::kCsr, rcc::kCsrRmvf, 0);  // for the next start
   if ((csr & (rcc::kCsrIwdgrstf | rcc::kCsrWwdgrstf)) != 0) return ResetCause::kWatchdog;
   if ((csr & rcc::kCsrSftrstf) != 0) return ResetCause::kSoftware;
   if ((csr & rcc::kCsrLpwrrstf) != 0) return ResetCause::kLowPower;

@@ -8,14 +8,14 @@
 #include "hal/chip/stm32/registers/rcc.hpp"
 #include "hal/chip/stm32/registers/spi.hpp"
 
-/// SPI with one device on a chip-select pin: mode 3, 8 bits, MSB first. It polls: it writes a byte
-/// only after the previous one came back, so an interrupt delays a transfer but does not break it.
-/// Every wait ends; an error resets the peripheral.
+/// One device on a chip-select pin: mode 3, 8 bits, MSB first. Polled: it writes a byte only after
+/// the previous one came back, so an interrupt only delays a transfer. Every wait ends; an error
+/// resets the peripheral.
 namespace verp::hal::stm32 {
 
 struct SpiWiring {
   std::uint32_t base = 0;
-  std::uint32_t enable_register = 0;  ///< clock enable register, such as rcc::kApb2enr
+  std::uint32_t enable_register = 0;  ///< such as rcc::kApb2enr
   std::uint32_t mask = 0;             ///< its bit, the same in the reset register
   Pin clock;
   Pin data_in;  ///< MISO
@@ -24,10 +24,10 @@ struct SpiWiring {
   std::uint32_t function = 0;  ///< alternate function of the first three pins
 };
 
-/// Counts modulo 2^32.
+/// Modulo 2^32.
 struct SpiErrors {
-  std::uint32_t timeouts = 0;     ///< a flag did not come, or BSY did not clear
-  std::uint32_t overruns = 0;     ///< a received byte was not fetched
+  std::uint32_t timeouts = 0;  ///< a flag did not come, or BSY did not clear
+  std::uint32_t overruns = 0;
   std::uint32_t mode_faults = 0;  ///< another bus master detected (MODF)
 };
 
@@ -38,7 +38,7 @@ class SpiMaster {
   SpiMaster(Family family, const SpiWiring& wiring, Timer& timer, Access io = {})
       : io_(io), gpio_(io), family_(family), wiring_(wiring), timer_(timer) {}
 
-  /// Call once before exchange(). `bus_hz` clocks the peripheral.
+  /// Call once, first. `bus_hz` clocks the peripheral.
   void open(std::uint32_t bus_hz) {
     bus_hz_ = bus_hz;
     gpio_.output(wiring_.select, true);
@@ -49,9 +49,8 @@ class SpiMaster {
     gpio_.alternate(wiring_.data_out, wiring_.function);
   }
 
-  /// Selects the device, sends `size` bytes and receives as many, at the highest clock up to
-  /// max_hz. False: it failed and `in` is invalid. Takes at most twice the bytes' time plus
-  /// kSlack_us.
+  /// At the highest clock up to max_hz. False: `in` is invalid. Takes at most twice the bytes' time
+  /// plus kSlack_us.
   bool exchange(const std::uint8_t* out, std::uint8_t* in, std::size_t size, std::uint32_t max_hz) {
     if (!clean()) restart();
     const std::uint32_t clock_hz = set_clock(max_hz);
@@ -74,7 +73,7 @@ class SpiMaster {
 
  private:
   static constexpr std::uint32_t kErrors = spi::kSrOvr | spi::kSrModf;
-  /// SSI replaces the select input, which must be high for a master.
+  /// SSI replaces the select input, which must be high.
   static constexpr std::uint32_t kControl =
       spi::kCr1Mstr | spi::kCr1Cpol | spi::kCr1Cpha | spi::kCr1Ssm | spi::kCr1Ssi;
   static constexpr std::uint32_t kSlowest = 7;  ///< BR: bus clock / 256
@@ -131,7 +130,7 @@ class SpiMaster {
       if ((flags & kErrors) != 0) return false;
       if ((flags & mask) == value) return true;
       if (late) return false;
-      late = timer_.now_us() >= deadline_us_;  // polls once more: an interrupt may have delayed us
+      late = timer_.now_us() >= deadline_us_;  // an interrupt may have delayed us
     }
   }
 
@@ -143,7 +142,7 @@ class SpiMaster {
   SpiErrors errors_;
   std::uint64_t deadline_us_ = 0;
   std::uint32_t bus_hz_ = 0;
-  std::uint32_t control_ = 0;  ///< CR1 as set, without SPE; 0: not set
+  std::uint32_t control_ = 0;  ///< CR1 without SPE; 0: not set
 };
 
 }  // namespace verp::hal::stm32

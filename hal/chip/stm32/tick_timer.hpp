@@ -7,9 +7,8 @@
 #include "hal/chip/stm32/registers/timer.hpp"
 #include "hal/contract/tick_source.hpp"
 
-/// A 32-bit timer (TIM2 or TIM5) that counts microseconds: the board's clock and TickSource. The
-/// processor sleeps while it waits. A compare interrupt ends the wait on time; SysTick ends it
-/// after a millisecond at most if that interrupt fails.
+/// TIM2 or TIM5 counts microseconds: the board's clock and TickSource. The processor sleeps while
+/// it waits. A compare interrupt ends the wait on time, or SysTick after a millisecond at most.
 ///
 /// wait() is late by the interrupt's latency, well under 10 us; without compare interrupts (QEMU)
 /// by up to a millisecond. The board's vectors call on_timer(); SysTick's handler may be empty.
@@ -60,13 +59,13 @@ class TickTimer {
     last_ = count;
     return high_ + count - origin_us_;
   }
-  /// The low 32 bits of now_us(), for interrupts.
+  /// For interrupts: low 32 bits of now_us().
   std::uint32_t stamp_us() const {
     return io_.read32(base_ + timer::kCnt) - static_cast<std::uint32_t>(origin_us_);
   }
 
-  /// Sleeps until the next interrupt or until deadline_us, unless `ready()`. Interrupts are masked
-  /// while it asks, so an event cannot slip in before the sleep.
+  /// Until the next interrupt or deadline_us, unless `ready()`. Interrupts are masked while it
+  /// asks, so no event slips in before the sleep.
   template <class Ready>
   void doze_until(std::uint64_t deadline_us, Ready&& ready) {
     const Masked<Access> masked(io_);

@@ -9,10 +9,9 @@
 #include "hal/chip/stm32/usart_kind.hpp"
 #include "hal/contract/byte_link.hpp"
 
-/// A USART as a ByteLink. It receives by DMA into a ring; an idle line wakes the reader at the end
-/// of a message. Without a working DMA stream it receives each byte by interrupt. It sends by
-/// interrupt. A direction pin makes the bus half-duplex: the pin is high exactly while bytes leave,
-/// so the line is free for a servo's answer.
+/// A USART as a ByteLink. It receives by DMA into a ring, without a working stream by interrupt; an
+/// idle line wakes the reader. It sends by interrupt. A direction pin makes the bus half-duplex:
+/// high exactly while bytes leave, so the line is free for a servo's answer.
 ///
 /// The board calls on_interrupt() from the USART's and the DMA stream's vectors, both of one
 /// priority. No call waits for a flag: a stuck transfer loses its bytes and is counted.
@@ -33,7 +32,7 @@ class Usart {
   Usart(const UsartWiring& wiring, Timer& timer, Access io = {})
       : io_(io), gpio_(io), wiring_(wiring), timer_(timer) {}
 
-  /// Clocks and pins are on. False: no divider makes this baud rate.
+  /// Clocks and pins are on. False: no divider fits.
   bool open(std::uint32_t clock_hz, std::uint32_t baud) {
     BaudSetting setting;
     if (!choose_baud(clock_hz, baud, setting)) return false;
@@ -43,7 +42,7 @@ class Usart {
     write(Kind::kBrr, setting.brr);
     baud_ = baud;
     by_dma_ = start_dma();
-    // Without DMA, errors come with their bytes, and the idle interrupt is not needed.
+    // Without DMA, errors come with their bytes.
     write(Kind::kCr3, by_dma_ ? usart_v1::kCr3Eie | usart_v1::kCr3Dmar : 0);
     write(Kind::kCr1, Kind::kEnable | usart_v1::kCr1Te | usart_v1::kCr1Re |
                           (setting.over8 ? usart_v1::kCr1Over8 : 0) |
@@ -138,7 +137,7 @@ class Usart {
                 dma::kFlagAll << dma::flag_shift(wiring_.dma_stream));
   }
 
-  /// Serves every interrupt source. Returns the status before that.
+  /// Serves every interrupt source. Returns the status before.
   std::uint32_t service() {
     const std::uint32_t status = read(Kind::kStatus);
     if ((status & usart_flag::kOverrun) != 0) ++errors_.overruns;
@@ -154,15 +153,14 @@ class Usart {
     return status;
   }
   // A full ring leaves the next byte in the USART: an emulator waits, real hardware sets its
-  // overrun flag. QEMU lowers the interrupt when a byte is read, not when RXNEIE is cleared. So the
-  // driver disables RXNEIE before it reads the byte that fills the ring.
+  // overrun flag. QEMU lowers the interrupt when a byte is read, so the driver disables RXNEIE
+  // before it reads the byte that fills the ring.
   void receive_byte() {
     if (received_ - taken_ == kRing) return;
     if (received_ - taken_ + 1 == kRing) clear_bits(Kind::kCr1, usart_v1::kCr1Rxneie);
     ring_[received_++ % kRing] = static_cast<std::uint8_t>(read(Kind::kReceive));
   }
-  /// Counts the bytes that the DMA stored. The DMA's interrupts call it at least twice per ring
-  /// turn.
+  /// Bytes that the DMA stored. Its interrupts call this at least twice per ring turn.
   void track() {
     if (!by_dma_) return;
     const std::uint32_t left = io_.read32(stream(dma::kNdtr)) & 0xFFFF;
@@ -212,8 +210,7 @@ class Usart {
     pump(read(Kind::kStatus));
     return count;
   }
-  /// Sends bytes while there is room. After the last byte it enables the transmission-complete
-  /// interrupt.
+  /// Sends while there is room. After the last byte it enables the transmission-complete interrupt.
   void pump(std::uint32_t status) {
     if (!sending_) return;
     while (sent_ != queued_ && (status & usart_flag::kRoom) != 0) {
@@ -243,7 +240,7 @@ class Usart {
     ++stuck_;
   }
 
-  static constexpr std::uint32_t kFcrReset = 0x21;  ///< RM0090 10.5.10; FS in it is read-only
+  static constexpr std::uint32_t kFcrReset = 0x21;  ///< RM0090 10.5.10; FS is read-only
 
   [[no_unique_address]] mutable Access io_;
   Gpio<Access> gpio_;

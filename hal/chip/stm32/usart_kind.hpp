@@ -4,7 +4,7 @@
 #include "hal/chip/stm32/io.hpp"
 #include "hal/chip/stm32/registers/usart.hpp"
 
-/// Differences between the two kinds of USART, and their baud rates.
+/// Differences between the two kinds of USART, and baud rates.
 namespace verp::hal::stm32 {
 
 /// Flags at the same place in SR and ISR.
@@ -23,7 +23,7 @@ struct UsartV1 {
                                  kCr3 = usart_v1::kCr3;
   static constexpr std::uint32_t kEnable = usart_v1::kCr1Ue;
 
-  /// `status` was just read. If a byte is waiting, its reader will read DR and clear the flags.
+  /// `status` was just read. A waiting byte's reader clears the flags.
   template <Io Access>
   static void clear(Access& io, std::uint32_t base, std::uint32_t status) {
     if ((status & usart_flag::kReceived) == 0) io.read32(base + kReceive);
@@ -52,11 +52,11 @@ struct BaudSetting {
   bool over8 = false;
 };
 
-/// False if no divider comes within 1 %. Start, stop and eight data bits tolerate about 4 % between
-/// the two ends (RM0090 30.3.5); the internal oscillator may use up one.
+/// False: no divider within 1 %. Start, stop and eight data bits tolerate about 4 % between the two
+/// ends (RM0090 30.3.5); the internal oscillator may use up one.
 constexpr bool choose_baud(std::uint32_t clock_hz, std::uint32_t baud, BaudSetting& setting) {
   if (baud == 0 || baud > clock_hz / 8) return false;
-  const std::uint32_t divider = (clock_hz + baud / 2) / baud;  // clock cycles a bit
+  const std::uint32_t divider = (clock_hz + baud / 2) / baud;  // cycles a bit
   if (divider > 0xFFFF) return false;
   const std::uint64_t real = std::uint64_t{divider} * baud;
   const std::uint64_t off = real > clock_hz ? real - clock_hz : clock_hz - real;

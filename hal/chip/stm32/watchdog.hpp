@@ -8,9 +8,8 @@
 #include "hal/chip/stm32/reset_cause.hpp"
 #include "hal/contract/watchdog.hpp"
 
-/// The independent watchdog as a Watchdog. Its oscillator, LSI, runs at 17 to 47 kHz. The setting
-/// keeps the fastest chip from firing early and the slowest within the contract's slack. Possible
-/// timeouts: 1.1 ms to 22 s.
+/// The independent watchdog. Its oscillator, LSI, runs at 17 to 47 kHz: the fastest chip never
+/// fires early, the slowest keeps the contract's slack. Timeouts: 1.1 ms to 22 s.
 namespace verp::hal::stm32 {
 
 template <Io Access>
@@ -33,8 +32,8 @@ class IndependentWatchdog {
   }
   bool caused_reset() const { return cause_ == ResetCause::kWatchdog; }
 
-  /// Sets the longest timeout for an operation that stops the processor for seconds, such as a
-  /// flash erase; relax() restores the one of start(). Does nothing before start().
+  /// For an operation that stops the processor for seconds, such as a flash erase; relax() restores
+  /// start()'s timeout. Does nothing before start().
   void stretch() {
     if (armed_ && set({iwdg::kPrMax, iwdg::kRlrMax})) feed();
   }
@@ -47,14 +46,13 @@ class IndependentWatchdog {
     std::uint32_t prescaler = 0;
     std::uint32_t reload = 0;
   };
-  // A new value takes effect within 5 cycles of the slowest LSI, 300 us (RM0090 21.3.2). LSI starts
-  // within 40 us (DS8626). At 168 MHz a poll takes at least 10 cycles.
+  // A new value takes 5 cycles of the slowest LSI, 300 us (RM0090 21.3.2); LSI starts within 40 us
+  // (DS8626). At 168 MHz a poll takes at least 10 cycles.
   static constexpr std::uint32_t kPolls = 100'000;
 
   static std::uint32_t at(std::uint32_t offset) { return base::kIwdg + offset; }
 
-  /// The finest setting that waits at least timeout_us on the fastest oscillator. The first count
-  /// may be short, so one count guarantees no wait.
+  /// Waits at least timeout_us on the fastest oscillator. The first count may be short.
   static bool choose(std::uint32_t timeout_us, Setting& setting) {
     if (timeout_us == 0) return false;
     for (std::uint32_t prescaler = 0; prescaler <= iwdg::kPrMax; ++prescaler) {
@@ -76,7 +74,7 @@ class IndependentWatchdog {
     }
     return false;
   }
-  // The hardware ignores a new value while it still applies the last one.
+  // The hardware ignores new values until then.
   bool settled() {
     for (std::uint32_t poll = 0; poll < kPolls; ++poll) {
       if ((io_.read32(at(iwdg::kSr)) & (iwdg::kSrPvu | iwdg::kSrRvu)) == 0) return true;

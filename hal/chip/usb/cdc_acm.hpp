@@ -4,37 +4,37 @@
 
 #include "hal/chip/usb/descriptors.hpp"
 
-/// The logic of a USB serial port: answers to requests at its control endpoint (USB 2.0 chapter 9;
-/// PSTN 1.2, 6.3) and their effects. A chip's driver moves the packets.
+/// A USB serial port's answers to requests at its control endpoint (USB 2.0 chapter 9; PSTN 1.2,
+/// 6.3). A chip's driver moves the packets.
 namespace verp::hal::usb {
 
 /// The device controller's task before the status stage.
 enum class Action : std::uint8_t {
   kNone,
   kAddress,    ///< answer at address `value` from the status stage on
-  kConfigure,  ///< 0: endpoints off; else on, empty, DATA0 next, not halted
-  kHalt,       ///< make endpoint `value` answer STALL
-  kRelease,    ///< end its STALL; DATA0 next
+  kConfigure,  ///< 0: endpoints off; else on, empty, DATA0 next
+  kHalt,       ///< endpoint `value` answers STALL
+  kRelease,    ///< no more STALL; DATA0 next
 };
 
 enum class Stage : std::uint8_t {
   kStall,
   kSend,     ///< send `size` bytes of `data` in packets of kControlPacket
-  kReceive,  ///< pass `size` bytes to received()
-  kDone,     ///< no data: go to the status stage
+  kReceive,  ///< `size` bytes go to received()
+  kDone,     ///< no data: status stage
 };
 
 struct Answer {
   Stage stage = Stage::kStall;
   std::uint16_t size = 0;
-  /// kSend: the host asked for more, so a short or empty packet must mark the end.
+  /// kSend: a short or empty packet must mark the end.
   bool shorter = false;
   Action action = Action::kNone;
   std::uint8_t value = 0;
   const std::uint8_t* data = nullptr;  ///< valid until the next setup()
 };
 
-/// PSTN 1.2 table 17. No wire is behind this port: the coding is only stored and returned.
+/// PSTN 1.2 table 17. Only stored and returned: there is no wire.
 struct LineCoding {
   std::uint32_t baud = 1'000'000;
   std::uint8_t stop_bits = 0;  ///< 0: 1, 1: 1.5, 2: 2
@@ -45,7 +45,6 @@ struct LineCoding {
 class CdcAcm {
  public:
   static constexpr std::size_t kSetupBytes = 8;
-  /// All except the control endpoint.
   struct Endpoint {
     std::uint8_t address;
     std::uint8_t type;  ///< USB 2.0 table 9-13: 2 bulk, 3 interrupt
@@ -55,7 +54,7 @@ class CdcAcm {
                                             {kDataIn, 2, kBulkPacket},
                                             {kNotification, 3, kNotificationPacket}};
 
-  /// `product` must outlive this; the first kStringUnits ASCII characters are shown.
+  /// `product` must outlive this; its first kStringUnits ASCII characters are shown.
   CdcAcm(const char* product, const std::uint8_t (&serial)[kSerialBytes]) : product_(product) {
     for (std::size_t i = 0; i < kSerialBytes; ++i) serial_[i] = serial[i];
   }
@@ -77,7 +76,7 @@ class CdcAcm {
     return in ? ask(request) : tell(request);
   }
 
-  /// Takes the data that the last setup() requested. False: refuse them with STALL.
+  /// Takes the data that the last setup() requested. False: refuse with STALL.
   bool received(const std::uint8_t* data, std::size_t size) {
     if (size != kLineCodingBytes) return false;
     LineCoding coding;
@@ -212,7 +211,7 @@ class CdcAcm {
         return send_only(request, kConfigurationDescriptor, sizeof kConfigurationDescriptor);
       case Descriptor::kString:
         return describe_string(request);
-      default:  // includes the qualifier, which a full-speed-only device lacks (USB 2.0, 9.6.2)
+      default:  // a full-speed-only device has no qualifier (USB 2.0, 9.6.2)
         return {};
     }
   }
@@ -303,7 +302,7 @@ class CdcAcm {
   std::uint8_t address_ = 0;
   std::uint8_t configuration_ = 0;
   std::uint8_t halted_ = 0;
-  std::uint16_t lines_ = 0;  ///< control line state: DTR, RTS
+  std::uint16_t lines_ = 0;  ///< DTR, RTS
   LineCoding coding_;
   std::uint32_t breaks_ = 0;
   std::uint8_t reply_[kStringBytes] = {};

@@ -1,8 +1,7 @@
 #pragma once
 #include <cstdint>
 
-/// 32-bit registers of the Zynq UltraScale+ CAN controllers (AMD UG1087, module CAN; UG1085,
-/// chapter 20).
+/// 32-bit registers (AMD UG1087, module CAN; UG1085, chapter 20).
 namespace verp::hal::zynqmp_can {
 
 inline constexpr std::uint32_t kSrr = 0x00;   ///< reset and enable
@@ -39,7 +38,7 @@ inline constexpr std::uint32_t kIsrBusOff = 1u << 9;
 
 inline constexpr unsigned kBtrAfterShift = 4;  ///< TS2
 inline constexpr unsigned kBtrJumpShift = 7;   ///< SJW
-// Identifier words: 11 bits from bit 21, then these flags, 18 more bits from bit 1.
+// 11 bits from bit 21, then these flags, 18 more bits from bit 1.
 inline constexpr std::uint32_t kIdRemote = 1u << 20;  ///< SRR in an extended frame
 inline constexpr std::uint32_t kIdExtended = 1u << 19;
 inline constexpr std::uint32_t kIdRemoteExtended = 1u << 0;

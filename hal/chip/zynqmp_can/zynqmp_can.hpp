@@ -11,13 +11,13 @@
 
 /// A Zynq UltraScale+ CAN controller as a polled CanBus: send() and poll() move the frames. The
 /// chip buffers 64 received frames. It gets one frame to send at a time, so that the most urgent
-/// waiting frame goes next; the frame in the chip cannot be taken back.
+/// goes next; it cannot be taken back.
 namespace verp::hal::zynqmp_can {
 
-/// How the driver reaches the controller:
-///  - read32(offset), write32(offset, value): one register;
+/// Access to the controller:
+///  - read32(offset), write32(offset, value);
 ///  - now_us(): microseconds, never decreasing;
-///  - doze_until(us): may sleep until that time or a controller interrupt; may return at once.
+///  - doze_until(us): may sleep until that time or an interrupt; may return at once.
 template <class Access>
 concept Io = std::copyable<Access> && requires(Access& io, std::uint32_t word, std::uint64_t us) {
   { io.read32(word) } -> std::same_as<std::uint32_t>;
@@ -29,7 +29,7 @@ concept Io = std::copyable<Access> && requires(Access& io, std::uint32_t word, s
 /// Frame layout in the FIFOs.
 enum class Layout : std::uint8_t {
   kSilicon,  ///< identifier as the wire arbitrates; first data byte highest
-  /// QEMU 7.2: identifier as in SocketCAN's can_id; first data byte lowest.
+  /// QEMU 7.2: identifier as SocketCAN's can_id; first data byte lowest.
   kQemu,
 };
 
@@ -38,13 +38,13 @@ class ZynqmpCan {
  public:
   explicit ZynqmpCan(Access io) : io_(io) {}
 
-  /// The timing for the controllers' reference clock; check possible() at compile time.
+  /// Check possible() at compile time.
   static constexpr CanTiming timing(std::uint32_t clock_hz, std::uint32_t bit_rate_hz) {
     return can_timing(clock_hz, bit_rate_hz, kMostPrescaler);
   }
 
-  /// Resets the controller and joins the bus. False: no controller, or the timing is impossible.
-  /// `bit_rate_hz` determines how long a bus-off lasts.
+  /// Joins the bus. False: no controller, or the timing is impossible. `bit_rate_hz` determines how
+  /// long a bus-off lasts.
   bool open(const CanTiming& timing, std::uint32_t bit_rate_hz) {
     if (!timing.possible() || bit_rate_hz == 0) return false;
     timing_ = timing;
@@ -111,8 +111,8 @@ class ZynqmpCan {
     return (io_.read32(kSrr) & kSrrEnable) != 0;
   }
 
-  /// Counts errors. After bus-off it resets the controller, which empties the FIFOs, and rejoins
-  /// when the bus may have been silent as long as the standard requires.
+  /// After bus-off it resets the controller, which empties the FIFOs, and rejoins when the bus may
+  /// have been silent as long as the standard requires.
   void follow_bus() {
     const std::uint32_t why = io_.read32(kIsr) & (kIsrError | kIsrOverrun | kIsrBusOff);
     if (why != 0) io_.write32(kIcr, why);
@@ -164,7 +164,7 @@ class ZynqmpCan {
     for (unsigned i = 0; i < frame.size && !frame.remote; ++i) {
       frame.data[i] = static_cast<std::uint8_t>(words[i / 4] >> byte_shift(i));
     }
-    io_.write32(kIcr, kIsrNotEmpty | kIsrReceived);  // set again while more frames wait
+    io_.write32(kIcr, kIsrNotEmpty | kIsrReceived);  // set again while more wait
     return true;
   }
 
@@ -172,7 +172,7 @@ class ZynqmpCan {
     const unsigned place = index % 4;
     return 8 * (kLayout == Layout::kSilicon ? 3 - place : place);
   }
-  /// The silicon's identifier word orders frames as the wire arbitrates.
+  /// Silicon's word orders frames as the wire arbitrates.
   static constexpr std::uint32_t id_word(const CanFrame& frame) {
     if constexpr (kLayout == Layout::kSilicon) return can_rank(frame);
     return frame.id | (frame.extended ? kCanIdExtended : 0) | (frame.remote ? kCanIdRemote : 0);

@@ -1,7 +1,6 @@
 #pragma once
 #include "hal/chip/stm32/registers/bits.hpp"
 
-/// Flash interface: wait states, programming and erasing.
 namespace verp::hal::stm32::flash {
 
 inline constexpr std::uint32_t kAcr = 0x00, kKeyr = 0x04, kOptkeyr = 0x08, kSr = 0x0C, kCr = 0x10,
@@ -24,7 +23,7 @@ inline constexpr std::uint32_t kCrPg = bit(0), kCrSer = bit(1), kCrMer = bit(2),
                                kCrSnb = bits(3, 4), kCrPsize = bits(8, 2), kCrStrt = bit(16),
                                kCrEopie = bit(24), kCrErrie = bit(25), kCrLock = bit(31);
 inline constexpr unsigned kCrSnbShift = 3, kCrPsizeShift = 8;
-/// PSIZE: the width of each write. 32 bits need 2.7 to 3.6 V.
+/// PSIZE; 32 bits need 2.7 to 3.6 V.
 inline constexpr std::uint32_t kPsize32 = 2;
 
 }  // namespace verp::hal::stm32::flash

@@ -1,7 +1,7 @@
 #pragma once
 #include "hal/chip/stm32/registers/bits.hpp"
 
-/// General-purpose ports. After a reset ports A and B have debug pins in use.
+/// After a reset ports A and B have debug pins in use.
 namespace verp::hal::stm32::gpio {
 
 inline constexpr std::uint32_t kModer = 0x00, kOtyper = 0x04, kOspeedr = 0x08, kPupdr = 0x0C,

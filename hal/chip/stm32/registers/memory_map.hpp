@@ -1,9 +1,8 @@
 #pragma once
 #include "hal/chip/stm32/registers/bits.hpp"
 
-/// Addresses, interrupt numbers and electrical limits. Base addresses: RM0090 2.3, RM0390 2.2.2,
-/// RM0385 2.2.2, the same in all three unless named otherwise. Interrupts: RM0090 12.2, RM0390
-/// 10.2, RM0385 10.1.
+/// Base addresses: RM0090 2.3, RM0390 2.2.2, RM0385 2.2.2, the same in all three unless named
+/// otherwise. Interrupts: RM0090 12.2, RM0390 10.2, RM0385 10.1.
 namespace verp::hal::stm32 {
 
 namespace base {
@@ -45,7 +44,7 @@ struct Sector {
   std::uint32_t bytes;
 };
 
-/// Limits of a family, clocks at 2.7 to 3.6 V. Defaults hold for all three.
+/// Clocks at 2.7 to 3.6 V. Defaults hold for all families.
 struct Limits {
   std::uint32_t sysclk_max_hz;            ///< without overdrive
   std::uint32_t sysclk_overdrive_max_hz;  ///< sysclk_max_hz if there is no overdrive
@@ -60,22 +59,22 @@ struct Limits {
   const Sector* sectors;
   std::uint32_t sector_count;
   std::uint32_t unique_id_address;  ///< 12 bytes
-  std::uint32_t dbgmcu_id;          ///< DEV_ID, low 12 bits of DBGMCU_IDCODE (0xE0042000)
+  std::uint32_t dbgmcu_id;          ///< DEV_ID, bits 0 to 11 of DBGMCU_IDCODE (0xE0042000)
   char last_port;                   ///< last GPIO port; the first is A
 };
 
 inline constexpr std::uint32_t kFlashBase = 0x08000000;
 inline constexpr std::uint32_t kHsi_hz = 16000000;
-/// LSI: typically 32 kHz, 17 to 47 kHz (DS8626 table "LSI oscillator characteristics").
+/// DS8626 table "LSI oscillator characteristics".
 inline constexpr std::uint32_t kLsi_hz = 32000, kLsiMin_hz = 17000, kLsiMax_hz = 47000;
 
-/// RM0090 table 5, RM0390 table 4: sectors 0 to 3 of 16 KB, one of 64 KB, the rest of 128 KB.
+/// RM0090 table 5, RM0390 table 4: sectors of 16, 64, 128 KB.
 inline constexpr Sector kSectorsF405[] = {
     {0x08000000, 0x4000},  {0x08004000, 0x4000},  {0x08008000, 0x4000},  {0x0800C000, 0x4000},
     {0x08010000, 0x10000}, {0x08020000, 0x20000}, {0x08040000, 0x20000}, {0x08060000, 0x20000},
     {0x08080000, 0x20000}, {0x080A0000, 0x20000}, {0x080C0000, 0x20000}, {0x080E0000, 0x20000},
 };
-/// RM0385 table 3: sectors 0 to 3 of 32 KB, one of 128 KB, three of 256 KB.
+/// RM0385 table 3: sectors of 32, 128, 256 KB.
 inline constexpr Sector kSectorsF746[] = {
     {0x08000000, 0x8000},  {0x08008000, 0x8000},  {0x08010000, 0x8000},  {0x08018000, 0x8000},
     {0x08020000, 0x20000}, {0x08040000, 0x40000}, {0x08080000, 0x40000}, {0x080C0000, 0x40000},

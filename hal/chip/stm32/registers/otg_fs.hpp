@@ -1,18 +1,17 @@
 #pragma once
 #include "hal/chip/stm32/registers/bits.hpp"
 
-/// USB OTG full speed in device mode: offsets from kOtgFs and bits (tables: otg_fs_tables.hpp). The
-/// F446 and F746 have a newer core than the F405: 6 endpoints each way, other GCCFG bits, and
-/// disconnected (SDIS) after reset.
+/// Device mode; offsets from kOtgFs (tables: otg_fs_tables.hpp). The F446 and F746 have a newer
+/// core than the F405: 6 endpoints each way, other GCCFG bits, and disconnected (SDIS) after reset.
 namespace verp::hal::stm32::otg_fs {
 
-/// Endpoints each way including 0, and the FIFO words that they share: one part for all received
-/// data, one for each IN endpoint (RM0090 34.1, RM0385 37.4).
+/// Each way with 0, and the FIFO words that they share: one part for all received data, one for
+/// each IN endpoint (RM0090 34.1, RM0385 37.4).
 constexpr unsigned endpoints(Family family) {
   return family == Family::kF405 ? 4 : 6;
 }
 inline constexpr std::uint32_t kFifoWords = 320;
-/// The manual's minimum for GRXFSIZ and each transmit FIFO, in words.
+/// Minimum of GRXFSIZ and each transmit FIFO.
 inline constexpr std::uint32_t kFifoWordsMin = 16;
 
 inline constexpr std::uint32_t kGotgctl = 0x00, kGotgint = 0x04, kGahbcfg = 0x08, kGusbcfg = 0x0C,
@@ -28,7 +27,7 @@ inline constexpr std::uint32_t kDevice = 0x800, kDcfg = 0x800, kDctl = 0x804, kD
                                kDiepmsk = 0x810, kDoepmsk = 0x814, kDaint = 0x818,
                                kDaintmsk = 0x81C, kDvbusdis = 0x828, kDvbuspulse = 0x82C,
                                kDiepempmsk = 0x834;
-/// Endpoint 0; endpoint e is at e * kEndpointStep.
+/// Endpoint 0; the others every kEndpointStep.
 inline constexpr std::uint32_t kDiepctl = 0x900, kDiepint = 0x908, kDieptsiz = 0x910,
                                kDtxfsts = 0x918, kDoepctl = 0xB00, kDoepint = 0xB08,
                                kDoeptsiz = 0xB10, kEndpointStep = 0x20;
@@ -54,8 +53,8 @@ constexpr std::uint32_t doeptsiz(unsigned endpoint) {
   return kDoeptsiz + kEndpointStep * endpoint;
 }
 inline constexpr std::uint32_t kPcgcctl = 0xE00;
-/// A 4 KB window: any write in it pushes a word to that IN endpoint's FIFO; any read in any window
-/// pops a word of the receive FIFO.
+/// A 4 KB window: a write pushes a word to that IN endpoint's FIFO; a read in any window pops a
+/// word of the receive FIFO.
 constexpr std::uint32_t fifo(unsigned endpoint) {
   return 0x1000 * (endpoint + 1);
 }
@@ -65,7 +64,7 @@ inline constexpr std::uint32_t kGotgctlSrqscs = bit(0), kGotgctlSrq = bit(1),
                                kGotgctlHshnpen = bit(10), kGotgctlDhnpen = bit(11),
                                kGotgctlCidsts = bit(16), kGotgctlDbct = bit(17),
                                kGotgctlAsvld = bit(18), kGotgctlBsvld = bit(19);
-/// Not on the F405 (which has NOVBUSSENS): software overrides the VBUS comparator.
+/// Not on the F405 (which has NOVBUSSENS): override of the VBUS comparator.
 inline constexpr std::uint32_t kGotgctlBvaloen = bit(6), kGotgctlBvaloval = bit(7),
                                kGotgctlEhen = bit(12), kGotgctlOtgver = bit(20);
 inline constexpr std::uint32_t kGotgintSedet = bit(2), kGotgintSrsschg = bit(8),
@@ -74,15 +73,14 @@ inline constexpr std::uint32_t kGotgintSedet = bit(2), kGotgintSrsschg = bit(8),
 inline constexpr std::uint32_t kGotgintIdchng = bit(20);  ///< not on the F405
 inline constexpr std::uint32_t kGahbcfgGint = bit(0), kGahbcfgTxfelvl = bit(7),
                                kGahbcfgPtxfelvl = bit(8);
-/// TRDT depends on the AHB clock: see turnaround(). After FDMOD the core needs 25 ms to become a
-/// device.
+/// TRDT: see turnaround(). After FDMOD the core needs 25 ms to become a device.
 inline constexpr std::uint32_t kGusbcfgTocal = bits(0, 3), kGusbcfgPhysel = bit(6),
                                kGusbcfgSrpcap = bit(8), kGusbcfgHnpcap = bit(9),
                                kGusbcfgTrdt = bits(10, 4), kGusbcfgFhmod = bit(29),
                                kGusbcfgFdmod = bit(30), kGusbcfgCtxpkt = bit(31);
 inline constexpr unsigned kGusbcfgTrdtShift = 10;
 inline constexpr std::uint32_t kForceModeTime_ms = 25;
-/// The least TRDT for an AHB clock (RM0090 table "TRDT values", RM0385 37.14.7); 0 below 14.2 MHz,
+/// Least TRDT for an AHB clock (RM0090 table "TRDT values", RM0385 37.14.7); 0 below 14.2 MHz,
 /// where the core cannot work.
 constexpr std::uint32_t turnaround(std::uint32_t hclk_hz) {
   constexpr std::uint32_t kFrom_hz[] = {32000000, 27500000, 24000000, 21800000, 20000000,
@@ -120,17 +118,17 @@ inline constexpr std::uint32_t kGrxstsEpnum = bits(0, 4), kGrxstsBcnt = bits(4, 
 inline constexpr std::uint32_t kGrxstsStsphst = bit(27);  ///< not on the F405
 inline constexpr unsigned kGrxstsBcntShift = 4, kGrxstsDpidShift = 15, kGrxstsPktstsShift = 17,
                           kGrxstsFrmnumShift = 21;
-/// PKTSTS. "Done" words carry no data; popping one raises the endpoint's XFRC or STUP.
+/// PKTSTS. "Done" words carry no data; a pop raises the endpoint's XFRC or STUP.
 inline constexpr std::uint32_t kPacketGlobalOutNak = 1, kPacketOut = 2, kPacketOutDone = 3,
                                kPacketSetupDone = 4, kPacketSetup = 6;
 /// DPID.
 inline constexpr std::uint32_t kPidData0 = 0, kPidData1 = 2;
 
-/// DIEPTXF0 and DIEPTXFx: start and depth in FIFO words.
+/// Start and depth in FIFO words.
 inline constexpr std::uint32_t kDieptxfStart = bits(0, 16), kDieptxfDepth = bits(16, 16);
 inline constexpr unsigned kDieptxfDepthShift = 16;
 
-inline constexpr std::uint32_t kGccfgPwrdwn = bit(16);  ///< 1: the transceiver is on
+inline constexpr std::uint32_t kGccfgPwrdwn = bit(16);  ///< 1: transceiver on
 inline constexpr std::uint32_t kGccfgVbusasenF405 = bit(18), kGccfgVbusbsenF405 = bit(19),
                                kGccfgSofoutenF405 = bit(20), kGccfgNovbussensF405 = bit(21);
 inline constexpr std::uint32_t kGccfgVbden = bit(21), kGccfgBcden = bit(17), kGccfgDcden = bit(18),
@@ -149,7 +147,7 @@ inline constexpr std::uint32_t kDstsSuspsts = bit(0), kDstsEnumspd = bits(1, 2),
 inline constexpr unsigned kDstsEnumspdShift = 1, kDstsFnsofShift = 8;
 inline constexpr std::uint32_t kEnumspdFullSpeed = 3;
 
-/// DIEPINTx and DIEPMSK, except TXFE, which DIEPEMPMSK masks per endpoint.
+/// DIEPINTx and DIEPMSK; DIEPEMPMSK masks TXFE.
 inline constexpr std::uint32_t kDiepXfrc = bit(0), kDiepEpdisd = bit(1), kDiepToc = bit(3),
                                kDiepIttxfe = bit(4), kDiepInepnm = bit(5), kDiepInepne = bit(6),
                                kDiepTxfe = bit(7), kDiepTxfifoudrn = bit(8), kDiepBna = bit(9),
@@ -158,11 +156,10 @@ inline constexpr std::uint32_t kDiepXfrc = bit(0), kDiepEpdisd = bit(1), kDiepTo
 inline constexpr std::uint32_t kDoepXfrc = bit(0), kDoepEpdisd = bit(1), kDoepStup = bit(3),
                                kDoepOtepdis = bit(4), kDoepStsphsrx = bit(5), kDoepB2bstup = bit(6),
                                kDoepOutpkterr = bit(8), kDoepBerr = bit(12), kDoepNak = bit(13);
-/// DAINT and DAINTMSK: IN endpoints from bit 0, OUT endpoints from here.
+/// DAINT: IN endpoints from bit 0, OUT endpoints from here.
 inline constexpr unsigned kDaintOutShift = 16;
 
-/// DIEPCTLx and DOEPCTLx. MPSIZ is in bytes; for endpoint 0 it is a code: 0 is 64, 1 is 32, 2 is
-/// 16, 3 is 8.
+/// DIEPCTLx and DOEPCTLx. MPSIZ is in bytes; for endpoint 0: 0 is 64, 1 is 32, 2 is 16, 3 is 8.
 inline constexpr std::uint32_t kEpctlMpsiz = bits(0, 11), kEpctlMpsiz0 = bits(0, 2),
                                kEpctlUsbaep = bit(15), kEpctlDpid = bit(16), kEpctlNaksts = bit(17),
                                kEpctlEptyp = bits(18, 2), kDoepctlSnpm = bit(20),

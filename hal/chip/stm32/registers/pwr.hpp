@@ -1,7 +1,7 @@
 #pragma once
 #include "hal/chip/stm32/registers/bits.hpp"
 
-/// Power control: regulator scale and overdrive for the highest clocks; backup domain lock.
+/// Regulator scale and overdrive; backup domain lock.
 namespace verp::hal::stm32::pwr {
 
 inline constexpr std::uint32_t kCr = 0x00, kCsr = 0x04;

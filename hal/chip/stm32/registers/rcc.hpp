@@ -1,7 +1,7 @@
 #pragma once
 #include "hal/chip/stm32/registers/bits.hpp"
 
-/// Reset and clock control: offsets and bits (tables: rcc_tables.hpp).
+/// Reset and clock control (tables: rcc_tables.hpp).
 namespace verp::hal::stm32::rcc {
 
 inline constexpr std::uint32_t kCr = 0x00, kPllcfgr = 0x04, kCfgr = 0x08, kCir = 0x0C,
@@ -25,7 +25,7 @@ inline constexpr std::uint32_t kPllcfgrM = bits(0, 6), kPllcfgrN = bits(6, 9),
                                kPllcfgrP = bits(16, 2), kPllcfgrSrcHse = bit(22),
                                kPllcfgrQ = bits(24, 4), kPllcfgrR = bits(28, 3);
 inline constexpr unsigned kPllcfgrNShift = 6, kPllcfgrQShift = 24;
-/// Values of SW (requested) and SWS (in use).
+/// SW (requested) and SWS (in use).
 inline constexpr std::uint32_t kClockHsi = 0, kClockHse = 1, kClockPll = 2;
 inline constexpr std::uint32_t kCfgrSw = bits(0, 2), kCfgrSws = bits(2, 2), kCfgrHpre = bits(4, 4),
                                kCfgrPpre1 = bits(10, 3), kCfgrPpre2 = bits(13, 3),
@@ -34,7 +34,7 @@ inline constexpr unsigned kCfgrSwsShift = 2, kCfgrPpre1Shift = 10, kCfgrPpre2Shi
 /// PPRE1 and PPRE2: divide by 2, by 4.
 inline constexpr std::uint32_t kPpre2 = 4, kPpre4 = 5;
 
-/// Enable bits. Reset bits are the same, except that ADC1's resets all three ADCs.
+/// Reset bits are the same, except that ADC1's resets all three ADCs.
 inline constexpr std::uint32_t kAhb1GpioA = bit(0);  ///< ports B, C, ... follow
 inline constexpr std::uint32_t kAhb1Dma1 = bit(21), kAhb1Dma2 = bit(22);
 inline constexpr std::uint32_t kAhb2OtgFs = bit(7);
@@ -55,9 +55,9 @@ inline constexpr std::uint32_t kCsrLsion = bit(0), kCsrLsirdy = bit(1), kCsrRmvf
                                kCsrBorrstf = bit(25), kCsrPinrstf = bit(26), kCsrPorrstf = bit(27),
                                kCsrSftrstf = bit(28), kCsrIwdgrstf = bit(29),
                                kCsrWwdgrstf = bit(30), kCsrLpwrrstf = bit(31);
-/// DCKCFGR: timers run at 4 times their bus clock, not 2, if its prescaler is 4 or more.
+/// DCKCFGR: timers at 4 times their bus clock, not 2, if its prescaler is 4 or more.
 inline constexpr std::uint32_t kDckcfgrTimpre = bit(24);
-/// DCKCFGR2 of F446 and F746: OTG_FS takes its 48 MHz from PLLSAI, not from the main PLL's Q.
+/// DCKCFGR2 of F446 and F746: OTG_FS's 48 MHz from PLLSAI, not the main PLL's Q.
 inline constexpr std::uint32_t kDckcfgr2Ck48msel = bit(27);
 /// DCKCFGR2 of the F746, two bits per USART: 0 bus clock, 1 SYSCLK, 2 HSI, 3 LSE.
 constexpr unsigned usart_clock_shift(unsigned usart_number) {

@@ -1,8 +1,7 @@
 #pragma once
 #include "hal/chip/stm32/registers/bits.hpp"
 
-/// TIM2 and TIM5: 32-bit general-purpose timers. TIM3 and TIM4 have 16 bits in CNT, ARR and CCRx,
-/// and no OR.
+/// TIM2 and TIM5 have 32 bits. TIM3 and TIM4 have 16 bits in CNT, ARR and CCRx, and no OR.
 namespace verp::hal::stm32::timer {
 
 inline constexpr std::uint32_t kCr1 = 0x00, kCr2 = 0x04, kSmcr = 0x08, kDier = 0x0C, kSr = 0x10,

@@ -1,7 +1,7 @@
 #pragma once
 #include "hal/chip/stm32/registers/bits.hpp"
 
-/// USART and UART. F4: reading SR and then DR clears flags. F7: a clear register does.
+/// F4: reading SR and then DR clears flags. F7: a clear register does.
 namespace verp::hal::stm32 {
 
 namespace usart_v1 {
@@ -21,7 +21,7 @@ inline constexpr std::uint32_t kCr2Stop = bits(12, 2);
 inline constexpr std::uint32_t kCr3Eie = bit(0), kCr3Hdsel = bit(3), kCr3Dmar = bit(6),
                                kCr3Dmat = bit(7), kCr3Onebit = bit(11);
 
-/// Writing 0 to RXNE, TC, LBD or CTS in SR clears it; this value clears none.
+/// A 0 in RXNE, TC, LBD or CTS clears it; this value clears none.
 inline constexpr std::uint32_t kSrKeep = kSrRxne | kSrTc | kSrLbd | kSrCts;
 
 }  // namespace usart_v1
