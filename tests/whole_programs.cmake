@@ -1,6 +1,6 @@
 # Under sanitizers a program's start takes longer than most tests. So ctest runs each whole program as one test, named
-# `PREFIX` and the program's name. Property VERP_SHARDS: it runs in that many parts, before all others, so that no core
-# idles. Property VERP_LONG_WALKS: tests to leave out, which walk longer and find nothing more.
+# `PREFIX` and the program's name. VERP_SHARDS: it runs in that many parts, before all others. VERP_LONG_WALKS: tests
+# to leave out, which only walk longer.
 #
 # Writes test_programs.txt for tests/wanted: each program, its tests' prefix, label and sources; under sanitizers the
 # whole name and no sources.

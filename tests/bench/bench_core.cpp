@@ -34,7 +34,7 @@ struct Recording {
   std::vector<Inputs> walking;
   State start;  // at kFirstTick
   Outputs start_outputs;
-  std::vector<LegPose> left_leg;     // tick by tick
+  std::vector<LegPose> left_leg;
   float angle_rad[kMaxJoints] = {};  // in mid-walk
 };
 

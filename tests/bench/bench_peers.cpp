@@ -21,9 +21,9 @@
 /// squares. Exit 1 if either differs from our answer.
 ///
 /// KDL gets every advantage: set up once, single-axis joints, Eigen with the compiler's vectors,
-/// the true answer of 10 ms earlier as start. Tolerances are no finer than needed:
+/// the true answer of 10 ms earlier as start, no joint limits. Tolerances are no finer than needed:
 /// Levenberg-Marquardt's default residual is 1e-5 in metres, a radian weighing 0.01 m;
-/// Newton-Raphson ends at 1e-5 m and rad. These solvers know no joint limits, which ours keeps.
+/// Newton-Raphson ends at 1e-5 m and rad.
 namespace verp::bench {
 namespace {
 
@@ -88,7 +88,6 @@ std::vector<Question> make_questions(const LegProblem& leg) {
   return questions;
 }
 
-/// Over all targets, and the time.
 struct Agreement {
   double apart_rad = 0, apart_m = 0, iterations = 0, seconds = 0;
   int unsolved = 0;

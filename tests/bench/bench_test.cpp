@@ -4,7 +4,6 @@
 
 #include "tests/host/tool/program.hpp"
 
-/// What `verp bench` reports, not speed.
 namespace verp::tool::test {
 namespace {
 

@@ -33,7 +33,6 @@ namespace {
 using Json = nlohmann::json;
 using Rates = std::vector<double>;
 
-/// With the reason.
 struct Missing : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -27,7 +27,6 @@ struct LegProblem {
   std::vector<LegTarget> targets;
 };
 
-/// In file order.
 template <class Problem, class Visit>
 void for_each_array(Problem& problem, Visit visit) {
   visit(problem.origin_m);

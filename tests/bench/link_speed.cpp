@@ -16,7 +16,6 @@ namespace {
 
 constexpr std::size_t kAnswerBytes = 200;
 
-/// Answers every poll at once and counts until kQuit.
 class Echo {
  public:
   Echo(FifoLink& link, const Params& params, std::uint32_t ticks)

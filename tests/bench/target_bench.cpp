@@ -85,7 +85,7 @@ int run(std::vector<std::string> boards, Task task) {
   std::vector<verp::Inputs> inputs;
   for (const verp::TickRecord& record : walk.records) inputs.push_back(record.inputs);
   bool good = inputs.size() == kTicks;
-  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // line by line
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
   for (const std::string& board : boards) {
     if (task == Task::kProfile) {
       show_profile(board, robot.params, inputs);

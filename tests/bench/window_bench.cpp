@@ -77,7 +77,7 @@ void bench_frames(int robots, bool antialias, int frames) {
       robots, antialias, 1e3 * (cpu_s() - before_s) / frames, frames / wall_s);
 }
 
-/// Of a pixel's colour, of 255.
+/// Mean distance of colours, of 255.
 double rms_apart(const render::Image& image, const render::Image& truth) {
   double sum = 0;
   for (std::size_t i = 0; i < image.rgb.size(); ++i) {
@@ -87,7 +87,6 @@ double rms_apart(const render::Image& image, const render::Image& truth) {
   return std::sqrt(sum / double(image.rgb.size()));
 }
 
-/// From a picture `times` as large each way.
 render::Image averaged(const render::Image& large, int times) {
   render::Image out{{large.size.width / times, large.size.height / times}, {}};
   for (int y = 0; y < out.size.height; ++y) {
@@ -119,7 +118,7 @@ void bench_camera() {
   renderer.set_scene(scene);
   const auto eye = scene::view("head", scene, now, 0, 4.0 / 3);
   const auto turned = [&](int i) {
-    scene::Camera camera = *eye;  // the robot turns and leans
+    scene::Camera camera = *eye;
     const auto turn = Eigen::AngleAxisd(2 * M_PI * i / kPictures, scene::Vec3::UnitZ());
     camera.target_m = camera.eye_m + turn * (camera.target_m - camera.eye_m);
     camera.up = turn * (camera.up + 0.05 * std::sin(double(i)) * scene::Vec3::UnitY());

@@ -71,7 +71,6 @@ TEST(CanPort, CarriesFdFramesWhereTheInterfaceDoes) {
   }
 }
 
-// In the given order, not that of identifiers.
 TEST(CanPort, SendsManyAtOnceInTheOrderGivenUpToTheFirstThatItRefuses) {
   const OwnVcan vcan;
   RawNode far(vcan.name);

@@ -15,7 +15,6 @@ inline void ip(const std::string& arguments) {
   ASSERT_EQ(std::system(("ip " + arguments).c_str()), 0) << arguments;
 }
 
-/// A vcan interface.
 class OwnVcan {
  public:
   explicit OwnVcan(std::string interface = "vcan7") : name(std::move(interface)) { make(); }

@@ -7,10 +7,8 @@
 
 #include "host/os/process/child.hpp"
 
-/// By can-utils and tshark.
 namespace verp::test {
 
-/// As tshark's CANopen dissector reports it.
 struct Decoded {
   std::uint32_t id = 0;
   std::string info;  ///< "SYNC [1]", "PDO1 (tx)", "EMCY" ...
@@ -23,7 +21,6 @@ struct Decoded {
   std::uint32_t value(std::size_t place, std::size_t bytes) const;
 };
 
-/// From construction until decode().
 class Capture {
  public:
   Capture(const std::filesystem::path& folder, std::string interface = "vcan0");

@@ -28,7 +28,6 @@ void rest(int time_ms) {
   std::this_thread::sleep_for(std::chrono::milliseconds(time_ms));
 }
 
-/// In real time until stop().
 class Twin {
  public:
   explicit Twin(const fs::path& folder)
@@ -72,7 +71,6 @@ class ForeignMaster : public Program {
   void cansend(const std::string& frame) const {
     ASSERT_EQ(shell("cansend vcan0 " + frame, "cansend").status, 0) << frame;
   }
-  /// Waits for the answer's beginning.
   void ask(const Capture& capture, const std::string& frame, const std::string& answer) const {
     cansend(frame);
     capture.await(answer);

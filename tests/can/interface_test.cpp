@@ -29,7 +29,6 @@ Params can_robot() {
   return params;
 }
 
-/// In real time.
 class LiveNodes {
  public:
   LiveNodes(const Params& params, const link::Endpoint& endpoint)
@@ -59,7 +58,6 @@ class LiveNodes {
   std::thread thread_;
 };
 
-/// In real time.
 class PortLine {
  public:
   explicit PortLine(const link::Endpoint& endpoint) : port_(endpoint) {}

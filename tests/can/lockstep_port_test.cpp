@@ -48,7 +48,6 @@ class CanLockstepPort : public ::testing::Test {
     }
   }
 
-  /// Of the received answers.
   std::vector<int> answers() {
     std::vector<int> heard;
     CanFrame frame;

@@ -21,7 +21,6 @@ using verp::test::ScriptedNode;
 constexpr std::uint8_t kNode = 5;
 /// Reads of 1000h, 1008h and 1018h:1 to 3.
 constexpr unsigned kIdentity = 5;
-/// A busy PC is rarely as late.
 const std::string kPatience = " --timeout 400";
 
 ScriptedNode::Tells tells(const canopen::Identity& identity) {
@@ -38,7 +37,6 @@ class OddNodes : public Program {
   Outcome bus_command(const std::string& words) const {
     return verp("bus " + words + " --link can:" + bus.name + kPatience, "bus");
   }
-  /// One error line, at the first silence.
   static void expect_silence(const Outcome& outcome, int id, const ScriptedNode& node) {
     EXPECT_EQ(outcome.status, 3);
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
@@ -50,7 +48,6 @@ class OddNodes : public Program {
   verp::test::OwnVcan bus;
 };
 
-// Else each object would time out.
 TEST_F(OddNodes, ReadingAllObjectsEndsWhenTheNodeFallsSilentHalfWayThrough) {
   constexpr unsigned kTold = 4;
   const ScriptedNode node(bus.endpoint(), kNode, tells(can::drive_identity(402, kNode)),

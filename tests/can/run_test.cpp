@@ -16,7 +16,6 @@
 #include "tests/can/can_world.hpp"
 #include "tests/host/tool/program.hpp"
 
-// The robot is the twin in real time.
 namespace verp::tool::test {
 namespace {
 
@@ -24,7 +23,6 @@ using nlohmann::json;
 
 class RunOnCan : public Program {
  protected:
-  /// With a twin of generic21 on vcan0.
   Outcome beside_twin(const std::string& command) const {
     const std::string program = VERP_PROGRAM;
     // An earlier twin's output says the same.
@@ -165,7 +163,6 @@ TEST_F(RunOnCan, ServesNodesOnceOnABus) {
   }
 }
 
-// The status must say which it was.
 TEST_F(RunOnCan, ATwinThatIsHeldUpSkipsAndSaysSoAtOnce) {
   verp::test::OwnVcan bus;
   std::atomic<bool> over = false;

@@ -215,7 +215,6 @@ TEST_F(ShadowOnCan, HasTheBitsOfAControllerThatWalks) {
   EXPECT_EQ(result.at("differs"), false);
 }
 
-// `verp hil` has only the bus frames.
 TEST_F(ShadowOnCan, VerpHilNamesABitThatFlipped) {
   Spoiler spoiler;
   WalkingController controller(generic21(), "", &spoiler);
@@ -228,7 +227,6 @@ TEST_F(ShadowOnCan, VerpHilNamesABitThatFlipped) {
   EXPECT_NE(hil.err.find("zeros.leg[1].pitch_rad"), std::string::npos) << hil.err;
 }
 
-// A check that compared nothing must fail.
 TEST_F(ShadowOnCan, VerpHilFailsWhereItComparedNothing) {
   WalkingController controller(generic21(), "", nullptr, true);
   const Outcome hil = verp("hil generic21 --bus can --link can:vcan0 --json --for 3", "hil");

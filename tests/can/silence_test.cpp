@@ -19,10 +19,8 @@ namespace {
 using canopen::Address;
 using nlohmann::json;
 
-/// Drives 5, 19 and 30.
 class Nodes {
  public:
-  /// True: it answers.
   using Rule = std::function<bool(unsigned node, Address at)>;
   Nodes(const std::string& link, Rule answers)
       : port_(link::parse_endpoint(link)), answers_(std::move(answers)) {
@@ -131,7 +129,6 @@ class SlowAdapter : public verp::test::SerialAdapter {
   }
 
  private:
-  /// Up when the adapter has read the command.
   void read_on() const {
     char piece[64];
     while (!over_) {
@@ -144,7 +141,6 @@ class SlowAdapter : public verp::test::SerialAdapter {
   std::thread reader_;
 };
 
-// Before anything is done.
 TEST_F(SilenceOnCan, AnInterfaceWithAnotherBitRateThanTheRobotIsRefused) {
   const SlowAdapter adapter;
   for (const std::string command : {"run generic21 --yes", "hil generic21", "shadow generic21"}) {

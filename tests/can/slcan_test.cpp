@@ -88,7 +88,6 @@ TEST(Slcan, CarriesFramesBothWays) {
   EXPECT_EQ(heard.data[0] << 8 | heard.data[1], 0x1122);
 }
 
-// Once, in order, as soon as there is room.
 TEST(Slcan, WaitsOutAFullQueue) {
   Adapter adapter;
   CanPort port(adapter.endpoint());
@@ -119,7 +118,7 @@ TEST(Slcan, SendsTheBestOfWhatWaitsFirst) {
   bool sync_sent = false;
   const std::uint64_t until_ns = monotonic_ns() + 20'000'000'000;
   while (lines.size() < sent + 1 && monotonic_ns() < until_ns) {
-    sync_sent = sync_sent || port.send(frame_of(0x080));  // as soon as there is room
+    sync_sent = sync_sent || port.send(frame_of(0x080));
     CanFrame heard;
     ASSERT_FALSE(port.poll(heard, 0));
     for (const std::string& each : adapter.read_lines()) {

@@ -35,7 +35,7 @@ using Frames = std::vector<Decoded>;
 /// A late answer is repeated.
 Frames without_repeats(const Frames& all) {
   Frames kept;
-  std::vector<std::size_t> answer;  ///< since its last answer
+  std::vector<std::size_t> answer;
   int last = -1;
   for (const Decoded& each : all) {
     const canopen::Connection on =
@@ -57,10 +57,8 @@ Frames without_repeats(const Frames& all) {
   return kept;
 }
 
-/// Four bytes or fewer.
 using Write = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
 
-/// One walk on vcan0, and its trace.
 class CanTools : public Program {
  protected:
   const Params params =
@@ -136,7 +134,6 @@ void CanTools::expect_commands(std::size_t end) const {
   EXPECT_EQ(booted.size(), nodes().size());
 }
 
-// With their answers, then what the controller reads back.
 void CanTools::expect_settings(std::size_t end) const {
   std::vector<Write> wanted, told;
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> kept;

@@ -48,7 +48,6 @@ launch_and_interrupt() { # signal wanted-status
   is "status after $1" "$status" "$2"
 }
 
-# One start for all that a command can ask.
 cat >"$scratch/command" <<'END'
 printf '%s|' "$@" "$GIVEN" "$PWD"
 ip link show up dev vcan0 >/dev/null && echo 'vcan0 is up'

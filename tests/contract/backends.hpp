@@ -1,6 +1,5 @@
 #pragma once
 
-/// In this build.
 #ifdef VERP_CAN_SOCKETS
 #include "tests/contract/fakes.hpp"
 #include "tests/contract/pc/can_sockets.hpp"

@@ -23,7 +23,7 @@ Bytes random_bytes(std::size_t size, std::mt19937& random) {
   return bytes;
 }
 
-/// Of an endless noise stream, which a target cannot store.
+/// An endless noise stream, which a target cannot store.
 std::uint8_t noise(std::size_t place, std::uint32_t stream) {
   auto bits = static_cast<std::uint32_t>(place) * 2654435761u + stream;
   bits ^= bits >> 15;
@@ -57,7 +57,6 @@ class ByteLinkContract : public ::testing::Test {
       if (count < part.size()) return all;
     }
   }
-  /// Until both ends know of each other.
   bool meet() {
     std::uint8_t byte = 0;
     for (int i = 0; i < 500; ++i) {
@@ -68,7 +67,6 @@ class ByteLinkContract : public ::testing::Test {
     }
     return false;
   }
-  /// Bytes before the loss.
   Bytes drain_until_lost() {
     Bytes all;
     std::uint8_t piece[64];
@@ -79,7 +77,6 @@ class ByteLinkContract : public ::testing::Test {
     return all;
   }
 
-  /// After `times` losses of the far end.
   void expect_lost(std::uint32_t times) {
     EXPECT_EQ(pair.near().connected(), !Pair::kDetectsLoss);
     EXPECT_EQ(pair.near().errors().losses, Pair::kDetectsLoss ? times : 0u);

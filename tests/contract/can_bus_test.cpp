@@ -116,7 +116,6 @@ TYPED_TEST(CanBusContract, BringsEachFrameOnceWholeAndInOrder) {
   this->settle(backend);
 }
 
-// More than any backend keeps.
 TYPED_TEST(CanBusContract, CountsWhatFindsNoRoom) {
   TypeParam backend;
   constexpr unsigned kFlood = 100;

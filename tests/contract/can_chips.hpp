@@ -7,7 +7,6 @@
 #include "tests/support/can/sja1000_model.hpp"
 #include "tests/support/can/zynqmp_can_model.hpp"
 
-/// CAN controllers on their register models, as backends.
 namespace verp::test {
 
 /// A `Model` on its wire and its `Bus`.
@@ -44,7 +43,7 @@ struct CanChip {
 };
 
 struct Sja1000Chip : CanChip<Sja1000Model, Sja1000ModelIo, hal::sja1000::Sja1000<Sja1000ModelIo>> {
-  /// Of the board kvaser_pci.
+  /// The board kvaser_pci's.
   static constexpr CanTiming kTiming =
       hal::sja1000::Sja1000<Sja1000ModelIo>::timing(16'000'000, kBitRate_hz);
   Sja1000Chip() { EXPECT_TRUE(bus.open(kTiming)); }

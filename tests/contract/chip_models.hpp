@@ -38,7 +38,6 @@ class UsartPair {
   static constexpr bool kDetectsLoss = false;
   static constexpr bool kKeepsBytesOnLoss = true;
 
-  /// The model's script.
   class Far {
    public:
     explicit Far(UsartPair& pair) : pair_(pair) {}
@@ -116,7 +115,6 @@ class UsartPair {
   Far far_{*this};
 };
 
-/// Behind the loop's own FrameBus.
 struct UsartBus {
   static constexpr std::uint32_t kPlenty_us = 20'000;
   static constexpr std::uint64_t kSlack_us = 200;  // register accesses
@@ -145,7 +143,6 @@ struct UsartBus {
                                                                               pair.clock()};
 };
 
-/// With another node on the bus.
 template <Family kFamily>
 struct ChipCan {
   static constexpr std::uint32_t kPlenty_us = 20'000;
@@ -222,7 +219,6 @@ struct ChipFlash {
   store::FlashStore<Pages> store{pages};
 };
 
-/// Behind a chip's SPI.
 template <hal::stm32::model::ImuKind kKind>
 struct ChipImu {
   ChipImu() { settle(); }

@@ -15,7 +15,6 @@
 #include "hal/fake/scripted_imu.hpp"
 #include "hal/fake/scripted_range_finder.hpp"
 
-/// hal/fake's, on the PC and on target.
 namespace verp::test {
 
 /// A FrameBus backend for `pings` pings of servo 1. It answers the e-Manual's status packet, except

@@ -2,7 +2,6 @@
 #include <cstdint>
 #include <string_view>
 
-/// With reference and allowed difference.
 namespace verp::exhaustive {
 
 struct UnaryFunction {

@@ -17,7 +17,6 @@
 #include "tests/exhaustive/functions.hpp"
 #include "tests/exhaustive/golden.hpp"
 
-/// The worst error of common/math's elementary functions.
 namespace verp::exhaustive {
 namespace {
 
@@ -56,7 +55,6 @@ struct Report {
   bool good() const { return worst.error_ulp <= bound_ulp; }
 };
 
-/// On stderr, only on a terminal.
 class Progress {
  public:
   Progress(std::string_view name, std::uint64_t total) : name_(name), total_(total) {}

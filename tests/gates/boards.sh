@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
 # boards.sh ROOT: every STM32 board has an entry in each place that boards/README.md, "One more STM32 board", names.
-# Prints one line per missing entry.
 set -uo pipefail
 cd "$1" || exit 3
 failed=0

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # environment.sh ROOT: configures ROOT in an environment that offers foreign packages, tools and flags, and builds one
-# program and one module there. Prints what was taken from it; exit status 1 if anything was. Works in a scratch
-# folder.
+# program and one module there. Prints what was taken from it.
 set -uo pipefail
 root=$1
 scratch=$(mktemp -d)

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # findings.sh ROOT: tests/findings.md numbers its rows from 1 without a gap, and each test it names exists. The prefix
-# of a GoogleTest name gives the folder; other names are CMake tests. Prints file:line and the missing name; exit
-# status 1 if one is missing.
+# of a GoogleTest name gives the folder; other names are CMake tests.
 set -uo pipefail
 cd "$1" || exit 3
 table=tests/findings.md failed=0

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# format.sh ROOT: clang-format changes no tracked C++ file. To repair: git ls-files '*.hpp' '*.cpp' | xargs
-# clang-format -i
+# format.sh ROOT: clang-format changes no tracked C++ file.
+# To repair: git ls-files '*.hpp' '*.cpp' | xargs clang-format -i
 set -euo pipefail
 
 cd "$1"

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # hidden.sh ROOT: configures ROOT with its tests once for each optional package, with that package hidden. cmake has to
-# succeed, everything in `all` to have a rule, and left_out.txt to name the package. Prints what does not hold; exit
-# status 1 if anything. Works in a scratch folder.
+# succeed, everything in `all` to have a rule, and left_out.txt to name the package.
 set -uo pipefail
 cd "$1" || exit 3
 scratch=$(mktemp -d)

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # layers.sh ROOT [FOLDER...]: checks every #include at ROOT against layers.txt, and common/ for conditional compilation
-# and words that a freestanding, deterministic core must avoid. Prints file:line and the reason; exit status 1 if there
-# is a violation.
+# and words that a freestanding, deterministic core must avoid.
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -16,7 +15,7 @@ mapfile -t files < <(find "${folders[@]}" -type f \( -name '*.[ch]pp' -o -name '
 awk -v rules="$here/layers.txt" '
 function complain(why) { printf "%s:%d: %s\n", FILENAME, FNR, why; bad = 1 }
 
-# Of the longest folder or file name that begins the path.
+# The rule of the longest folder or file name that begins the path.
 function rule_of(path,   parent) {
   for (; path != ""; path = parent) {
     if (path in rule) return path

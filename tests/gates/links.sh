@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # links.sh ROOT: every relative link of a Markdown page resolves to a file or folder, and its anchor to a heading.
-# Links of the manual to pages that host/guide/build_manual.py writes must name one of those. Prints file:line and the
-# link; exit status 1 if there is a violation.
+# Links of the manual to pages that host/guide/build_manual.py writes must name one of those.
 set -uo pipefail
 cd "$1" || exit 3
 failed=0

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # seeds.sh ROOT: the sets in tests/scenario/seeds.txt share no seed, every `--seed N` below tests/ is a gate seed, and
-# every text that says `tuning seeds A-B`, `gate seeds A-B` or `report seeds A-B` names seeds of that set. Prints
-# file:line and the reason; exit status 1 if there is a violation.
+# every text that says `tuning seeds A-B`, `gate seeds A-B` or `report seeds A-B` names seeds of that set.
 set -euo pipefail
 
 cd "$1"

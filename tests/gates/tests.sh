@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # tests.sh ROOT: refuses tests that can pass without testing. No test skips itself. No test accepts "status 0 or 1". No
-# limit is shorter than the hang limit of tests/run, or it would measure how idle the PC is. Prints file:line and the
-# reason; exit status 1 if there is a violation.
+# limit is shorter than the hang limit of tests/run, or it would measure how idle the PC is.
 set -uo pipefail
 cd "$1" || exit 3
 failed=0

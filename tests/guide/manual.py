@@ -16,7 +16,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GUIDE = ROOT / "host/guide"
-LAUNCHER = {"test", "manual", "python"}  # commands of ./verp itself
+LAUNCHER = {"test", "manual", "python"}
 OWN = {"--yes", "--help", "--version"}
 
 

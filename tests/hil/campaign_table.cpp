@@ -13,7 +13,6 @@
 namespace verp::test {
 namespace {
 
-/// All runs of one kind.
 struct Row {
   int runs = 0;
   CampaignRun sum;

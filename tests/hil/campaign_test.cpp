@@ -8,8 +8,7 @@
 #include "tests/hil/fault_run.hpp"
 #include "tests/hil/promises.hpp"
 
-// 200 runs in bus time of a walking robot whose servo bus fails. The controller keeps to the safe
-// table, never waits longer than its requests may take, and informs its operator. To run one seed:
+// 200 runs in bus time of a walking robot whose servo bus fails (README.md). To run one seed:
 //
 //     VERP_SEED=7 build/host-release/tests/hil/hil_campaign --gtest_filter='*lost_0_1_percent*'
 //
@@ -197,7 +196,6 @@ TEST(CampaignSize, Is200Runs) {
   EXPECT_EQ(runs, 200);
 }
 
-// For sanitizers and the second compiler.
 TEST(CampaignSample, StaysSafeAndTells) {
   for (Kind kind : kinds()) {
     if (kind.plan.physics) continue;

@@ -7,8 +7,7 @@
 #include "tests/hil/campaign_table.hpp"
 #include "tests/hil/can_promises.hpp"
 
-// As campaign_test.cpp, on a CAN bus; also, no tick exceeds a period, and equal seeds give equal
-// bits. To run one seed:
+// As campaign_test.cpp, on a CAN bus. To run one seed:
 //
 //     VERP_SEED=7 build/host-release/tests/hil/hil_can_campaign --gtest_filter='*lost_1_percent*'
 namespace verp::test {
@@ -181,7 +180,6 @@ TEST(CanCampaignSize, Is200RunsOrMore) {
   EXPECT_GE(runs, 200);
 }
 
-// For sanitizers and the second compiler.
 TEST(CanCampaignSample, StaysSafeAndTells) {
   for (const Kind& kind : kinds()) {
     if (!kind.plan.physics) run_kind(kind, 1);

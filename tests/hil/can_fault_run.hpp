@@ -8,7 +8,6 @@
 
 namespace verp::test {
 
-/// Events besides faults of frames.
 enum class CanEvent : std::uint8_t {
   kNone,
   kNodeSilent,     ///< unplugged but powered

@@ -34,7 +34,6 @@ void CanTrouble::decide() {
   }
 }
 
-// To the controller.
 bool CanTrouble::inbound(const CanFrame& frame) {
   if (faults.down) {
     ++damage_.down;

@@ -22,7 +22,6 @@ struct CanFaults {
   bool down = false;          ///< the controller's interface
 };
 
-/// Done so far.
 struct CanDamage {
   std::uint32_t lost = 0, missed = 0, doubled = 0, overtaken = 0, late = 0, down = 0, broken = 0;
   std::uint32_t lost_answers = 0;

@@ -133,7 +133,7 @@ void unasked(const CanFaultResult& result) {
   EXPECT_GE(result.after.strays, result.intruder * 9 / 10);
   keeps_walking(result);
 }
-// Which of the two is the drive is unknown, so its position does not count.
+// It is unknown which of the two is the drive, so its position does not count.
 void twin(const CanFaultResult& result) {
   EXPECT_GE(result.intruder, 100u);
   EXPECT_EQ(result.during.fresh >> row(result) & 1u, 0u);

@@ -7,7 +7,6 @@
 
 namespace verp::test {
 
-/// Events besides faults of the line.
 enum class Event {
   kNone,
   kServoGone,       ///< unplugged but powered

@@ -133,7 +133,6 @@ Ended run(const Lying& robot, std::uint64_t seed) {
   return ended;
 }
 
-/// All modes seen.
 std::uint32_t run_seeds(std::uint64_t first, std::uint64_t last) {
   const Lying robot;
   const char* const only = std::getenv("VERP_SEED");
@@ -151,7 +150,6 @@ constexpr std::uint32_t bit(safety::Mode mode) {
   return 1U << static_cast<unsigned>(mode);
 }
 
-// One seed per kind.
 TEST(Floor, AnyPoseAndTroubleKeepsTheSafeTable) {
   const std::uint32_t seen = run_seeds(1, 11);
   EXPECT_NE(seen & bit(safety::Mode::kGettingUp), 0U) << "none was ever asked to get up";

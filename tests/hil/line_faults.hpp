@@ -19,7 +19,6 @@ struct LineFaults {
   bool cut = false;
 };
 
-/// Done so far.
 struct LineDamage {
   std::uint32_t lost = 0, doubled = 0, flipped = 0, delayed = 0, bursts = 0;
   std::uint32_t cut_frames = 0;

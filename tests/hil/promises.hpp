@@ -4,7 +4,6 @@
 #include "tests/hil/modes.hpp"
 #include "tests/hil/run_result.hpp"
 
-/// As the operator sees a run on any bus.
 namespace verp::test {
 
 inline bool was(const RunResult& result, Mode mode) {

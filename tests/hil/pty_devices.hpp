@@ -24,7 +24,6 @@ inline std::string pty_path(const char* name) {
       .string();
 }
 
-/// Calls `turn(link)` until destroyed.
 class PtyThread {
  public:
   template <class Turn>
@@ -43,7 +42,6 @@ class PtyThread {
   std::thread thread_;
 };
 
-/// In real time.
 class PtyServos {
  public:
   PtyServos(const Params& params, FakePlant& plant, const std::string& path)
@@ -67,7 +65,6 @@ class PtyServos {
   PtyThread thread_;
 };
 
-/// Its registers show `state`.
 class PtyController {
  public:
   PtyController(const Params& params, const State& state, const std::string& path)

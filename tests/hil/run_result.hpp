@@ -8,7 +8,6 @@
 
 namespace verp::test {
 
-/// As the operator sees a controller.
 struct Registers {
   std::uint8_t mode = 0, reset_cause = 0, refused_joint = 0;
   std::uint32_t tick = 0, faults = 0, fresh = 0;
@@ -29,7 +28,7 @@ struct RunResult {
   int joint = 0;  ///< of the event's servo
   std::uint8_t joint_id = 0;
   Registers before;
-  Registers during;  ///< at its end
+  Registers during;
   Registers after;
   std::uint32_t seen = 0;
   std::uint32_t changes = 0;        ///< of mode, during the fault

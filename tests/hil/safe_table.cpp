@@ -14,7 +14,6 @@ constexpr std::uint32_t bit(int mode) {
 
 constexpr std::uint32_t kDown = bit(kFalling) | bit(kFallen) | bit(kStopped);
 
-/// Where each mode may lead.
 constexpr std::uint32_t kMayLeadTo[] = {
     /* relaxed  */ bit(kRising) | bit(kGettingUp) | bit(kStopped),
     /* rising   */ bit(kStanding) | bit(kHolding) | bit(kSitting) | kDown,

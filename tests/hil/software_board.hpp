@@ -9,10 +9,8 @@
 #include "tests/hil/operator_desk.hpp"
 #include "tests/hil/safe_table.hpp"
 
-/// As on a board.
 namespace verp::test {
 
-/// Follows bus time.
 template <class Line>
 class BusClock {
  public:

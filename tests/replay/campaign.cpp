@@ -31,7 +31,6 @@ using Script = std::vector<Episode>;
 constexpr Request kRelax = Request::kRelax, kStand = Request::kStand, kWalk = Request::kWalk;
 constexpr std::uint8_t kItsTime = Episode::kItsTime;
 
-/// In one tick; the request stays.
 Episode write(int id, float value, Request request = kStand) {
   return {1, kItsTime, request, 0, 0, 0, kWrite, id, value};
 }
@@ -103,7 +102,6 @@ void other_gaits(Script& script, const Params& params) {
                                write(gait_id(offsetof(GaitTuning, joint_delay_s)), 0.0F, kStand)});
 }
 
-/// Soles would overlap, before a walk and during one.
 void cross_feet(Script& script) {
   const Episode narrow = write(gait_id(offsetof(GaitTuning, half_stance_m)), 0.015F, kWalk);
   start_walking(script);
@@ -131,7 +129,6 @@ void silences(Script& script) {
                                {500, kUntilStanding, kStand},
                                {300, kItsTime, kStand}});
   start_walking(script);
-  // The walk ends by itself.
   script.push_back({3000, kUntilStanding, kWalk, 800, 0, 0, kQuietOperator});
   script.push_back(write(safety_id(offsetof(SafetyTuning, command_release_s)), 0.6F));
   script.push_back({1200, kUntilRelaxed, kStand, 0, 0, 0, kQuietOperator});

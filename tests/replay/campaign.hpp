@@ -6,10 +6,8 @@
 #include "common/model/params.hpp"
 #include "tests/support/random_inputs.hpp"
 
-/// Orders and faults, episode by episode.
 namespace verp::replay {
 
-/// Active throughout an episode.
 enum Event : std::uint32_t {
   kSilentServo = 1 << 0,
   kSilentImu = 1 << 1,

@@ -8,7 +8,6 @@
 #include "host/trace/record/replay.hpp"
 #include "tests/replay/long_trace.hpp"
 
-// The core of planted.cmake.
 extern "C" void planted_step(const void* params, void* state, const void* inputs, void* outputs);
 extern "C" int planted_boot_verdict();
 

@@ -166,7 +166,6 @@ bool print_faults() {
 }  // namespace verp::replay
 
 extern "C" {
-// The real function, and the linker's replacement.
 verp::safety::Mode __real__ZN4verp6safety9next_modeENS0_4ModeEj(verp::safety::Mode, std::uint32_t);
 verp::safety::Mode __wrap__ZN4verp6safety9next_modeENS0_4ModeEj(verp::safety::Mode mode,
                                                                 std::uint32_t conditions) {

@@ -4,7 +4,6 @@
 
 #include "common/model/params.hpp"
 
-/// One real robot, and variants.
 namespace verp::replay {
 
 struct Robot {

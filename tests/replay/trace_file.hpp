@@ -4,7 +4,6 @@
 
 #include "tests/replay/long_trace.hpp"
 
-/// Plain structs: writer and readers share their source.
 namespace verp::replay {
 
 inline constexpr std::uint32_t kTraceFileMagic = 0x3147'4E4C;  // "LNG1"

@@ -15,7 +15,6 @@ inline const demos::Demo& demo_of(const std::string& name) {
                        [&](const demos::Demo& each) { return each.name == name; });
 }
 
-/// It must succeed by its own criterion.
 inline demos::Run good(const std::string& name, std::uint64_t seed, demos::Options options = {}) {
   EXPECT_LE(seed, kLastGateSeed) << "seeds.txt";
   options.seed = seed;

@@ -83,7 +83,6 @@ TEST(GettingUp, UnaskedItStaysDown) {
   EXPECT_EQ(count(pushed, "get_ups"), 0);
 }
 
-// Lies, gets up, walks, is pushed over, gets up, walks on.
 TEST(GettingUp, IsRepeatableToTheBit) {
   const std::string tour =
       "generic21 --for 4 --physics-step 2 --start lying:back --push '1: trunk -60,0,0 N for 0.15'";

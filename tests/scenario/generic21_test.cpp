@@ -126,8 +126,8 @@ TEST(Generic21, KeepsItsFeetApartInFastCurves) {
   }
 }
 
-// 8 cm in 400 ms, 0.40 m/s: legs swing as fast as their servos turn, and too far. Without learnt
-// landings (balance/landing.hpp) it walks 0.53 m/s and falls. --full walks a minute.
+// 8 cm in 400 ms: legs swing as fast as their servos turn, and too far. Without learnt landings
+// (balance/landing.hpp) it walks 0.53 m/s and falls. --full walks a minute.
 TEST(Generic21, WalksFastAndNoFasterThanAsked) {
   for (const char* seed : {"1", "2", "3"}) {
     const Walk fast = walk(
@@ -188,7 +188,6 @@ TEST(Generic21, WalksSlowlyAndWithShortSteps) {
   expect_between(0, number(on_the_spot, "distance_m"), 0.1, "way, m");
 }
 
-// Only the table's thighs change.
 TEST(Generic21, WalksWithThighsATenthLonger) {
   namespace fs = std::filesystem;
   const fs::path folder =

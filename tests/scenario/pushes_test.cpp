@@ -39,7 +39,6 @@ TEST(Pushed, ToTheRightItWalksOn) {
   expect_walks_on(0, -0.8);
 }
 
-// So its survival is no luck.
 TEST(Pushed, BackwardItFallsWithoutFeedback) {
   const Walk pushed = walk(
       "generic21 --for 6 --physics-step 2 --no-feedback --push '2.5: trunk -24,0,0 N for 0.05'");

@@ -7,7 +7,6 @@
 namespace verp::scenario {
 namespace {
 
-// They walk and get somewhere.
 void expect_walks(const char* model) {
   const Walk result = walk(std::string(model) + " --for 20 --physics-step 2");
   expect_walked(result);
@@ -50,7 +49,6 @@ TEST(ThirdParty, OddRobotWalksFromTheLeastWrapper) {
   EXPECT_EQ(result.result.value("notes", "").find("out of reach"), std::string::npos);
 }
 
-/// Replaces each first text by the second.
 std::string odd_robot(const std::string& name,
                       const std::vector<std::pair<std::string, std::string>>& changes) {
   namespace fs = std::filesystem;

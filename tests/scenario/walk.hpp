@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-/// Runs `verp walk` as a user does.
 namespace verp::scenario {
 
 using nlohmann::json;

@@ -6,7 +6,6 @@
 namespace verp::scenario {
 namespace {
 
-// Another velocity every three seconds; it ends standing.
 TEST(Generic21, FollowsChangingVelocitiesInMidWalk) {
   const test::Robot robot = test::load_robot("generic21");
   const test::TwinRun run = test::run_here(robot, 2700, true);

@@ -11,8 +11,8 @@
 #include "host/boards/board/qemu.hpp"
 #include "host/os/link/can_port.hpp"
 
-// A board's CAN driver in the emulator, on vcan0. Run it inside tests/support/with-can.
-// VERP_TEST_BOARD names the board; its image is boards/mps2/can_main.cpp.
+// Run it inside tests/support/with-can. VERP_TEST_BOARD names the board; its image is
+// boards/mps2/can_main.cpp.
 namespace verp::board {
 namespace {
 
@@ -35,7 +35,6 @@ class Echo {
 
   bool send(const CanFrame& frame) { return port_.send(frame); }
   bool take(CanFrame& frame) { return port_.poll(frame, kPatience_us); }
-  /// Returns the image's counts.
   CanFrame end() {
     CanFrame frame;
     frame.id = kEnd;

@@ -56,7 +56,7 @@ void expect_same(const std::vector<TickRecord>& here, const std::vector<TickReco
   }
 }
 
-/// Of a `verp shadow` that listens; it first asks for a State.
+/// `verp shadow` listens; it first asks for a State.
 void expect_same_bits_live(const shadow::LiveCheck& check, std::uint32_t ticks) {
   constexpr std::uint32_t kFirstState = 200;
   EXPECT_FALSE(check.over()) << (check.differs() ? "not the same bits" : check.refusal());

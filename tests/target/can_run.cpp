@@ -52,7 +52,6 @@ std::vector<TickRecord> read_records(const std::filesystem::path& path) {
   return records;
 }
 
-/// What the clock's end sees.
 struct Watch {
   Clock::time_point first, last;
   std::uint64_t frames = 0, frames_before = 0;

@@ -33,7 +33,6 @@ struct CanTwin {
 /// vcan0.
 CanRun run_over_can(const std::string& board, CanTwin& twin, const Script& script,
                     shadow::LiveCheck* check = nullptr);
-/// With any plant.
 CanRun run_over_can(const std::string& board, const Params& params, can::VirtualCan& bus,
                     const Script& script, shadow::LiveCheck* check = nullptr);
 

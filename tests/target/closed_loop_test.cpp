@@ -5,7 +5,6 @@
 
 #include "tests/target/twin_run.hpp"
 
-// A firmware build's ctest sets VERP_TEST_BOARD.
 namespace verp::test {
 namespace {
 

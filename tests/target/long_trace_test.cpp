@@ -28,7 +28,6 @@ void expect_same(const replay::Segment& segment, const TargetReplay& there) {
   }
 }
 
-// Every phase, safety row and branch that tests/replay reaches.
 TEST(LongTrace, GivesTheSameDigestsInTheBoard) {
   const std::string board = setting("VERP_TEST_BOARD");
   const std::string ticks = setting("VERP_TEST_TICKS");

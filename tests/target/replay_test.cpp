@@ -8,7 +8,6 @@
 #include "host/boards/board/replay_on_target.hpp"
 #include "tests/support/random_inputs.hpp"
 
-// A firmware build's ctest sets VERP_TEST_BOARD.
 namespace verp::board {
 namespace {
 

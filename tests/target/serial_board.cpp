@@ -20,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// a boot check on a busy machine
+/// A boot check on a busy machine.
 constexpr std::uint32_t kPatience_us = 3'000'000;
 constexpr std::chrono::seconds kStart{20};
 /// A controller asks again within a second of its own clock, which stutters in an emulator.
@@ -129,7 +129,6 @@ void give(SerialBoard& board, const app::OperatorOrder& order, std::uint16_t& ac
   board.operator_port().write(dxl::controller::kDefaultId, named("request").address, bytes);
 }
 
-/// From the twin to the servo port, with faults.
 class Cable {
  public:
   Cable(SerialBoard& board, const SerialTrouble& trouble)

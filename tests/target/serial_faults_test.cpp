@@ -30,7 +30,6 @@ class SerialFaults : public ::testing::Test {
                 there.lockstep.damaged, there.bus_timeouts);
     return there;
   }
-  /// This PC knows every bit.
   void expect_known(const SerialRun& there) const {
     EXPECT_EQ(there.difference, "");
     ASSERT_EQ(there.twin.records.size(), ticks);
@@ -46,7 +45,6 @@ class SerialFaults : public ::testing::Test {
     EXPECT_EQ(there.bus_timeouts, 0u);
   }
 
-  /// The robot stands up.
   static constexpr std::uint32_t kStandsUp = 500;
   std::uint32_t ticks = 0;
   Robot robot;

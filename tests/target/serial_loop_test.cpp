@@ -129,7 +129,6 @@ TEST(SerialLoop, TellsItsOperatorWhyItsActionsDoNotCount) {
   EXPECT_EQ(fault_of(params_image(robot)), action::KeptFault::kNotALibrary);
 }
 
-/// Through the window.
 std::vector<std::uint8_t> actions_in_force(SerialBoard& board) {
   board.write("window_kind", 2);
   std::vector<std::uint8_t> bytes;

@@ -29,7 +29,6 @@ constexpr Walk kStraight = {1778, 0, 0};  // two 4 cm steps in 0.450 s
 constexpr Walk kWanders[] = {kStraight,    {900, 300, 0},  {-700, 0, 200},
                              {0, 0, -400}, {1778, 0, 300}, {600, -300, -200}};
 
-/// Without its controller.
 struct Twin {
   explicit Twin(const Robot& robot) : body(world, robot.entity), bus(robot.params, body) {}
   TwinRun ended(TwinRun run) {
@@ -53,7 +52,6 @@ struct Keeper {
   }
 };
 
-/// From this second on.
 struct Order {
   double from_s;
   Request request;

@@ -39,7 +39,6 @@ class ScriptedOperator {
   bool wandering_;
 };
 
-/// Pushes the trunk.
 struct Hand {
   double at_s = 0;  ///< world time: ticks begin about 0.7 s later
   sim::Vec3 force_world_n = sim::Vec3::Zero();
@@ -105,7 +104,6 @@ Script walk_script(const Params& params, std::uint32_t ticks, bool wandering = f
 
 /// 42 s: walks, turns, is pushed, is pushed over, gets up, kicks and waves.
 Script tour_script(const Robot& robot);
-/// From its first tick on.
 inline constexpr safety::Mode kTourModes[] = {
     safety::Mode::kRising,   safety::Mode::kStanding,  safety::Mode::kWalking,
     safety::Mode::kStanding, safety::Mode::kWalking,   safety::Mode::kFalling,

@@ -14,7 +14,6 @@
 
 namespace verp::test {
 
-/// The test is the device.
 template <std::uint32_t kCode>
 struct KernelEyeOf {
   static constexpr std::uint32_t kWidth = 16, kHeight = 8;

@@ -44,7 +44,6 @@ struct ScipLaser {
   std::uint32_t time_ms = 0;
 };
 
-/// A metre before a wall.
 struct TwinLaser {
   static constexpr std::size_t kSteps = 21;
   static constexpr bool kBreaks = false;

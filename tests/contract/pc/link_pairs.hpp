@@ -14,7 +14,6 @@
 /// Both ends of each ByteLink. near() is under test; cut() removes the far end, mend() restores it.
 namespace verp::test {
 
-/// Deleted at the test's end.
 class Folder {
  public:
   Folder() {
@@ -68,7 +67,6 @@ class HostPair {
   link::SystemClock clock_;
 };
 
-/// On one end of a pseudo-terminal.
 template <bool kNearServes>
 struct SerialPair : Folder, HostPair<kNearServes> {
   static constexpr bool kKeepsBytesOnLoss = kNearServes;  // unplugging discards them

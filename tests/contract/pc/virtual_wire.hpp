@@ -8,7 +8,6 @@
 
 namespace verp::test {
 
-/// Without a robot, with one node for raw frames.
 class VirtualWire : public SimulatedTime {
   class Far final : public can::Node {
    public:

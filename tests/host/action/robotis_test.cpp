@@ -95,7 +95,6 @@ TEST(RobotisMotion, AnAngleIsAddedBesideAServoWithoutTorque) {
   EXPECT_EQ(documents[0].frames[0].goals.size(), goals + 1);
 }
 
-// Each edit changes the page's bytes.
 TEST(RobotisMotion, EditsOfLinkExitRepeatAndTorqueAreOfItsPage) {
   const Params& params = op3().params;
   Motion motion(kPages, blank_page());

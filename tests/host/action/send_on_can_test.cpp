@@ -17,7 +17,6 @@ using app::test::FakeBoard;
 using app::test::SentActions;
 using verp::test::kRobot;
 
-/// In its own time.
 template <class Images>
 class NodeBus : public can::ClientBus {
  public:

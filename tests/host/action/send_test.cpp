@@ -22,7 +22,6 @@ const Params& robot() {
   return test::generic21().params;
 }
 
-/// One frame each.
 Image acts(std::size_t count, const Params& params = robot()) {
   std::vector<std::string> texts;
   for (std::size_t i = 1; i <= count; ++i) {

@@ -41,7 +41,6 @@ TEST_F(DoubtedServos, AServoThatLostItsPowerIsGoneUntilTheRobotHasLetGo) {
   }
 }
 
-// A loose cable must not end a walk.
 TEST_F(DoubtedServos, ServosThatWereOnlySilentKeepTheirTorqueAndCountAgain) {
   ready();
   wanted.torque_enable = all();

@@ -242,7 +242,6 @@ TEST_F(AppLoop, ARiseIsTorqueLimitedFromBeforeTorqueUntilItsEnd) {
   for (int j = 0; j < 3; ++j) EXPECT_EQ(plant.setpoint(j).pwm_limit, dxl::kFullPwm);
 }
 
-// Joints take turns.
 TEST_F(AppLoop, AServoThatMissedItsStrengthHearsItAgain) {
   ready();
   wanted.torque_enable = 0b111;

@@ -61,7 +61,6 @@ class BusManners : public ::testing::Test {
     }
     return -1;
   }
-  /// Ids of servos with the LED on.
   std::vector<int> lit() {
     std::vector<int> all;
     for (std::uint8_t id = 1; id <= kServos; ++id) {

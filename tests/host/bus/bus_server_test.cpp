@@ -17,7 +17,6 @@
 namespace verp {
 namespace {
 
-/// The controller's end, over two pipes.
 class BusServer : public ::testing::Test {
  protected:
   void start(bus::ServerHooks hooks, bus::RunOptions options = {}) {

@@ -8,7 +8,6 @@
 #include "host/twin/bus/virtual_bus.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
-// By the e-Manual.
 namespace verp {
 namespace {
 

@@ -24,7 +24,6 @@ LinkDelay held(double time_us) {
       .asked = 80, .answered = 80, .median_us = time_us, .p90_us = time_us, .worst_us = time_us};
 }
 
-/// A /sys tree of one USB adapter.
 struct Sys {
   explicit Sys(int time_ms) {
     const fs::path adapter = root / "bus/usb-serial/devices/ttyUSB7";
@@ -39,7 +38,6 @@ struct Sys {
 const link::Endpoint kAdapter{link::Endpoint::Kind::kSerial, "/dev/ttyUSB7", 2'000'000, 0};
 const link::Endpoint kSocket{link::Endpoint::Kind::kUnix, "/tmp/twin", 0, 0};
 
-// At once or midway.
 TEST(LinkFit, GivingUpTheSearchForAServoIsNoFaultOfTheRobot) {
   const std::string place =
       (fs::temp_directory_path() / ("verp-fit-bus-" + std::to_string(::getpid()))).string();

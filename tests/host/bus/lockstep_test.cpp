@@ -14,7 +14,6 @@
 namespace verp {
 namespace {
 
-/// The PC's order, once.
 struct Port {
   app::OperatorOrder order(std::uint32_t) {
     const app::OperatorOrder order = next;
@@ -46,7 +45,6 @@ std::vector<TickRecord> records_here(const Params& params) {
   return walker.records;
 }
 
-/// The link may be bad.
 class Lockstep : public ::testing::Test {
  protected:
   using Bus = app::LockstepBus<test::ServedLink, test::Waiting&>;
@@ -105,7 +103,6 @@ class Lockstep : public ::testing::Test {
   Loop loop{params, bus, port, port};
 };
 
-// The PC's shadow has the same bits.
 TEST_F(Lockstep, RecordsWhatTheLoopInThisProcessRecords) {
   run();
   EXPECT_TRUE(same(port.records, records_here(params)));
@@ -191,7 +188,6 @@ TEST_F(Lockstep, WaitsOutACutLinkWithoutASingleTimeout) {
   EXPECT_GT(server.counters().repeats, 10u);
 }
 
-// It may be gone before the next poll.
 TEST_F(Lockstep, EndsTheTickWithATwinThatHungUpBehindItsStop) {
   run(5);
   ASSERT_TRUE(bus.stopped());

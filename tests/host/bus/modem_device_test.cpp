@@ -17,7 +17,6 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Accepts numbers 0 to 2.
 struct Air final : Aerial {
   std::uint8_t number() const override { return 2; }
   std::uint8_t most_bytes() const override { return 90; }

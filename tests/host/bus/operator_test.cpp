@@ -9,7 +9,6 @@
 #include "host/twin/bus/virtual_bus.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
-// Real core, virtual servos, raw bytes.
 namespace verp {
 namespace {
 
@@ -25,7 +24,6 @@ class OperatorOnTheLoop : public ::testing::Test {
     device.order(0);
   }
 
-  /// Returns the reply's data.
   std::vector<std::uint8_t> ask(std::size_t size) {
     EXPECT_EQ(wire.right().write(frame, size, 0), size);
     while (device.poll()) {

@@ -46,7 +46,6 @@ TEST(RegisterNames, ServoRegistersHaveTheManualsSizes) {
   EXPECT_EQ(size("homing_offset"), 4u);
 }
 
-// Users need one of them.
 TEST(RegisterNames, TheTwinsClockIsNamed) {
   EXPECT_EQ(model_name(lockstep::kClockModel), "twin's clock");
   const NamedRegister* upright = find_register(lockstep::kClockModel, "set_upright");

@@ -6,7 +6,6 @@
 
 namespace verp::test {
 
-/// Walks from tick 20 and records.
 struct Walker {
   app::OperatorOrder order(std::uint32_t tick) const {
     app::OperatorOrder order;

@@ -67,7 +67,6 @@ TEST(SmoothedEdges, LeaveWhatIsEvenAndWhatIsLevelAlone) {
   }
 }
 
-/// Objects of every size around the eye, one at a time.
 TEST(LeftOutOfAPicture, IsNothingOfWhichAPixelIsToBeSeen) {
   OffscreenContext context;
   Renderer renderer;

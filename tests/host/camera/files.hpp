@@ -11,7 +11,6 @@
 
 namespace verp::camera::test {
 
-/// generic21 with another camera, and a world with a red ball.
 class Files {
  public:
   Files() {

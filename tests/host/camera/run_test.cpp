@@ -14,8 +14,6 @@
 #include "host/trace/record/trace.hpp"
 #include "tests/host/tool/program.hpp"
 
-// The trace has all pictures, in time.
-
 namespace verp::tool::test {
 namespace {
 

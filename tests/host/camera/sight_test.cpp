@@ -11,8 +11,6 @@
 #include "host/show/scene/build.hpp"
 #include "tests/host/camera/files.hpp"
 
-// Objects appear where the lens puts them, with the file's noise.
-
 namespace verp::camera::test {
 namespace {
 
@@ -22,7 +20,6 @@ constexpr const char* kSkew =
 constexpr const char* kBarrel =
     "<distortion><k1>-0.25</k1><k2>0.08</k2><k3>0</k3><p1>0.002</p1><p2>-0.003</p2></distortion>";
 
-/// Looks along x from the origin.
 struct Sight {
   Files files;
   model::Entity robot;
@@ -74,7 +71,7 @@ Eigen::Vector2d red_middle(const render::Image& image) {
   return sum / count;
 }
 
-/// Of the ball's outline, by solid angle. Off the axis the outline is an oval with another centre.
+/// By solid angle. Off the axis the ball's outline is an oval with another centre.
 Eigen::Vector2d outline_middle(const model::CameraSensor& camera, const model::Vec3& ball_lens_m) {
   constexpr double kRadius_m = 0.05;
   const double distance_m = ball_lens_m.norm();

@@ -69,7 +69,6 @@ class FakeNodes final : public ClientBus {
   }
 
   void say(const CanFrame& frame) { answers_.push_back(frame); }
-  /// Another client's answer.
   void overhear(const Object& object) { answers_.push_back(answer(object)); }
 
   bool has_further_channel = false;  ///< at node 127, by 1202h

@@ -97,7 +97,6 @@ TEST_F(VirtualDrive, AMasterThatIsSilentBeforeThereIsTorqueIsToldAndIsNoFault) {
   EXPECT_EQ(bench.value(kNode, object::kErrorCode), 0);
 }
 
-// Any home offset is possible.
 TEST_F(VirtualDrive, ItsCounterGoesOnAtTheOtherEndOf32Bits) {
   measured().position_count = 10;
   bench.write(kNode, object::kHomeOffset, -0x7FFFFFFF, 4);

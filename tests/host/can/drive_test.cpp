@@ -169,7 +169,6 @@ TEST_F(VirtualDrive, MeasuresSpeedAndTorque) {
   EXPECT_EQ(bench.value(kNode, object::kActualTorque), -250);
 }
 
-// Increments per turn and rated values.
 TEST_F(VirtualDrive, GivesPositionAndTorqueTheirScale) {
   EXPECT_EQ(bench.value(kNode, {0x608F, 0}), 2);
   EXPECT_EQ(bench.value(kNode, {0x608F, 1}), 16384);

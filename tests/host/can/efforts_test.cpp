@@ -16,7 +16,6 @@
 #include "host/twin/can/virtual_can.hpp"
 #include "host/twin/sim/robot.hpp"
 
-// From the physics to a client of the controller's node.
 namespace verp::can {
 namespace {
 
@@ -38,7 +37,6 @@ struct Truth {
   bool holds(std::int32_t value) const { return least <= value && value <= most; }
 };
 
-/// Reads joint_velocity and joint_torque, and hears the controller's requests.
 class Reader : public Node {
  public:
   Reader(const Params& params, sim::Plant& plant) : params_(params), plant_(plant) {}

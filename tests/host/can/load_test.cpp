@@ -88,7 +88,6 @@ TEST(BusLoad, AFasterTickNeedsTwoBusesOrFd) {
   EXPECT_FALSE(row_of(rows, 200, 1, true).no_room);
 }
 
-// The first drive without room is named.
 TEST(BusLoad, WhatDoesNotFitIsNamed) {
   Params params = test::can_params(21);
   const int first = row_of(can::load_table(params, kDataBaud), 200, 1, false).no_room.value_or(21);
@@ -127,7 +126,6 @@ TEST(BusLoad, TwoBusesShareTheDrives) {
   EXPECT_LE(two.bits_bare, one.bits_bare * 2 / 3);
 }
 
-/// Sets the robot up and runs ticks.
 class PlannedTicks {
  public:
   explicit PlannedTicks(const Params& params) : bench(params) {}
@@ -217,7 +215,6 @@ TEST(PlannedTicks, PutOnTheWireWhatTheTableSays) {
   PlannedTicks(params).expect(row_of(can::load_table(params, kDataBaud), 100, 1, false));
 }
 
-// Half of the drives, and the IMU.
 TEST(PlannedTicks, OfAHalfRobotAreThoseOfTwoBuses) {
   const LoadRow row = row_of(can::load_table(test::can_params(21), kDataBaud), 200, 2, false);
   Params half = test::can_params(11);

@@ -13,7 +13,6 @@
 #include "tests/host/bus/walker.hpp"
 #include "tests/host/can/served_can.hpp"
 
-// The twin is in this process or behind a bus.
 namespace verp::can {
 namespace {
 
@@ -137,7 +136,6 @@ TEST_F(CanLoop, IsKnownBitByBitThoughItsFramesAreLost) {
   expect_shadowed(operator_link.records);
 }
 
-// One tick's beginning, or two in a row.
 TEST_F(CanLoop, IsKnownBitByBitThoughBeginningsOfTicksAreLost) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   auto loop = std::make_unique<app::App<decltype(bus), Linked, Linked>>(params, bus, operator_link,

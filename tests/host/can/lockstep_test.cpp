@@ -33,7 +33,6 @@ struct Heard {
 
 constexpr int kTicks = 200;
 
-/// Starts nodes, then sends goals and SYNCs.
 template <hal::CanBus Bus>
 std::vector<Heard> drive(const Params& params, Bus& bus) {
   constexpr std::uint32_t kTimeout_us = 700;
@@ -101,7 +100,6 @@ class CanLockstep : public ::testing::Test {
   Bus bus{wire, Patient{&patience}};
 };
 
-// At the same microsecond.
 TEST_F(CanLockstep, BringsWhatABusInThisProcessBrings) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   const std::vector<Heard> heard = drive(params, bus);
@@ -161,7 +159,6 @@ TEST_F(CanLockstep, AnAnswerFitsAnSja1000) {
   EXPECT_LE(wire.most_room, 64u);
 }
 
-// For example the live check's.
 TEST_F(CanLockstep, AnAnswerFitsAnSja1000WithARequestToTheController) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   wire.most_room = 0;
@@ -184,7 +181,6 @@ TEST_F(CanLockstep, KeepsNoRequestsForAControllerThatIsGone) {
   EXPECT_EQ(wire.requests_heard, 4u);
 }
 
-// Both ends count the lost frame.
 TEST_F(CanLockstep, LetsALostFrameBeLostOnTheBus) {
   wire.outbound = {.lost = 0.01, .doubled = 0.01};
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);

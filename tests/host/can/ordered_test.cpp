@@ -30,7 +30,6 @@ constexpr Bytes kWalk = {0x2F, 0x50, 0x20, 0, 2, 0, 0, 0};
 constexpr Bytes kAhead = {0x2B, 0x52, 0x20, 0, 0x2C, 0x01, 0, 0};
 constexpr Bytes kMode = {0x40, 0x90, 0x20, 0, 0, 0, 0, 0};
 
-/// Keeps node 127's last answer.
 class Tool : public Node {
  public:
   std::uint8_t id() const override { return 126; }

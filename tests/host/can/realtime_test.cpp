@@ -7,7 +7,6 @@
 #include "common/protocol/canopen/sync.hpp"
 #include "tests/host/can/can_bench.hpp"
 
-// In wall-clock time, for a master with its own time.
 namespace verp::can {
 namespace {
 
@@ -20,7 +19,6 @@ CanFrame ask_1000(std::uint8_t node) {
 
 class CanRealTime : public ::testing::Test {
  protected:
-  /// As a PC that is never late.
   void hear(const CanFrame& frame, std::uint64_t clock_us) { hear(frame, clock_us, clock_us); }
   void hear(const CanFrame& frame, std::uint64_t came_us, std::uint64_t clock_us) {
     server.hear(std::vector{RealtimeServer::ReceivedFrame{frame, came_us}}, clock_us, answer);
@@ -102,7 +100,6 @@ TEST_F(CanRealTime, SkipsWhatItCannotMakeUpFor) {
   }
   EXPECT_FALSE(server.kept_up());
   EXPECT_EQ(server.counters().late, 0u);
-  // From before the skip; it takes effect now.
   hear(ask_1000(1), 10'500'000);
   EXPECT_EQ(bench.bus.now_us(), 1'000'000u);
   for (std::uint64_t clock_us = 11'000'000; clock_us <= 12'100'000; clock_us += 50'000) {

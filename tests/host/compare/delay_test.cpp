@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kStep_s = 0.01;
 
-/// As in a gait.
 double signal(double t_s) {
   return 0.3 * std::sin(2 * std::numbers::pi * 2.2 * t_s) +
          0.1 * std::cos(2 * std::numbers::pi * 4.4 * t_s);

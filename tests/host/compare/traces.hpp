@@ -11,7 +11,6 @@
 #include "host/run/session/session.hpp"
 #include "host/trace/record/trace.hpp"
 
-/// The twin's walks, and a late, misaligned robot's.
 namespace verp::compare::test {
 
 inline constexpr double kDegree = std::numbers::pi / 180;

@@ -23,7 +23,6 @@ About half_around() {
   return about;
 }
 
-/// For a level laser.
 struct Wall {
   Point from, to;
 };
@@ -93,7 +92,6 @@ TEST(Scan, AThingAheadIsFoundAndAWallIsNone) {
   EXPECT_NEAR(middle_of(about, found[0]).x, 1.0 + kBehindSurface_m, 0.01);
 }
 
-// Else it would mistake the floor for a wall.
 TEST(Scan, RaysThatMayHaveMetTheFloorAreLeftOut) {
   const About about = half_around();
   Scan scan = scan_of(about, {}, {{{2, -3}, {2, 3}}});

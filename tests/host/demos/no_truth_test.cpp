@@ -9,7 +9,6 @@
 namespace verp::demos {
 namespace {
 
-/// A floor, a post, and a ball that rolls away.
 class World {
  public:
   World(const std::string& name, double post_x_m, double ball_x_m)

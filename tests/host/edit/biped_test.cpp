@@ -8,7 +8,6 @@
 namespace verp::edit {
 namespace {
 
-/// One leg, then its mirror image.
 TEST(Biped, GrowsFromAnEmptyFileAndIsSound) {
   const files::TemporaryDirectory folder;
   const std::string file = (folder.path() / "biped.sdf").string();

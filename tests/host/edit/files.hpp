@@ -25,7 +25,6 @@ inline std::string robot(const std::string& name) {
   return std::string(VERP_SOURCE_DIR "/common/robots/") + name + "/robot.sdf";
 }
 
-/// By a diff.
 inline std::pair<int, int> changed_lines(const std::string& from, const std::string& to) {
   const std::string rows = difference(from, to, "f");
   int less = 0, more = 0;
@@ -38,7 +37,6 @@ inline std::pair<int, int> changed_lines(const std::string& from, const std::str
 
 constexpr std::pair<int, int> kOneLine = {1, 1};
 
-/// Of the last link that has a mass.
 inline void expect_a_mass_changes_one_line(const std::string& file) {
   Document document = Document::open(file);
   const std::string before = document.text();

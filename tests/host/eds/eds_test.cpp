@@ -83,7 +83,6 @@ const Section* section_of(const Sections& sections, unsigned index, unsigned sub
   return member == sections.end() ? nullptr : &member->second;
 }
 
-/// Over every address that a node may have.
 template <class Objects>
 void expect_same(const Sections& sections, Objects& node, unsigned least = 101) {
   unsigned found = 0;
@@ -222,7 +221,7 @@ void expect_device(const Description& description, Node& node, std::uint8_t id, 
 TEST(Eds, TheControllersSheetIsWhatTheControllerAnswers) {
   const Sections sections = parse(to_text(controller()));
   expect_listed(sections);
-  auto board = std::make_unique<app::test::FakeBoard>();  // with all images
+  auto board = std::make_unique<app::test::FakeBoard>();
   using Log = app::TickLog<app::test::FakeImages>;
   auto log = std::make_unique<Log>(board->images);
   log->keep({}, {});
@@ -238,7 +237,6 @@ TEST(Eds, TheControllersSheetIsWhatTheControllerAnswers) {
   expect_same_tpdos(sections, node->objects(), kNode);
 }
 
-// A robot's numbers.
 TEST(Eds, TheDevicesSheetsAreWhatTheyAnswer) {
   constexpr std::uint8_t kNode = 37;
   verp::test::FakePlant plant;

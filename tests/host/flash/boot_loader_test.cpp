@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-/// The bytes of AN3155.
 namespace verp::test {
 namespace {
 

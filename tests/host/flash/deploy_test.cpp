@@ -16,7 +16,6 @@ class Deploy : public Flash {
     put(folder_ / name, {text.begin(), text.end()});
     fs::permissions(folder_ / name, fs::perms::owner_all);
   }
-  /// Only the last step failed.
   static void expect_stop(const Outcome& outcome, int status, const std::string& step,
                           const std::string& needle) {
     EXPECT_EQ(outcome.status, status) << outcome.err;

@@ -5,7 +5,6 @@
 #include "host/boards/flash/tool_run.hpp"
 #include "host/os/process/child.hpp"
 
-/// Debian 12's tools' errors.
 namespace verp::flash::test {
 namespace {
 
@@ -13,7 +12,6 @@ using Kind = FlashError::Kind;
 
 Job job_for(Tool tool) {
   const Recipe& recipe = find_recipe("olimex_h405");
-  // Exists on every PC.
   return {recipe, read_memory_map(recipe.board),
           tool,   tool == Tool::kStm32flash ? "/dev/null" : "",
           {},     "/tmp"};

@@ -63,7 +63,6 @@ class Flash : public tool::test::Program {
     for (std::uint8_t& byte : data) byte = static_cast<std::uint8_t>(random() >> 8);
     return data;
   }
-  /// A vector table, then noise.
   Bytes made_up_code(unsigned seed) const {
     Bytes code = noise(50'000, seed);
     const std::uint32_t table[] = {map_.ram.begin + 4096, map_.code.begin + 0x201};

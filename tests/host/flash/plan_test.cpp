@@ -9,7 +9,6 @@
 #include "host/os/files/shell_line.hpp"
 #include "host/os/files/temporary_directory.hpp"
 
-/// Every board, tool and choice of pieces.
 namespace verp::flash::test {
 namespace {
 

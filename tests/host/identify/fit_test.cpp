@@ -68,7 +68,6 @@ Recording told(const model::Entity& entity, double fast_s, double length_s) {
   return recording;
 }
 
-/// As its file says, which is wrong.
 model::Entity believed() {
   model::Entity entity = arm();
   double factor = 1.25;

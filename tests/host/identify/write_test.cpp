@@ -56,7 +56,6 @@ TEST(Write, ChangesTheServosAndNothingElse) {
     ++b;
   }
   EXPECT_EQ(servos, 21u);
-  // Now it is the robot's own type.
   EXPECT_EQ(write(found(model::load_robot(first), 0.012), first, second, "b.mcap"),
             "xm430_w210_identified");
   const model::Entity entity = model::load_robot(second);

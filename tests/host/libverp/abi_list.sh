@@ -19,7 +19,6 @@ compiles "$folder/abi.json" "$folder" || say "the compiler reads verp.h otherwis
 bare=$(awk '/^(int|uint32_t|const char\*) verp_[a-z_]+\(/ && before !~ /\*\/$/ {print $0} {before = $0}' "$folder/verp.h" | grep -o 'verp_[a-z_]*(' || true)
 [[ -z $bare ]] || say "verp.h says nothing about ${bare//$'\n'/ }"
 
-# Both must notice each change.
 changes=('s/int16_t vx_tenth_mm_s;/int32_t vx_tenth_mm_s;/' 's/VERP_BUSY = -3/VERP_BUSY = -13/' 's/uint32_t robot, uint64_t\* digest/uint32_t robot, uint32_t* digest/'
   's/double low;/double high_;/' 's/int verp_decide(uint64_t token)/int verp_decide(uint64_t token, int how)/' 's/VERP_POSE = 12/VERP_POSE = 13/'
   's/float zmp_m\[2\]/uint32_t zmp_m[2]/')

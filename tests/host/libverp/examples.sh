@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # examples.sh VERP PROGRAMS SOURCES OCTAVE CSHARP GROUP: each example of a group prints the same in C, C++, Python,
-# Octave and C#. `walks`: a walk has the digest of `verp walk`, and its trace replays. `others`: your own controller,
-# tuning, radio. `pictures`: needs OpenGL; its files are equal too.
+# Octave and C#. `walks`: the digest of `verp walk`, and a trace that replays. `others`: your own controller, tuning,
+# radio. `pictures`: needs OpenGL; its files are equal too.
 set -euo pipefail
 verp=$1 programs=$2 sources=$3 octave=$4 csharp=$5
 scratch=$(mktemp -d)

@@ -7,7 +7,6 @@
 
 namespace verp::abi::test {
 
-/// It names the call and the reason.
 inline void expect_error(int got, int wanted, const std::string& call, const std::string& why) {
   EXPECT_EQ(got, wanted) << verp_last_error();
   const std::string text = verp_last_error();

@@ -126,7 +126,6 @@ TEST(LibverpHostile, CoreTakesAnyBytes) {
   EXPECT_NE(core.digest(), 0U);
 }
 
-/// Each call succeeds or returns an error.
 TEST(LibverpHostile, ManyThreadsOnOneHandle) {
   Opened opened;
   opened.add();

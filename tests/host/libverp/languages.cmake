@@ -59,7 +59,6 @@ else()
   verp_left_out("tests of libverp from C#" "mono-mcs or mono-runtime")
 endif()
 
-# Compared between all languages.
 set(examples_test ${CMAKE_CURRENT_SOURCE_DIR}/examples.sh)
 set(programs ${CMAKE_CURRENT_BINARY_DIR})
 if(python AND octave AND csharp)

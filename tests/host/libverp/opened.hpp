@@ -8,7 +8,6 @@
 
 namespace verp::abi::test {
 
-/// Robots of plans.hpp.
 struct Opened {
   explicit Opened(const char* world = nullptr) {
     const verp_world what = {sizeof what, 0, world};

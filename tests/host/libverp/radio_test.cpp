@@ -15,7 +15,6 @@
 #include "tests/host/libverp/expect_error.hpp"
 #include "tests/host/libverp/opened.hpp"
 
-// The robots' traces have every message and replay.
 namespace verp::abi::test {
 namespace {
 

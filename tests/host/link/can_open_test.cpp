@@ -20,7 +20,6 @@
 namespace verp::link {
 namespace {
 
-/// From now on socket(AF_CAN, ...) fails.
 bool refuse_can_sockets(int error) {
   sock_filter rules[] = {
       BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
@@ -35,7 +34,6 @@ bool refuse_can_sockets(int error) {
          ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
 }
 
-/// If CAN sockets fail with `error`.
 std::string refusal(int error, const std::string& link) {
   int ends[2];
   EXPECT_EQ(::pipe(ends), 0);

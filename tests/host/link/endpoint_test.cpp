@@ -47,7 +47,6 @@ TEST(Endpoint, IsWrittenAsItIsRead) {
   }
 }
 
-// In one line.
 TEST(Endpoint, RefusesWithARemedy) {
   const struct {
     const char* text;

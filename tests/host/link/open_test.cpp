@@ -109,7 +109,6 @@ std::string target(const std::string& link) {
   return ::readlink(link.c_str(), name, sizeof name - 1) > 0 ? name : "";
 }
 
-// The first keeps its symlink and its peer.
 TEST(Open, NeverTakesATerminalThatIsServed) {
   const test::Folder folder;
   const Link first(parse_endpoint("pty:" + folder.link()));
@@ -124,7 +123,6 @@ TEST(Open, NeverTakesATerminalThatIsServed) {
   EXPECT_TRUE(peer.connected());
 }
 
-// Whether its terminal number is free or ours.
 TEST(Open, TakesTheTerminalOfAProgramThatWasKilled) {
   const test::Folder folder;
   ASSERT_EQ(::symlink("/dev/pts/99999999", folder.link().c_str()), 0);

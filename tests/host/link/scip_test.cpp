@@ -43,7 +43,6 @@ TEST(Scip, FindsRepliesByteByByteAndLeavesDamagedOnesOut) {
   EXPECT_TRUE(replies.next());
 }
 
-/// A sensor and its reader.
 struct Bench {
   Link near{parse_endpoint("pty:")};
   Link far{parse_endpoint("serial:" + near.place() + "@115200")};

@@ -5,15 +5,12 @@
 #include "tests/host/live/viewer.hpp"
 #include "tests/host/record/sample.hpp"
 
-// The content of a trace, or of several merged ones.
-
 namespace verp::live {
 namespace {
 
 using record::TraceWriter;
 using test::Viewer;
 
-/// Its beginning and three ticks.
 void run(record::mcap::Listener* listener) {
   const Params params = record::test::sample_params();
   TraceWriter writer("", params, {}, {.listener = listener});

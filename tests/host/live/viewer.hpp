@@ -61,13 +61,11 @@ class Viewer {
     return true;
   }
 
-  /// put() gives up after this time.
   void lose_patience() const {
     const timeval moment{0, 200'000};
     ::setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &moment, sizeof(moment));
   }
 
-  /// The HTTP answer's head.
   std::string greet(std::string_view words = kGreeting) const {
     put(words);
     std::string head;
@@ -79,7 +77,6 @@ class Viewer {
     return head;
   }
 
-  /// Masked as a client's.
   static std::string frame(int opcode, std::string_view bytes) {
     std::string out(1, static_cast<char>(0x80 | opcode));
     if (bytes.size() < 126) {
@@ -144,7 +141,7 @@ struct Data {
   std::string bytes;
 };
 
-/// Of opcode 1; empty for others.
+/// Data of opcode 1; empty for others.
 inline std::optional<Data> data_of(const Received& got) {
   if (got.opcode != 2 || got.bytes.size() < 13 || got.bytes[0] != 1) return {};
   Data data;

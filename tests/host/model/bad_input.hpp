@@ -15,7 +15,6 @@ inline int line_of(const std::string& text, const std::string& part) {
   return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(at), '\n'));
 }
 
-/// With the first `old_part` replaced.
 inline std::string edited(const std::string& old_part, const std::string& new_part) {
   std::string text = read_text(robot_file("generic21"));
   const auto at = text.find(old_part);

@@ -5,7 +5,6 @@
 #include "host/robot/model/load.hpp"
 #include "tests/host/model/bad_input.hpp"
 
-/// Errors name file, line and remedy.
 namespace verp::model {
 namespace {
 
@@ -139,7 +138,6 @@ TEST(BadInput, NegativeMassIsRefused) {
   expect_refused(edited("<mass>1.1</mass>", "<mass>-1.1</mass>"), "<mass>-1.1</mass>", "mass");
 }
 
-/// Beyond float32 or any robot.
 TEST(BadInput, AbsurdMagnitudesAreRefused) {
   const struct {
     const char *old_part, *new_part, *line_part, *message;

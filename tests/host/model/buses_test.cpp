@@ -12,7 +12,6 @@
 namespace verp::model {
 namespace {
 
-/// Of an edited generic21.
 std::string refusal(const std::string& old_part, const std::string& new_part,
                     const std::string& bus = "") {
   std::string text = read_text(robot_file("generic21"));

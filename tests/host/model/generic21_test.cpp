@@ -12,7 +12,6 @@
 #include "host/robot/model/robot_table.hpp"
 #include "tests/host/model/test_files.hpp"
 
-/// The paper's humanoid in VERP's frame.
 namespace verp::model {
 namespace {
 
@@ -189,7 +188,6 @@ TEST(PaperFrame, BodyFrameIsTheTrunksCentreNotTheCentreOfMass) {
   EXPECT_LT(kinematics::center_of_mass(params, verp::Pose{}, zero).z(), -0.03F);
 }
 
-/// A point's motion at a small positive angle.
 struct Sense {
   const char* joint;
   Vec3 point_m;  ///< link's frame

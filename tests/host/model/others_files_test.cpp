@@ -62,7 +62,6 @@ void expect_sdf_refused(const std::string& text, const std::string& fault,
 void expect_urdf_refused(const std::string& inside, const std::string& fault,
                          const std::string& said) {
   std::string text = "<robot name=\"small\">\n" + urdf_link("a") + urdf_link("b");
-  // Far from the first line.
   for (int i = 0; i < 20; ++i) text += "<!-- servos and gears -->\n";
   text += inside + "</robot>\n";
   const TemporaryFile urdf("small.urdf", text);
@@ -284,7 +283,6 @@ TEST(OthersFiles, TenOfEachFaultOfAUrdfAreRefusedWhereTheyStand) {
   std::filesystem::remove(urdf_path);
 }
 
-// libsdformat names the link.
 TEST(OthersFiles, APoseThatHangsOnItselfIsRefusedAtItsLink) {
   std::string text = read_text(robot_file("generic21"));
   const std::string pose = "<pose relative_to=\"r_hip_cross\">";

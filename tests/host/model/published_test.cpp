@@ -1,13 +1,12 @@
 #include "tests/host/model/test_files.hpp"
 
-/// Our own robot with the habits of published URDF files: placeholder limits, inertias in g m2,
-/// mesh collisions, frames with a shape and no mass, no sole frames.
+/// Our own robot with published URDF files' habits: placeholder limits, inertias in g m2, mesh
+/// collisions, frames with a shape and no mass, no sole frames.
 namespace verp::model {
 namespace {
 
 const std::string kPublished = VERP_SOURCE_DIR "/tests/host/model/published_robot/";
 
-/// Without one correction.
 LoadError refusal_without(const std::string& correction) {
   const TemporaryFile urdf("published.urdf", read_text(kPublished + "published.urdf"));
   const std::string name = std::filesystem::path(urdf.path()).filename().string();

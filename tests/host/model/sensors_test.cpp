@@ -10,7 +10,6 @@
 namespace verp::model {
 namespace {
 
-/// In the ankle's joint, on the foot, among the verp: elements.
 struct Additions {
   std::string joint, foot, elements;
 };

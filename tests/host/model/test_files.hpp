@@ -17,7 +17,6 @@ inline std::string read_text(const std::string& path) {
   return text.str();
 }
 
-/// Removed by the destructor.
 class TemporaryFile {
  public:
   TemporaryFile(const std::string& name, const std::string& text)
@@ -51,14 +50,12 @@ inline LoadError refusal_of(const std::string& path) {
   return {path, 0, "", ""};
 }
 
-/// Without the first element that begins with `start`.
 inline std::string without_element(std::string text, const std::string& start) {
   const auto at = text.find(start);
   EXPECT_NE(at, std::string::npos) << start;
   return at == std::string::npos ? text : text.erase(at, text.find("/>", at) + 2 - at);
 }
 
-/// Same links, joints and servos.
 inline void expect_same_robot(const Entity& one, const Entity& other) {
   ASSERT_EQ(one.nodes.size(), other.nodes.size());
   for (std::size_t n = 0; n < other.nodes.size(); ++n) {

@@ -7,7 +7,6 @@
 #include "host/robot/model/load_world.hpp"
 #include "tests/host/model/test_files.hpp"
 
-/// Mistakes are refused with file, line and remedy.
 namespace verp::model {
 namespace {
 

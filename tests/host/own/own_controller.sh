@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# own_controller.sh VERP [BOARD]: a new controller's project builds, walks, records and replays here, and its mistakes
-# are reported. With a board, it walks there in QEMU with the same digest, and flash takes its image.
+# own_controller.sh VERP [BOARD]: a new controller's project builds, walks, records and replays, and its mistakes are
+# reported. With a board, it walks there in QEMU with the same digest, and flash takes its image.
 set -euo pipefail
 verp=$1 board=${2:-}
 scratch=$(mktemp -d)

@@ -14,14 +14,11 @@
 #include "host/show/scene/build.hpp"
 #include "tests/host/tool/program.hpp"
 
-// Each effect changes its part of the picture.
-
 namespace verp::render {
 namespace {
 
 using scene::Vec3;
 
-/// A ball of 0.1 m before a wall.
 struct Bench {
   OffscreenContext context;
   Renderer renderer;

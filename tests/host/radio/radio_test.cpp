@@ -161,7 +161,7 @@ TEST(Radio, OneListensBeforeItTalks) {
   EXPECT_EQ(row.heard(2), 2u);
 }
 
-/// Of broadcasts alone on the air.
+/// Each broadcast is alone on the air.
 double lost_share(const Conditions& c, double apart_m, int messages, std::uint64_t seed = 1) {
   Row row(c, 2, apart_m, seed);
   for (int i = 0; i < messages; ++i) {

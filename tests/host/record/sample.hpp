@@ -15,7 +15,6 @@ namespace verp::record::test {
 
 namespace fs = std::filesystem;
 
-/// Removed by the destructor.
 class TraceFolder : public ::testing::Test {
  protected:
   TraceFolder() {
@@ -63,7 +62,6 @@ inline TickRecord record_of(const Inputs& inputs, const TickDigest& digest = {})
   return record;
 }
 
-/// Without a file.
 inline Trace sample_run(std::uint32_t ticks, const Params& params = sample_params()) {
   Trace trace;
   trace.params = params;

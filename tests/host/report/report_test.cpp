@@ -16,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// 0.2 m/s along x, 16 states a cycle.
 Run sample_run() {
   Run run;
   run.title = "robot <one> & \"two\"";
@@ -120,7 +119,6 @@ TEST(ReportNumbers, GoalsStandBesideWhatBecameOfThem) {
   EXPECT_NE(samples_csv(sample_run()).find(",0.1,0.2,0.3,0.4,0.25,"), std::string::npos);
 }
 
-// A zero would look like a measurement.
 TEST(ReportNumbers, WhatWasNotMeasuredIsEmpty) {
   report::Run run = sample_run();
   run.bias_by_state_mm = {};
@@ -187,7 +185,6 @@ TEST_F(ReportFolder, LeavesOutWhatARunHasNoDataFor) {
   EXPECT_FALSE(fs::exists(folder_ / "walk.png"));
 }
 
-// That one had a picture and a sweep.
 TEST_F(ReportFolder, HoldsNothingOfTheRunBefore) {
   report::Run run = sample_run();
   run.sweep.push_back({});

@@ -45,7 +45,6 @@ class LoneServo {
     const std::scoped_lock lock(mutex_);
     plant_.measured[0].position_count = count;
   }
-  /// Of the first servo.
   std::int64_t value(std::uint16_t address, std::uint16_t size) {
     const std::scoped_lock lock(mutex_);
     const auto bytes = servos_[0]->read(address, size);
@@ -55,7 +54,6 @@ class LoneServo {
     }
     return size == 4 ? static_cast<std::int32_t>(value) : static_cast<std::int64_t>(value);
   }
-  /// To any servo.
   int writes() const { return writes_; }
 
  private:

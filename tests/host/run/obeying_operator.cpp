@@ -24,7 +24,6 @@ class Obeying : public ::testing::Test {
       return order;
     });
   }
-  /// Returns its order.
   Request tick(Mode mode, std::uint32_t faults = 0) {
     const app::OperatorOrder order = who.order(ticks++);
     Outputs outputs;

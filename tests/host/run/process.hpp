@@ -18,7 +18,6 @@
 
 namespace verp::tool::test {
 
-/// Ends with this object at the latest.
 class Process {
  public:
   /// Output goes to `name`.out and .err.
@@ -78,7 +77,6 @@ class Process {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
   }
-  /// Standard error so far.
   std::string said() const { return slurp(err_); }
   /// Simulates a full disk: no file grows further.
   void fill_disk(rlim_t most_bytes) const {

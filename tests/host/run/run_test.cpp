@@ -141,7 +141,6 @@ TEST_F(TimelyRobot, LyingDownLimpAfterAGoodWalkIsNoFall) {
   EXPECT_EQ(result.value("let_go_and_lies", false), true);
 }
 
-// The servos are too weak.
 TEST_F(RealRobot, GoingDownUnderTorqueIsAFall) {
   serve();
   plug({1000, 1000});
@@ -152,7 +151,6 @@ TEST_F(RealRobot, GoingDownUnderTorqueIsAFall) {
   EXPECT_NE(program->wait().status, 0);
 }
 
-// Every servo is asked.
 TEST_F(RealRobot, ASecondInterruptLetsGoAtOnce) {
   serve();
   plug({1000, 1000});
@@ -205,7 +203,6 @@ TEST_F(TimelyRobot, ACableThatComesBackGoesOn) {
   expect_table(trace());
 }
 
-// Up to its last chunk.
 TEST_F(TimelyRobot, ACrashLeavesTheTrace) {
   serve();
   plug({1000, 1000});
@@ -266,7 +263,6 @@ TEST_F(TimelyRobot, ASilentImuIsNeverPassedOver) {
   expect_table(taken);
 }
 
-// Before torque is on.
 TEST_F(TimelyRobot, TorqueIsLimitedInEveryServo) {
   serve();
   plug({1000, 1000});

@@ -14,7 +14,6 @@ TEST_F(SetupBus, DrivesOnCanAreLeftToTheirMakersTool) {
   expect_refused("bus setup --bus can --link can:vcan0", "verp bus checklist generic21 --bus can");
 }
 
-// The joints have other servos there.
 TEST_F(SetupBus, AnotherBusHasAReportOfItsOwn) {
   std::string robot = slurp(VERP_SOURCE_DIR "/common/robots/generic21/robot.sdf");
   const std::size_t begin = robot.find("<verp:bus name=\"dxl\""), end = robot.find("</verp:bus>");

@@ -4,7 +4,6 @@
 #include "tests/host/run/lone_servo.hpp"
 #include "tests/host/run/process.hpp"
 
-// With factory-new servos and a scripted user.
 namespace verp::tool::test {
 namespace {
 
@@ -65,7 +64,6 @@ TEST_F(Setup, AServoOutOfItsBoxBecomesOneOfTheRobot) {
   EXPECT_EQ(Json::parse(outcome.out).at("joints").at("l_knee"), joint);
 }
 
-// It answers neither writes nor reads.
 TEST_F(Setup, AServoThatIsSetToSilenceIsHeard) {
   servos_.connect({.id = 77, .model = dxl::kModelXm430W210, .baud = 1'000'000});
   LoneServo& servos = servos_;

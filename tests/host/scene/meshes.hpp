@@ -7,7 +7,6 @@ struct MeshCount {
   std::size_t there = 0, missing = 0, coloured = 0;
 };
 
-/// Missing files count.
 inline MeshCount meshes_of(const model::Entity& entity) {
   MeshCount count;
   for (const model::Node& node : entity.nodes) {

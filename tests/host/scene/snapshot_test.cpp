@@ -9,8 +9,6 @@
 #include "host/trace/record/trace_writer.hpp"
 #include "tests/host/session/plans.hpp"
 
-// Live or from a trace; taking it changes nothing.
-
 namespace verp::scene {
 namespace {
 
@@ -48,7 +46,6 @@ TEST(Snapshot, OfTheTwinIsTheTruthOfItsTickAndTheRunHasTheSameBitsUnwatched) {
     const sim::Truth& truth = seen.truths[i];
     EXPECT_EQ(view.joint_rad, truth.joint_rad);
     EXPECT_LT((view.link_world[0].matrix() - truth.body_world.matrix()).norm(), 1e-12);
-    // The chain of links agrees with the physics.
     const model::Limb& leg = *sim::find_leg(plan.entity, 0);
     const Transform sole =
         view.link_world[static_cast<std::size_t>(leg.joints.back() + 1)] * leg.tip;

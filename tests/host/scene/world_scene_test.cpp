@@ -10,8 +10,6 @@
 #include "host/trace/record/trace_writer.hpp"
 #include "tests/host/session/plans.hpp"
 
-// Live and in a trace.
-
 namespace verp::scene {
 namespace {
 

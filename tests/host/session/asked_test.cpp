@@ -15,7 +15,6 @@ Command velocity(double vx_m_s, double vy_m_s, double wz_rad_s) {
   return command;
 }
 
-/// Twenty seconds with these results.
 sim::WalkMetrics walked(double distance_m, double ahead_m, double left_m, double turned_deg) {
   sim::WalkMetrics metrics;
   metrics.walk_s = 20;

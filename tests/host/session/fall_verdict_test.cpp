@@ -53,7 +53,6 @@ TEST(FallVerdict, ARobotThatIsLetGoUprightLiesDown) {
   EXPECT_FALSE(verdict.fell());
 }
 
-// Without torque never a fall.
 TEST(FallVerdict, IsOneThingAndStaysThat) {
   std::minstd_rand random(3);
   std::uniform_real_distribution<double> tilt(0, 2);

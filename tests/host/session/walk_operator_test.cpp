@@ -9,7 +9,6 @@ namespace {
 
 using safety::Mode;
 
-// A controller in a mode, stepping or not.
 struct Watched {
   explicit Watched(bool stands) : watcher(params(), {.vx_tenth_mm_s = 1000}, 2, 0, stands) {
     state.attitude.still_s = balance::kBestKnown_s;

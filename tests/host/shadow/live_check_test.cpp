@@ -81,7 +81,6 @@ TEST(LiveCheck, LateAndLostAnswersAloneLeaveNoTickOut) {
   EXPECT_GT(compared, 600u * kSeeds);
 }
 
-/// The first wrong tick.
 template <class Field>
 std::uint32_t flip(WatchedRobot<>& robot, Field& field) {
   robot.run(200);

@@ -94,7 +94,6 @@ TEST(OperatorNode, AnswersThreeClientsAtOnceEachByItsOwnChannel) {
   canopen::SdoClient clients[] = {canopen::SdoClient(Node::kNode),
                                   canopen::SdoClient(canopen::further_sdo(plan::kWatcherSdo)),
                                   canopen::SdoClient(canopen::further_sdo(plan::kToolSdo))};
-  // In segments, again and again.
   constexpr canopen::Address kAsked[] = {{0x1008, 0}, {0x1201, 1}, {0x1202, 2}};
   const std::string expected[] = {"VERP controller", "\xD1\x06", "\xC2\x06"};
   std::uint8_t got[3][32];

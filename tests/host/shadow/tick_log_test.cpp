@@ -55,7 +55,6 @@ TEST(TickLog, WhatIsHeldStandsStillWhileTheLoopGoesOn) {
   EXPECT_EQ(tick_at(log, 30 % Log::kTicks), 14u) << "it was not kept";
 }
 
-// A new follower needs them.
 TEST(TickLog, TicksGoOnWhileOnlyTheStateIsHeld) {
   Log& log = renewed<Log>(no_images);
   keep(log, 0, 30);
@@ -67,7 +66,6 @@ TEST(TickLog, TicksGoOnWhileOnlyTheStateIsHeld) {
   EXPECT_EQ(tick_at(log, 34 % Log::kTicks), 34u);
 }
 
-// Like a window's blocks and SDO segments.
 TEST(TickLog, PiecesMakeTheWhole) {
   Log& log = renewed<Log>(no_images);
   keep(log, 0, 21);

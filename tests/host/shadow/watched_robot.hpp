@@ -15,7 +15,6 @@
 
 namespace verp::shadow::test {
 
-/// Loses some received frames.
 class DeafBus {
  public:
   explicit DeafBus(can::VirtualCan& bus) : bus_(bus) {}
@@ -39,7 +38,6 @@ class DeafBus {
   std::minstd_rand random_{11};
 };
 
-/// May miss frames.
 class Ear : public can::Node {
  public:
   explicit Ear(const Params& params) : check(params) {}
@@ -171,7 +169,6 @@ class WatchedRobot {
     plant.motion.gyro_count[0] = static_cast<std::int16_t>(ticks_++ % 50);
     controller->loop.tick();
   }
-  /// For the test to corrupt.
   State& state() { return const_cast<State&>(controller->loop.state()); }
   LiveCheck& check() { return ear->check; }
 

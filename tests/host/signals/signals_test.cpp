@@ -22,7 +22,6 @@ std::vector<std::string> names_of(const std::vector<Column>& columns,
 
 using Names = std::vector<std::string>;
 
-// Brackets belong to a name.
 TEST(Columns, AreFoundByNameOrByPattern) {
   const std::vector<Column> all = columns_of(sample_params(), true);
   const auto found = [&](const char* pattern) { return names_of(all, matching(all, pattern)); };

@@ -31,7 +31,6 @@ model::Joint joint_with(const model::Gearbox& gearbox) {
   return joint;
 }
 
-/// Without an engine, by the same implicit step.
 struct Bench {
   explicit Bench(const model::Joint& joint, double inertia = 0.0, double step = 0.001)
       : inertia_kg_m2(inertia),

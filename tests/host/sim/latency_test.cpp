@@ -15,7 +15,6 @@ namespace {
 constexpr double kLate_s = 0.03;
 constexpr std::uint64_t kLate_us = 30'000;
 
-/// In free fall.
 model::Entity falling_biped(double latency_s) {
   model::Entity entity = biped();
   for (model::Node& node : entity.nodes) node.collisions.clear();
@@ -39,7 +38,6 @@ TEST(Latency, TheImuTellsWhatOneWithoutItToldSoManyStepsAgo) {
   Fall prompt(falling_biped(0)), late(falling_biped(kLate_s));
   std::vector<ImuMeasurement> told;
   for (std::size_t i = 0; i < 200; ++i) {
-    // So that readings change.
     for (Fall* each : {&prompt, &late}) {
       each->robot.body().add_velocity(Vec3::Zero(), Vec3(0.02, -0.01, 0.005));
       each->step();

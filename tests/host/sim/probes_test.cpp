@@ -8,7 +8,6 @@
 #include "host/twin/sim/robot.hpp"
 #include "tests/host/sim/test_robots.hpp"
 
-// Against known weights and poses.
 namespace verp::sim::test {
 namespace {
 

@@ -9,7 +9,6 @@ namespace {
 
 constexpr double kLoopS = 0.001;
 
-/// Within this speed and acceleration.
 double way_s(Profile& profile, const ServoSetpoint& setpoint, double most_count_s,
              double most_count_s2) {
   profile.begin(setpoint, kLoopS);
@@ -47,7 +46,6 @@ TEST(Profile, OfATimeTakesThatTime) {
   }
 }
 
-// The profile starts from the present speed.
 TEST(Profile, TurnsRoundWithoutAJump) {
   Profile profile(0);
   ServoSetpoint setpoint{.goal_count = 1000};

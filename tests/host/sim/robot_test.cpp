@@ -265,7 +265,6 @@ TEST(Robot, CradleHoldsUntilTheLegsAreArmed) {
   EXPECT_FALSE(robot.truth().held);
 }
 
-// This works after every fall.
 TEST(Robot, IsSetOnItsFeetWhenItIsLimpAndHeldUntilItIsArmed) {
   World world;
   const model::Entity entity = test::biped();

@@ -18,7 +18,6 @@ struct Outcome {
   bool foot_force_valid;
 };
 
-/// In the air, both hips press.
 Outcome press_feet_together(const model::Entity& entity) {
   World world({.ground = false});
   TwinOptions options;

@@ -26,7 +26,6 @@ TwinOptions bench() {
   return options;
 }
 
-/// The test integrates its load.
 struct BareServo {
   model::Joint joint = test::joint("j", 0, Vec3::Zero(), Vec3::UnitZ());
   ServoSetpoint setpoint{.torque_on = true, .goal_count = 2048, .p_gain = 3500};

@@ -24,7 +24,6 @@ constexpr const char* kSolveLower = "_Z15solveL1StraightILj1EEvPKdPdjj";
 constexpr const char* kSolveUpper = "_Z17solveL1TransposedILj1EEvPKdPdjj";
 constexpr const char* kFactor = "_Z18factorMatrixAsLDLTILj1EEvPdS0_jj";
 
-/// The library's own, even if overridden.
 void* own_of_ode(const char* name) {
   void* ode = dlopen("libode.so.8", RTLD_NOW | RTLD_NOLOAD);
   return ode == nullptr ? nullptr : dlsym(ode, name);

@@ -4,7 +4,6 @@
 
 #include "host/robot/model/entity.hpp"
 
-/// Made in code: every number is visible.
 namespace verp::sim::test {
 
 inline constexpr double kGravity_m_s2 = 9.80665;  // as in the twin

@@ -28,7 +28,6 @@ Varied varied(std::uint64_t seed, const VaryBands& bands = {}) {
   return vary(robot(), {.seed = seed}, {}, bands);
 }
 
-/// With its range.
 struct Drawn {
   const char* name;
   double low, high;
@@ -131,7 +130,6 @@ TEST(Vary, WhatWasDrawnIsSaid) {
   EXPECT_LT(said.at("mass_factor_least"), said.at("mass_factor_most"));
 }
 
-// Whatever the step.
 TEST(GoalDelay, AServoActsWhenItsGoalArrives) {
   for (const std::uint32_t step_us : {1000U, 2000U}) {
     World world({.step_us = step_us, .gravity_m_s2 = 0, .ground = false});

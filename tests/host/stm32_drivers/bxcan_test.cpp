@@ -19,7 +19,7 @@ CanFrame frame_of(std::uint32_t id, unsigned number = 0) {
   return frame;
 }
 
-/// Of 168, 180 and 216 MHz.
+/// A quarter of 168, 180 and 216 MHz.
 constexpr std::uint32_t kApb1_hz[] = {42'000'000, 45'000'000, 54'000'000};
 /// CiA 301.
 constexpr std::uint32_t kRates[] = {1'000'000, 500'000, 250'000, 125'000};
@@ -78,7 +78,6 @@ TEST_P(BxCanDriver, MakesTheRateAndSamplePointThatItWasAskedFor) {
   EXPECT_LE(can.sample_point(), 0.90);
 }
 
-// Even if lower priorities fill the mailboxes.
 TEST_P(BxCanDriver, SendsTheBestFirstWhateverWaits) {
   can.send(frame_of(0x001));  // holds the bus
   advance(5);

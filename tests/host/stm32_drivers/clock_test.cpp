@@ -3,7 +3,6 @@
 #include "tests/host/stm32_drivers/rig.hpp"
 #include "tests/support/stm32/core_model.hpp"
 
-// Full speed with a crystal, the next best without.
 namespace verp::hal::stm32::test {
 namespace {
 

@@ -3,7 +3,6 @@
 #include "tests/support/stm32/imu_rig.hpp"
 #include "tests/support/stm32/spi_model.hpp"
 
-/// With either chip on either family's SPI.
 namespace verp::hal::stm32::test {
 
 using model::ImuKind;

@@ -2,7 +2,6 @@
 
 #include "tests/host/stm32_drivers/imu_driver.hpp"
 
-// Of all samples in the FIFO.
 namespace verp::hal::stm32::test {
 namespace {
 

@@ -3,7 +3,6 @@
 #include "hal/chip/invensense/ranges.hpp"
 #include "tests/host/stm32_drivers/imu_driver.hpp"
 
-// The driver recovers from every failure by itself.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -111,7 +110,6 @@ struct Meddler {
   int lost_write = -1;
 };
 
-// In this read or the next.
 TEST_P(MotionSensorDriver, SampleThatComesMeanwhileIsToldOnce) {
   Meddler bus{board.spi};
   invensense::MotionSensor<Meddler, Timer> imu(bus, board.rig.timer);
@@ -135,7 +133,6 @@ TEST_P(MotionSensorDriver, SampleThatComesMeanwhileIsToldOnce) {
   }
 }
 
-// A restart cures it.
 TEST_P(MotionSensorDriver, FifoThatStaysFullIsAFault) {
   Meddler bus{board.spi};
   invensense::MotionSensor<Meddler, Timer> imu(bus, board.rig.timer);

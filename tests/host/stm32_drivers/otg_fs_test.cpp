@@ -117,7 +117,6 @@ TEST_P(UsbPort, RefusesWhatItDoesNotKnowAndGoesOn) {
   expect_alive();
 }
 
-// Between any two stages.
 TEST_P(UsbPort, OutlivesRequestsThatAreGivenUp) {
   meet();
   auto& wire = rig.machine.otg_fs();

@@ -36,7 +36,6 @@ class ServoPowerSwitch : public ::testing::Test {
         .drive(kEmergencyStop.number, closed ? Outside::kLow : Outside::kOpen);
   }
   bool powered() { return rig.machine.gpio(kServoPower.port).level(kServoPower.number); }
-  /// With the orders in desk.next.
   app::DrivePower::Step tick() {
     const app::OperatorOrder order = panel.order(0);
     const bool emergency = (order.flags & kEmergencyStopFlag) != 0;

@@ -225,7 +225,6 @@ TYPED_TEST(UsartDriver, WriteWaitsForRoomNoLongerThanItsTimeout) {
   EXPECT_EQ(this->sent(), much);
 }
 
-// Its bytes are lost and counted.
 TYPED_TEST(UsartDriver, StuckSenderFreesTheBus) {
   this->open();
   this->line.tx_stuck = true;

@@ -16,7 +16,6 @@ inline void enable(ModelIo& io, std::uint32_t offset, std::uint32_t mask) {
   io.read32(base::kRcc + offset);
 }
 
-/// For at most `limit`.
 inline bool wait_set(Machine& machine, std::uint32_t address, std::uint32_t mask, Time limit) {
   ModelIo io = machine.io();
   const Time end = machine.now() + limit;

@@ -3,7 +3,6 @@
 #include "tests/host/stm32_model/usb_device.hpp"
 #include "tests/support/stm32/registers/otg_fs_table.hpp"
 
-// Broken hardware stays broken.
 namespace verp::hal::stm32::model {
 namespace {
 

@@ -4,7 +4,6 @@
 #include "tests/host/stm32_model/usb_device.hpp"
 #include "tests/support/stm32/registers/otg_fs_table.hpp"
 
-// Status words, interrupts, states of the bus.
 namespace verp::hal::stm32::model {
 namespace {
 

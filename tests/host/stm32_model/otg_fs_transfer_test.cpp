@@ -3,7 +3,6 @@
 #include "tests/host/stm32_model/usb_device.hpp"
 #include "tests/support/stm32/registers/otg_fs_table.hpp"
 
-// Transfers, and what stops them.
 namespace verp::hal::stm32::model {
 namespace {
 

@@ -137,7 +137,6 @@ TEST(Imu, SleepsWakesSamplesAtItsRateAndGivesEachSampleWhole) {
   EXPECT_EQ(line.machine.violations_text(), "");
 }
 
-/// Of either chip.
 struct Fifo {
   std::size_t size() { return std::size_t{line.read(size_at)} << 8 | line.read(size_at + 1); }
   std::vector<std::uint8_t> take(std::size_t count) {

@@ -19,7 +19,6 @@ session::WalkPlan plan_of(double walk_s) {
   return plan;
 }
 
-/// As by hand: verp walk --push.
 bool survives(session::WalkPlan plan, const PushOptions& options, const PushCell& cell,
               double impulse_n_s) {
   const double force_n = impulse_n_s / options.push_s;

@@ -1,7 +1,5 @@
 #include "tests/host/tool/program.hpp"
 
-// Files and folders that are not beside a robot.
-
 namespace verp::tool::test {
 namespace {
 

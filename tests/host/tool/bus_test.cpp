@@ -11,7 +11,6 @@
 #include "tests/support/delaying_link.hpp"
 #include "tests/unit/support/test_robot.hpp"
 
-// With a controller on a socket.
 namespace verp::tool::test {
 namespace {
 
@@ -127,7 +126,6 @@ TEST_F(BusCommand, AnInterruptedBenchStillReports) {
   EXPECT_LT(result["duration_s"], 30);
 }
 
-/// Delays or loses replies.
 class BusCable : public BusCommand {
  protected:
   using Cable = verp::test::DelayingLink;
@@ -242,7 +240,6 @@ TEST_F(BusLinks, ThatCannotBeOpenedSayWhy) {
   EXPECT_NE(nobody.err.find("give serial:PATH"), std::string::npos);
 }
 
-// Before the link is opened.
 TEST_F(BusLinks, AnIdThatIsNoneIsRefusedWithTheRangeOfItsLink) {
   for (const std::string id : {"-1", "0", "128", "253"}) {
     expect_refused("bus ping --link can:none0 --id " + id, "--id: " + id + " is no node id");
@@ -255,7 +252,6 @@ TEST_F(BusLinks, AnIdThatIsNoneIsRefusedWithTheRangeOfItsLink) {
   EXPECT_EQ(verp("bus ping --link unix:/nowhere/port --id 0").status, 3) << "an id, but no port";
 }
 
-// The device never answers.
 TEST_F(BusLinks, AnInterruptEndsALongScan) {
   link::Link silent(link::parse_endpoint("unix-listen:" + (folder_ / "port").string()));
   const Outcome outcome = shell(std::string("timeout -s INT -k 20 1 ") + VERP_PROGRAM +

@@ -14,7 +14,6 @@ class CanWalk : public Program {
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     return nlohmann::json::parse(outcome.out, nullptr, false);
   }
-  /// generic21 with another CAN period.
   std::string robot_at(int period_us) const {
     std::string text = slurp(model::find_model("generic21"));
     const std::string bus = "protocol=\"cia402\" baud=\"1000000\" period_us=\"";

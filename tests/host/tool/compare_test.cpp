@@ -2,8 +2,6 @@
 
 #include "tests/host/tool/program.hpp"
 
-// tests/host/compare checks the numbers.
-
 namespace verp::tool::test {
 namespace {
 

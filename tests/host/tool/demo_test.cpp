@@ -27,7 +27,6 @@ TEST_F(DemoCommand, WhatCannotBeIsOneLineAndBadInput) {
   expect_refused("demo follow --for 0", "--for");
 }
 
-// Two seconds are too short.
 TEST_F(DemoCommand, ThatFailsItsCriterionEndsWithOne) {
   fs::create_directory(folder_ / "follow.png");  // blocks the picture
   const Outcome lost = verp("demo follow --robots 2 --for 2 --json");

@@ -26,7 +26,6 @@ TEST_F(NewRobot, IsATableAndTheRobotMadeFromIt) {
   EXPECT_EQ(verp("check my_bot").status, 0);
 }
 
-// An option overrides the file.
 TEST_F(NewRobot, WalksAtThePaceThatItsFileSays) {
   ASSERT_EQ(verp("new robot slow_bot --from generic21").status, 0);
   const std::string walk = "walk slow_bot --for 3 --physics-step 2 --json";
@@ -107,7 +106,6 @@ std::vector<std::string> cells(const std::string& line) {
   return out;
 }
 
-// With each joint's goal and the gait's phase.
 TEST_F(Program, ExportTellsWhatTheControllerMadeOfEachTick) {
   ASSERT_EQ(verp("walk --for 3 --json --record a.mcap").status, 0);
   std::istringstream csv(verp("trace export a.mcap").out);

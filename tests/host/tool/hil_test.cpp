@@ -28,7 +28,6 @@ class Hil : public Program {
     return action::make_library(params(), action::read_folder(action::folder_of(entity.file)));
   }
   std::string place(const std::string& name) const { return (folder_ / name).string(); }
-  /// Creates `bus` and `orders`.
   std::string sockets() const {
     return "--link unix-listen:" + place("bus") + " --operator unix-listen:" + place("orders");
   }
@@ -41,7 +40,6 @@ class Hil : public Program {
   }
 };
 
-/// Digest, ticks and the summary's numbers.
 void expect_same(const Outcome& outcome, const json& expected) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json result = json::parse(outcome.out);
@@ -135,7 +133,6 @@ TEST_F(Hil, RefusesAControllerOfAnotherRobotByName) {
       << outcome.err;
 }
 
-// The summary is printed.
 TEST_F(Hil, KeepsTheTraceWhenInterrupted) {
   LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"));
   const Outcome outcome = shell("timeout --preserve-status -s INT 6 " + std::string(VERP_PROGRAM) +
@@ -230,7 +227,6 @@ TEST_F(Hil, ARobotThatLiesGetsUpFirst) {
   EXPECT_EQ(result.at("falls"), 0);
 }
 
-// Before the robot moves, with a remedy.
 TEST_F(Hil, AControllerWithoutActionsIsToldThatItCannotGetUp) {
   LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"));
   const Outcome outcome = hil("--for 3 --json --get-up " + sockets());

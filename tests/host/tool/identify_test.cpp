@@ -1,7 +1,5 @@
 #include "tests/host/tool/program.hpp"
 
-// tests/host/identify checks the findings.
-
 namespace verp::tool::test {
 namespace {
 

@@ -78,7 +78,6 @@ class ControllerOn {
     thread_ = std::thread([this] { run(); });
   }
   ~ControllerOn() { join(); }
-  /// The end follows the twin's.
   void join() {
     if (!thread_.joinable()) return;
     for (int i = 0; i < 200 && !done_; ++i) {
@@ -93,7 +92,6 @@ class ControllerOn {
   lockstep::Verdict verdict() const { return verdict_; }
 
  private:
-  /// From one power-up to the next.
   struct Life {
     Life(ControllerOn& owner)
         : device(owner.operator_port_, owner.params_, {}),

@@ -33,7 +33,6 @@ class Live : public Program {
                            .error = process::Stream{.file = folder_ / (name + ".err")},
                            .folder = folder_});
   }
-  /// Printed on standard error.
   std::uint16_t port_of(const std::string& name) const {
     const std::string before = "ws://127.0.0.1:";
     for (int i = 0; i < 3000; ++i) {

@@ -14,7 +14,6 @@ namespace {
 
 class SensorsRun : public Program {
  protected:
-  /// To generic21's left ankle, left foot and model.
   void write_robot(const std::string& name, const std::string& joint, const std::string& foot,
                    const std::string& elements) const {
     std::string text = slurp(model::find_model("generic21"));
@@ -44,7 +43,6 @@ std::map<std::string, std::vector<Message>> messages_in(const fs::path& trace) {
     all[std::string(channel.topic)].push_back({each.time_ns,
                                                std::uint64_t{stamp[0]} * 1'000'000'000 + stamp[1],
                                                std::string(each.data), std::string(schema.name)});
-    // To the last byte of its definition.
     const record::TeamChannel named("a", channel.topic, schema);
     EXPECT_TRUE(named.message(each.data)) << channel.topic;
   }

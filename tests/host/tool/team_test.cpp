@@ -18,7 +18,6 @@ using nlohmann::json;
 
 class Team : public Program {
  protected:
-  /// Beside the walk.
   process::Child controller(const std::string& link,
                             const std::vector<std::string>& more = {}) const {
     wait_for(link);

@@ -6,8 +6,6 @@
 #include "host/trace/record/trace_writer.hpp"
 #include "tests/host/tool/program.hpp"
 
-// tests/host/signals and tests/host/record check the numbers.
-
 namespace verp::tool::test {
 namespace {
 

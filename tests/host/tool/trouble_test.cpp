@@ -8,7 +8,6 @@
 
 #include "tests/host/tool/program.hpp"
 
-/// Trouble costs only what it must.
 namespace verp::tool::test {
 namespace {
 
@@ -63,7 +62,6 @@ TEST_F(Trouble, FullDiskCostsTheTraceButNotTheResult) {
   EXPECT_GT(json::parse(verp("trace info a.mcap --json").out).at("ticks"), (614 - 128) / 4.2);
 }
 
-// The original still has everything.
 TEST_F(Trouble, ARecoveryThatTheDiskRefusesLeavesNothing) {
   ASSERT_EQ(verp("walk --for 3 --json --record a.mcap").status, 0);
   const Outcome recovery = verp_with_blocks(1200, "trace recover a.mcap -o b.mcap");
@@ -221,7 +219,6 @@ TEST_F(Trouble, RecoveryOfATraceInAnOddPlaceIsACommandThatWorks) {
   EXPECT_TRUE(fs::exists(folder_ / "my 'runs'/a $b.mcap"));
 }
 
-// An existing CSV stays as it was.
 TEST_F(Trouble, ExportedNumbersAreWholeOrAbsent) {
   ASSERT_EQ(verp("walk --for 3 --json --record a.mcap").status, 0);
   std::ofstream(folder_ / "a.csv") << "before";

@@ -208,7 +208,6 @@ TEST_F(Usage, MissingAndMalformedFilesAreNamed) {
   expect_refused("replay bad.sdf", "wrong magic");
 }
 
-// No line or byte is named.
 TEST_F(Usage, FoldersAndNamesAreCalledWhatTheyAre) {
   for (const char* command : {"check", "walk", "export -o out"}) {
     expect_refused(std::string(command) + " /tmp", "/tmp: is a folder, not a robot's file; give");
@@ -239,7 +238,6 @@ TEST_F(Usage, LibrariesPrintNothingAndLeaveNothingAtHome) {
   EXPECT_FALSE(fs::exists(folder_ / ".sdformat"));
 }
 
-// Only files are replaced.
 TEST_F(Usage, DevicesAndPipesAreNotReplacedByTraces) {
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   expect_refused("walk --record pipe", "not a regular file");
@@ -277,7 +275,6 @@ TEST_F(Usage, UnknownBoardIsBadUsageAndTheBoardsAreListed) {
   }
 }
 
-// It is not a device's fault.
 TEST_F(Usage, ABoardWithoutItsImageIsBadInputEverywhere) {
   ::setenv("VERP_FIRMWARE_DIR", folder_.c_str(), 1);
   for (const char* command :

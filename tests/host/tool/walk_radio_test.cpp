@@ -16,7 +16,6 @@ using nlohmann::json;
 
 class WalkRadio : public Program {
  protected:
-  /// The example's leader and follower.
   struct Talk {
     Outcome world, leader, follower;
   };
@@ -37,7 +36,6 @@ class WalkRadio : public Program {
     return talk;
   }
 
-  /// By event, sender and receiver.
   std::map<std::string, int> kept(const std::string& file) const {
     const std::string bytes = slurp(folder_ / file);
     const record::mcap::File trace = record::mcap::parse(bytes);

@@ -24,7 +24,6 @@ void cut(const fs::path& from, const fs::path& to, std::size_t size) {
   std::ofstream(to, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(size));
 }
 
-// One JSON object with all documented fields.
 TEST_F(Walk, JsonTraceReplayAndDiffAgree) {
   const Outcome walk = verp("walk --for 4 --json --record a.mcap");
   ASSERT_EQ(walk.status, 0) << walk.err;
@@ -241,7 +240,6 @@ TEST_F(Walk, SeedsTellTheWayOfTheWayAsked) {
             std::string::npos);
 }
 
-// Not of the default robot.
 TEST_F(Walk, SeedsAreOfTheRobotThatHasAName) {
   const std::string rest = " --for 3 --physics-step 2 --json";
   const json alone = json::parse(verp("walk op3 --seed 1" + rest).out);
@@ -280,7 +278,6 @@ TEST_F(Walk, WhatWasNotMeasuredIsNullOrADash) {
   EXPECT_TRUE(none.at("zmp_bias_by_state_mm").at(3).is_null());
 }
 
-// It counts as not survived.
 TEST_F(Walk, AProgramThatIsKilledCountsAmongItsSeeds) {
   std::ofstream(folder_ / "kill.sh") << R"sh(
 "$1" walk --seeds 1-2 --for 8 --physics-step 2 &
@@ -298,7 +295,6 @@ done)sh";
       << outcome.out;
 }
 
-// The walk is good but slow.
 TEST_F(Walk, ASpeedThatIsFarFromWhatWasAskedStandsInTheFirstLine) {
   const auto first_line = [&](const std::string& step) {
     const Outcome walk = verp("walk --for 6 --step " + step);
@@ -309,7 +305,6 @@ TEST_F(Walk, ASpeedThatIsFarFromWhatWasAskedStandsInTheFirstLine) {
   EXPECT_EQ(first_line("0.04").find("asked"), std::string::npos);
 }
 
-// Servos cannot follow.
 TEST_F(Walk, AnOrderCutToLessThanHalfIsNoGoodWalk) {
   const Outcome outcome =
       verp("walk --step 0.15 --cycle 0.3 --set gait.max_step_m=0.3 --for 15 --physics-step 2");
@@ -328,7 +323,6 @@ TEST_F(Walk, SweepGivesATable) {
   EXPECT_NE(slurp(folder_ / "out/index.html").find("Step length sweep"), std::string::npos);
 }
 
-// A limit shortens steps.
 TEST_F(Walk, SweepTellsAskedAndWalkedSteps) {
   const Outcome outcome =
       verp("walk --for 4 --set gait.max_step_m=0.03 --sweep-step 0.02:0.04:0.02 --report out");

@@ -27,7 +27,6 @@ class Editor : public Window {
   void press(const char* button) { QTest::mouseClick(find<QPushButton>(button), Qt::LeftButton); }
   std::string complaint() { return find<QLabel>("editor_complaint")->text().toStdString(); }
 
-  /// By a double click.
   QLineEdit* type(const std::string& path, const char* text) {
     auto* table = find<QTableView>("editor_numbers");
     const int row = static_cast<EditorTable*>(table->model())->row_of(path);

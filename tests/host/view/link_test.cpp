@@ -38,7 +38,6 @@ bool wait_for(Met met) {
   return met();
 }
 
-/// A controller that is there, gone or to come.
 class Link : public testing::Test {
  protected:
   Link() : plan_(plan_of("dxl")), entity_(std::make_shared<model::Entity>(plan_.entity)) {}

@@ -17,7 +17,6 @@
 #include "tests/host/shadow/polled_controller.hpp"
 #include "tests/host/view/window_fixture.hpp"
 
-// With a link, a gamepad, a trace's State.
 namespace verp::view {
 namespace {
 

@@ -168,7 +168,6 @@ TEST_F(Window, ARobotThatMayGetUpByItselfNeedsNoWord) {
 }
 
 TEST_F(Window, ARobotWithoutActionsToGetUpByIsOfferedNone) {
-  // This robot has no folder of actions.
   const QString file = folder_.filePath("robot.sdf");
   std::filesystem::copy(model::find_model("darwin_op"), file.toStdString());
   window_.open(file);
@@ -253,7 +252,6 @@ TEST_F(Window, AJointAndAFootMoveInTheHand) {
   hold.to_world_m = scene::Vec3(0, 0, -1);
   window_.scene().held(hold);
   EXPECT_TRUE(find<QLabel>("reach")->text().contains("out of reach"));
-  // The last of an arm.
   window_.scene().let_go(hold);
   const auto elbow = std::find_if(joints.begin(), joints.end(),
                                   [](const model::Joint& j) { return j.name == "l_elbow"; });

@@ -3,7 +3,6 @@
 #include "tests/support/stm32/can_model.hpp"
 #include "tests/support/stm32/rig.hpp"
 
-/// bxCAN is open at 1 Mbit/s.
 namespace verp::hal::stm32::test {
 
 using Can = BxCan<Io, Timer>;

@@ -21,7 +21,6 @@ class GpioModel : public Bank {
   /// 16: another mode.
   unsigned function(unsigned pin) const;
   bool open_drain(unsigned pin) const;
-  /// Called after each change of a pin's level.
   void on_change(std::function<void(unsigned, bool)> watcher) {
     watchers_.push_back(std::move(watcher));
   }

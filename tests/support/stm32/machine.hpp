@@ -53,7 +53,6 @@ class ModelIo {
 
 static_assert(Io<ModelIo>);
 
-/// As in RCC_CSR.
 enum class ResetCause { kPowerOn, kPin, kSoftware, kIwdg, kWwdg, kLowPower, kBrownOut };
 
 struct Options {

@@ -111,7 +111,6 @@ bool OtgFsModel::session_valid() const {
   return vbus_ && has(kGccfg, kGccfgVbden);
 }
 
-/// Bits that follow from others.
 void OtgFsModel::refresh() {
   const bool session = session_valid();
   if (session != session_ && machine().rcc().enabled(gate())) {

@@ -36,7 +36,6 @@ class RccModel : public Bank {
   }
   void clocks_settled() { fresh_bits_ = 0; }
   void flag_reset(ResetCause cause);
-  /// Wait states, voltage and bus limits.
   void check_limits();
 
   void reset() override;

@@ -21,7 +21,7 @@ class SerialHost {
   explicit SerialHost(Machine& machine) : machine_(machine), usb_(machine.otg_fs()) { work(); }
 
   // Script.
-  bool reading = true;       ///< a program reads
+  bool reading = true;
   unsigned deaf_every = 0;   ///< one ACK of the host in so many IN packets is lost; 0: never
   unsigned twice_every = 0;  ///< one ACK of the device in so many OUT packets is lost
 

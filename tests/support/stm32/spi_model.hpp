@@ -14,11 +14,9 @@ class SpiDevice {
  public:
   virtual ~SpiDevice() = default;
   virtual void select(bool selected, Time now) = 0;
-  /// One byte each way.
   virtual std::uint8_t exchange(std::uint8_t out, Time now) = 0;
   /// `mode` is 0 or 3.
   virtual bool takes_mode(unsigned mode) const = 0;
-  /// For the next exchange.
   virtual std::uint32_t max_hz() const = 0;
 };
 

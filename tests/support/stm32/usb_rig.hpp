@@ -5,7 +5,6 @@
 #include "tests/support/stm32/rig.hpp"
 #include "tests/support/stm32/serial_host.hpp"
 
-/// USB is up, with a PC to plug into.
 namespace verp::hal::stm32::test {
 
 inline constexpr std::uint8_t kChipNumber[usb::kSerialBytes] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10};

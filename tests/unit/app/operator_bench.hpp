@@ -117,7 +117,6 @@ class Bench {
 inline Bench<>& fresh_bench(const OperatorSetup& setup = {}) {
   return renewed<Bench<>>(no_images, setup);
 }
-/// Accepts any request.
 inline Bench<>& relaxed_bench() {
   Bench<>& bench = fresh_bench();
   bench.relax();

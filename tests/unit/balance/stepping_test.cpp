@@ -147,7 +147,6 @@ TEST(Stepping, SolesComeNoNearerThanThoseOfARobotThatStands) {
             0.005F);
 }
 
-// The planned walk is back within a second.
 TEST(Stepping, GoesOnFromTheFootThatCaughtItWithoutAJump) {
   Pushed walk = ahead();
   walk.to_swing_of(kRight);

@@ -36,7 +36,6 @@ Drive in(State state) {
   return drive;
 }
 
-// Masked bits of the controlword.
 struct Command {
   std::uint8_t mask;
   std::uint8_t value;
@@ -48,7 +47,6 @@ constexpr Command kCommands[] = {
     {0x82, 0x00, {7, 9, 10, 12}},  // disable voltage
     {0x86, 0x02, {7, 10, 11}},     // quick stop
 };
-// Transitions by controlword.
 struct Arrow {
   State from;
   State to;

@@ -61,7 +61,6 @@ TEST(Pdo, UnpackingIsTheInverseOfPackingForAnyMapping) {
   expect_round_trips<64>(true, 2);
 }
 
-// As in the first RPDO of CiA 402 drives.
 TEST(Pdo, BytesAreLittleEndianInTheOrderOfTheMapping) {
   PdoMapping<> mapping;
   EXPECT_TRUE(mapping.add(Mapped::from(0x60400010)));

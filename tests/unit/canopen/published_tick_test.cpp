@@ -27,7 +27,6 @@ Inputs random_inputs(std::uint32_t tick) {
   return inputs;
 }
 
-/// Fresh inputs and a few words are new.
 Inputs next_inputs(const Inputs& before, bool bus_imu, int words) {
   Inputs now = before;
   copy_heard(now, random_inputs(before.tick + 1), bus_imu);

@@ -6,7 +6,6 @@
 
 namespace verp::canopen::test {
 
-/// A frame as documents write it.
 struct Line {
   bool request;
   std::uint8_t bytes[8];
@@ -18,7 +17,6 @@ inline Frame frame_of(const Line& line) {
   return frame;
 }
 
-/// Deterministic on every machine.
 class Dice {
  public:
   explicit Dice(std::uint32_t seed) : state_(seed) {}

@@ -34,7 +34,6 @@ struct OneObject {
 };
 static_assert(Dictionary<OneObject> && !StreamingDictionary<OneObject>);
 
-// It receives the other lines.
 template <class Machine>
 void play(Machine& machine, bool requests, const Line* lines, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {

@@ -110,7 +110,6 @@ TEST(Acting, ALibraryThatNobodyAsksOfChangesNoBit) {
   without.command.request = Request::kStand;
   for (int i = 0; i < 600; ++i) {
     if (i == 400) with.walk(500), without.walk(500);
-    // An action number that does not exist.
     with.inputs.action = without.inputs.action = static_cast<std::uint8_t>(i >= 500 ? 7 : 0);
     with.tick();
     without.tick();

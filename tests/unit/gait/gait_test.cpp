@@ -141,7 +141,7 @@ TEST(Gait, RightStepsMirrorLeftSteps) {
   }
 }
 
-// What remains is how far the head was ahead when a key point was fixed.
+// The error is how far the head was ahead when a key point was fixed.
 TEST(Gait, AnyPeriodGivesTheSameWalk) {
   constexpr int kSamples = 100;  // every 40 ms
   static Pose wanted[kSamples][kFeet];
@@ -211,7 +211,6 @@ TEST(Gait, WeightIsSharedAndGoesToTheCarryingFoot) {
   }
 }
 
-// For any double support and end of step.
 TEST(Gait, AFootThatLandedTakesTheWeightOverInNoLessThanEightMilliseconds) {
   for (const float double_support : {0.0F, 0.006F, 0.2F}) {
     Walker walker(test::kRobot);
@@ -400,7 +399,6 @@ TEST(Gait, WalkIsRefusedWhereTheLegsDontReachTheFloor) {
   EXPECT_NE(walker.state.footsteps.notes & kPlanRefused, 0);
 }
 
-// One at a time, under bold orders.
 TEST(Gait, EndsOfEveryTuningRangeGiveFinitePlans) {
   for (int id = 0; id < kTuningCount && id < static_cast<int>(sizeof(GaitTuning) / 4); ++id) {
     for (const float value : {kTuningRanges[id].low, kTuningRanges[id].high}) {

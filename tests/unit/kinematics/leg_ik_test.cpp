@@ -160,7 +160,6 @@ TEST(LegIk, NewtonAgreesWithTheClosedForm) {
   }
 }
 
-// Each solution starts the next.
 TEST(LegIk, NewtonFollowsAPathWhereAxesDoNotMeet) {
   const Params params = test::make_offset_robot();
   for (const LegParams& leg : params.leg) {

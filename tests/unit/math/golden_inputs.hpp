@@ -34,7 +34,6 @@ inline constexpr Function kFunctions[] = {{"sin", sin},
                                           {"sincos.cos", cos_of_both}};
 inline constexpr int kFunctionCount = sizeof kFunctions / sizeof kFunctions[0];
 
-/// Seams, cancellations, worst cases, special values.
 inline constexpr float kArguments[] = {0.0F,
                                        -0.0F,
                                        0x1p-149F,

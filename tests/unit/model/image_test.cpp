@@ -39,7 +39,6 @@ ImageFault check() {
   return check_image(&image, sizeof image);
 }
 
-// The catalogue's check value.
 TEST(Image, CrcIsTheOneOfZip) {
   EXPECT_EQ(crc32("123456789", 9), 0xCBF43926u);
   EXPECT_EQ(crc32("6789", 4, crc32("12345", 5)), 0xCBF43926u);

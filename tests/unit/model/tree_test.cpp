@@ -71,7 +71,6 @@ TEST(Tree, EveryPathGoesFromLinkToNeighbouringLink) {
   }
 }
 
-// 32 joints in a row.
 TEST(Tree, DeepestChainIsSearched) {
   static Params chain;
   chain.joint_count = kMaxJoints;

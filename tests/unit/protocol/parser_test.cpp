@@ -42,7 +42,6 @@ void add_packet(Stream& stream, Random& random, bool spoilt) {
   std::uint8_t data[64];
   const std::size_t count = random.below(sizeof data);
   for (std::size_t i = 0; i < count; ++i) {
-    // Many bytes need stuffing.
     data[i] = static_cast<std::uint8_t>(random.below(3) == 0 ? random.next() : 0xFD + i % 3);
   }
   const std::size_t size = encode_status(packet, sizeof packet, 1, 0, data, count);
@@ -50,7 +49,6 @@ void add_packet(Stream& stream, Random& random, bool spoilt) {
   for (std::size_t i = 0; i < size; ++i) stream.add(packet[i]);
 }
 
-/// Good and corrupted packets, false headers, noise.
 void fill(Stream& stream, Random& random) {
   stream.size = 0;
   while (stream.size < kStream) {

@@ -26,7 +26,6 @@ struct Random {
   }
 };
 
-/// The store's expected content.
 struct Value {
   std::size_t size = 0;
   std::uint8_t bytes[kMaxValue] = {};

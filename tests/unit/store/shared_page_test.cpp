@@ -137,7 +137,6 @@ TEST(SharedPage, BothAreReplaced) {
   EXPECT_TRUE(board.holds(1, 1));
 }
 
-// At any write, and once more at the next start.
 TEST(SharedPage, APowerCutLeavesTheOldOrTheNew) {
   int old_ones = 0, new_ones = 0;
   for (const bool at_home : {false, true}) {

@@ -15,7 +15,6 @@
 namespace verp::abi::test {
 namespace {
 
-/// As by `verp walk --cameras`.
 camera::Picture as_a_trace_keeps_it(const std::string& world_file) {
   session::WalkPlan plan = session::test::plan_of("");
   plan.twin.cameras = true;
@@ -172,7 +171,6 @@ TEST(LibverpSight, IsSeenFromWhereOneSays) {
       EXPECT_TRUE(name == other || picture != that) << name << " is " << other;
     }
   }
-  // From above and from the side.
   for (const double aside_m : {0.0, -1.0}) {
     verp_view view = Looking::view(nullptr);
     const double eye[] = {0.8, aside_m, aside_m == 0 ? 1.4 : 0.4}, ball[] = {0.8, 0, 0.4};

@@ -14,8 +14,6 @@
 #include "tests/host/libverp/expect_error.hpp"
 #include "tests/host/libverp/pictures/pictures.hpp"
 
-// It ends, hangs or writes nonsense; threads come and go.
-
 namespace verp::abi::test {
 namespace {
 
@@ -121,7 +119,6 @@ TEST(LibverpSightTrouble, ControllerAndSecondThreadAreTold) {
   EXPECT_EQ(seen.why.rfind("verp_session_picture: another thread", 0), 0U) << seen.why;
 }
 
-/// Silent from the start, or later.
 TEST(Painter, WaitsForNobodyForEver) {
   using camera::Painter;
   const camera::Stage stage{.robots = {{model::find_model("generic21"), 1}}, .world_file = ""};

@@ -79,7 +79,6 @@ class Test {};
 template <class... Type>
 struct Types {};
 
-/// A case for each of the suite's types.
 template <template <class> class Body, class List>
 struct TypedCases;
 template <template <class> class Body, class... Type>

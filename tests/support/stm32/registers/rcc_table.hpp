@@ -2,10 +2,8 @@
 #include "hal/chip/stm32/registers/rcc.hpp"
 #include "tests/support/stm32/registers/table.hpp"
 
-/// The families' enable registers differ in their bits.
 namespace verp::hal::stm32::rcc {
 
-/// Differences in common registers.
 struct FamilyBits {
   std::uint32_t cr_rw = 0, cr_r = 0;
   std::uint32_t pllcfgr = 0;  ///< beyond the others'

@@ -1,7 +1,6 @@
 #pragma once
 #include "tests/support/stm32/registers/table.hpp"
 
-/// Each external interrupt line's port, and the lines.
 namespace verp::hal::stm32 {
 
 namespace syscfg {
