@@ -17,9 +17,8 @@ struct CampaignRun {
 int wanted_runs(int runs);
 
 /// Runs seeds 1 to `runs`, or only VERP_SEED; a failure names its seed. Prints one row per kind.
-/// Lost goals come a tick late and lost reports keep the last values, so no step moves. The
-/// ground's noise makes a walk of half a metre differ by up to 3.7 %, so all seeds together must
-/// walk within 2 % of the distance without the fault.
+/// The ground's noise makes a walk of half a metre differ by up to 3.7 %, so all seeds together
+/// must walk within 2 % of the distance without the fault.
 void run_seeds(const std::string& name, int runs,
                const std::function<CampaignRun(std::uint32_t seed)>& run);
 

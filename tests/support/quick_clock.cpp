@@ -12,7 +12,7 @@
 /// counter, along a line through the kernel's answers.
 ///
 /// Within a process the clock never runs backwards. A sleep may end some microseconds early by this
-/// clock. with-can checks that the counter neither stops nor changes its speed.
+/// clock. with-can checks that the counter runs evenly.
 namespace {
 
 constexpr std::uint64_t kFirstLine = 200'000'000;  // minimum to measure a speed

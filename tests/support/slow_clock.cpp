@@ -5,7 +5,7 @@
 #include <ctime>
 
 /// with-can loads this into User-Mode Linux, whose clock then runs at 1 / VERP_SLOW_CLOCK of this
-/// PC's speed. Other work of this PC costs its programs less of their period.
+/// PC's speed.
 ///
 /// User-Mode Linux asks its PC for the time and wakes by one single-shot timer
 /// (arch/um/os-Linux/time.c of Linux 6.1).

@@ -12,9 +12,9 @@
 #include "tests/support/stm32/bank.hpp"
 #include "tests/support/stm32/time.hpp"
 
-/// A whole STM32 on the PC, built from its reference manual. Time passes with each access
-/// (Options::access_cycles) or by advance(). The test scripts outside events and faults. Accesses
-/// against the manual are recorded: see violations().
+/// A whole STM32, built from its reference manual. Time passes with each access
+/// (Options::access_cycles) or by advance(). Accesses against the manual are recorded: see
+/// violations().
 namespace verp::hal::stm32::model {
 
 class Machine;
