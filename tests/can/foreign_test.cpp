@@ -133,7 +133,7 @@ TEST_F(ForeignMaster, StartsTheDrivesMovesAJointAndReadsItBack) {
   for (const Decoded& each : of(frames, "NMT Error Control", kJoint)) {
     if (states.empty() || states.back() != each.state) states.push_back(*each.state);
   }
-  // When time begins, and on command.
+  // The node boots when time begins, and on command.
   EXPECT_EQ(states, (std::vector<unsigned>{0x00, 0x7F, 0x05}));
 }
 

@@ -32,7 +32,7 @@ struct CanSocket : link::CanPort {
 using CanController = verp::test::ControllerOn<CanSocket, app::LockstepCan>;
 using Frames = std::vector<Decoded>;
 
-/// A late answer is repeated.
+/// A twin that answers late repeats its answer.
 Frames without_repeats(const Frames& all) {
   Frames kept;
   std::vector<std::size_t> answer;

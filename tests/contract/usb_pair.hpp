@@ -15,7 +15,7 @@ class UsbPair {
 
  public:
   static constexpr bool kDetectsLoss = true;
-  static constexpr bool kKeepsBytesOnLoss = !kPulled;  // some may be in the PC
+  static constexpr bool kKeepsBytesOnLoss = !kPulled;  // some bytes may be in the PC
 
   class Far {
    public:

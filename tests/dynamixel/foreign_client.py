@@ -432,7 +432,7 @@ def startup(twin):
     assert port.read(HEAD, POSITION_P, 2) == 900 and port.read(HEAD, TORQUE, 1) == 1
     assert abs(port.read(HEAD, GOAL, 4) - port.read(HEAD, POSITION, 4)) <= 10
     assert port.write(HEAD, TORQUE, 0, 1) == 0
-    assert port.ask(HEAD, BACKUP, restore).error == 0  # 60 was 0 in the backup
+    assert port.ask(HEAD, BACKUP, restore).error == 0  # register 60 was 0 in the backup
     assert port.read(HEAD, STARTUP, 1) == 0
     set_up(port, 3, 8)  # Torque On by Goal Update
     assert port.write(HEAD, GOAL, port.read(HEAD, POSITION, 4), 4) == 0

@@ -5,7 +5,7 @@
 namespace verp::test {
 namespace {
 
-constexpr std::uint64_t kLimp_us = 1'500'000;  // torque off reaches every servo
+constexpr std::uint64_t kLimp_us = 1'500'000;  // within this, torque off reaches every servo
 constexpr std::uint64_t kFall_us = 1'000'000;  // to confirm a tilt
 
 }  // namespace

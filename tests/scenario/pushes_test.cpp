@@ -45,7 +45,7 @@ TEST(Pushed, BackwardItFallsWithoutFeedback) {
   EXPECT_EQ(pushed.result.value("fallen", false), true);
 }
 
-// As hard as while walking; then it stands again.
+// It is pushed as hard as while walking, then stands again.
 std::map<double, double> hardest_where_it_stands(const std::string& how) {
   const Walk map = walk("generic21 --map stand --map-grid 4 --physics-step 2" + how);
   EXPECT_EQ(map.status, 0);

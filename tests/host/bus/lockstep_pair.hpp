@@ -39,7 +39,7 @@ class ServedLink {
 
   LinkFaults outbound, inbound;
   bool cut = false;
-  int cut_every = 0;  ///< so many answers, one is lost and the link cut
+  int cut_every = 0;  ///< after so many answers one is lost and the link cut
   std::uint64_t quiet_reads = 0;
   std::uint64_t faults = 0;
 

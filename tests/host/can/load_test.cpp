@@ -49,7 +49,7 @@ TEST(BusLoad, TheLiveCheckFitsBeside21DrivesAt125Hz) {
   EXPECT_FALSE(plan::has_room_to_publish(params, false));
 }
 
-// Twelve bytes; the IMU's own frames are saved.
+// The counts take twelve bytes; the IMU's own frames are saved.
 TEST(BusLoad, AnOwnImuIsToldInTwoFramesMore) {
   Params params = test::can_params(21);
   const plan::TickLoad load(params, {});

@@ -18,7 +18,7 @@ namespace verp::can {
 
 struct Odds {
   double lost = 0, doubled = 0, swapped = 0;  ///< of frames
-  double foreign = 0;                         ///< after another sender's frame
+  double foreign = 0;                         ///< share of frames after another sender's
 };
 
 class ServedCan {

@@ -99,7 +99,7 @@ TEST(Fit, FindsTheNumbersOfATwinThatWasGivenOthers) {
             0.3 * fit.rms_rad(before, 0, recording.ticks.size()));
 }
 
-// Too slow to show a few ms.
+// The motion is too slow to show a delay of a few ms.
 TEST(Fit, LeavesANumberThatTheMotionDoesNotTell) {
   const Recording recording = told(arm(), 0, 12);
   model::Entity entity = believed();

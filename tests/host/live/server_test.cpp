@@ -88,7 +88,7 @@ TEST(Live, AViewerGetsTheLastMessageAndThenAllInOrder) {
       << "a channel that comes later is offered, too";
   viewer.subscribe(71, c);
   viewer.say(R"({"op":"unsubscribe","subscriptionIds":[72]})");
-  viewer.next_text("no subscription 72");  // the server knows 71
+  viewer.next_text("no subscription 72");
   for (std::uint64_t i = 0; i < 100; ++i)
     server.send(i % 2 == 0 ? a : c, 100 + i, std::to_string(i));
   const std::vector<Data> got = read_up_to(viewer, "99");

@@ -30,7 +30,7 @@ class TraceMerge : public TraceFolder {
   }
 };
 
-// Written again, it is the same bytes.
+// A message that is read and written again has the same bytes.
 TEST_F(TraceMerge, KnowsEveryTypeOfMessageByItsDefinition) {
   write("a.mcap", 40);
   const std::string bytes = slurp(folder_ / "a.mcap");

@@ -62,7 +62,6 @@ TEST(WalkOperator, WhoStandsIsNeverAskedToWalkAndEndsInTheStand) {
   EXPECT_STREQ(robot.watcher.failed(), "");
 }
 
-// Until then a pushed robot does not step.
 TEST(WalkOperator, WhoStandsBeginsWhenTheGyroIsKnown) {
   Watched robot(true);
   robot.state.attitude.still_s = 0;

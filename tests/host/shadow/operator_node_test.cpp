@@ -163,7 +163,6 @@ TEST(OperatorNode, ObeysNoOtherMaster) {
   }
 }
 
-// Both share one set of registers.
 TEST(OperatorNode, StandsBesideAnOperatorsPort) {
   verp::test::OperatorDesk port;
   hal::ScriptedCan bus;

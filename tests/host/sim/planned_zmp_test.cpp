@@ -98,7 +98,6 @@ TEST(PlannedZmp, LiesUnderTheFootThatCarriesAlone) {
   EXPECT_GT(seen[1], 300);
 }
 
-// Also in double support.
 TEST(PlannedZmp, StaysInTheSupportPolygonOfARobotThatStandsAsPlanned) {
   Walker walker(verp::test::kRobot);
   walker.set_off({});

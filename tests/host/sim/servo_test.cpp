@@ -100,7 +100,6 @@ TEST(Servo, ProfileIsAStraightLineOverItsTime) {
     servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS);
     EXPECT_NEAR(count_of(bare.joint.servo, servo.profile_rad()), 2048 + 10.0 * ms, 1e-6) << ms;
   }
-  // It starts from the profile's position.
   bare.setpoint.goal_count = 2048;
   for (int ms = 1; ms <= 5; ++ms) servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS);
   EXPECT_NEAR(count_of(bare.joint.servo, servo.profile_rad()), 2048 + 50, 1e-6);

@@ -225,7 +225,7 @@ TEST_P(BxCanDriver, LetsInWhatItsRulesSayAndNothingElse) {
   }
   advance(2000);
   CanFrame heard;
-  // All were ready at once.
+  // All frames were ready at once.
   for (const CanFrame& each : {extended, frame_of(0x180), frame_of(0x1FF)}) {
     ASSERT_TRUE(filtered.poll(heard, 0));
     EXPECT_TRUE(heard == each) << each.id;

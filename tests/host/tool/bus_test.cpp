@@ -212,7 +212,7 @@ class SlowController {
   std::thread thread_;
 };
 
-// Each comes during the next request; all have one length.
+// Each reply comes during the next request; all have one length.
 TEST_F(BusLinks, LateRepliesAreNotTakenForOthers) {
   const SlowController controller("unix-listen:" + (folder_ / "port").string(), 300'000);
   const Outcome outcome = verp(

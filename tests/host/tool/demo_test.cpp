@@ -15,7 +15,7 @@ TEST_F(DemoCommand, ListsWhatThereIs) {
 }
 
 TEST_F(DemoCommand, WhatCannotBeIsOneLineAndBadInput) {
-  expect_refused("demo folow", "follow");  // did you mean
+  expect_refused("demo folow", "follow");
   expect_refused("demo follow --robots 1", "2 to 8");
   expect_refused("demo follow --robots 9", "2 to 8");
   expect_refused("demo follow --radio range_m=0", "range_m");

@@ -72,7 +72,6 @@ TEST_F(WalkRadio, ProgramsOutsideHearEachOtherAsTheAirHasIt) {
     return std::count(text.begin(), text.end(), '\n') - 1;
   };
   EXPECT_EQ(lines(first.follower.out), events.at("heard 0 1")) << first.follower.out;
-  // Without c the others hear the same.
   const Outcome alone =
       verp("walk --json --for 3 --physics-step 2 --seed 3 --at-pose -0.8,0,0", "alone");
   EXPECT_EQ(json::parse(first.world.out).at("digest"), json::parse(alone.out).at("digest"));

@@ -60,7 +60,7 @@ class Bank {
   virtual void on_write(std::uint32_t /*offset*/, std::uint32_t /*raw*/, std::uint32_t /*old*/) {}
   /// For registers with several addresses.
   virtual std::uint32_t fold(std::uint32_t offset) const { return offset; }
-  /// Under 32 bits.
+  /// True if accesses under 32 bits are allowed.
   virtual bool narrow_ok(std::uint32_t /*offset*/, unsigned /*width*/) const { return false; }
 
   void add_registers(const Table& table, std::uint32_t shift);

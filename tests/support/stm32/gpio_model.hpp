@@ -18,7 +18,7 @@ class GpioModel : public Bank {
   /// Open-drain outputs at 1 leave it to the outside or the pull.
   bool level(unsigned pin) const;
   std::uint32_t mode(unsigned pin) const;
-  /// 16: another mode.
+  /// 16: the pin is in another mode.
   unsigned function(unsigned pin) const;
   bool open_drain(unsigned pin) const;
   void on_change(std::function<void(unsigned, bool)> watcher) {

@@ -63,7 +63,7 @@ class SerialHost {
 
   bool opened() const { return opened_; }
 
-  /// They wait until the port accepts them.
+  /// Bytes wait until the port accepts them.
   void send(const Bytes& bytes) { outbox_.insert(outbox_.end(), bytes.begin(), bytes.end()); }
   std::size_t unsent() const { return outbox_.size(); }
   Bytes take() { return std::exchange(inbox_, {}); }

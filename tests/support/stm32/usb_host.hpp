@@ -67,7 +67,7 @@ class UsbHost {
 
   std::uint8_t address() const { return address_; }
   std::uint32_t naks() const { return naks_; }
-  std::uint32_t duplicates() const { return duplicates_; }  ///< with the old toggle
+  std::uint32_t duplicates() const { return duplicates_; }  ///< IN packets with the old toggle
   std::size_t last_packet() const { return last_packet_; }
 
  private:

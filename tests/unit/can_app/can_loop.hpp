@@ -43,7 +43,7 @@ struct CanLoop {
   }
 };
 
-/// A chip's stack is too small for it.
+/// A chip's stack is too small for the loop.
 inline CanLoop& new_can_loop() {
   alignas(CanLoop) static unsigned char room[sizeof(CanLoop)];
   return *new (room) CanLoop();

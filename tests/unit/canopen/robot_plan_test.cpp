@@ -67,7 +67,6 @@ TEST(RobotPlan, DrivesOfASharedFrameMapDisjointPlaces) {
   }
 }
 
-// One of them would be lost.
 TEST(RobotPlan, NoTwoSharedFramesHaveOneIdentifier) {
   const Params params = robot(kMaxJoints, true);
   std::uint16_t seen[64] = {};

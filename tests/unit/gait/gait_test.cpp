@@ -262,7 +262,7 @@ TEST(Gait, PlanWhoseZmpWouldLeaveTheSoleIsShortenedOrRefused) {
   }
 }
 
-// A slower walk or more margin ends the reason.
+// A slower walk or more margin ends the shortening.
 TEST(Gait, ShortenedPlanGrowsAgainWhenThereIsRoomAndOnlyThen) {
   Walker walker = walked(0.12F, 0.45F, 1.0F);
   walker.run(20.0F);

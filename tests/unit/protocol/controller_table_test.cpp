@@ -53,7 +53,8 @@ TEST(ControllerTable, WhatEveryDynamixelHasStandsWhereItIsExpected) {
 }
 
 TEST(ControllerTable, EachRegisterCanBeReadAndWrittenInOnePacket) {
-  constexpr std::size_t kOverhead = kStatusBytes + 2;  // an address is longer than an error
+  constexpr std::size_t kOverhead = kStatusBytes + 2;  // a write's address is longer than an error
+                                                       // field
   for (const Register& each : kTable) {
     EXPECT_LE(each.bytes() + each.bytes() / 3 + kOverhead, kMaxPacket) << each.name;
   }
