@@ -4,8 +4,7 @@
 
 namespace verp::files {
 
-/// Text as one CSV field (RFC 4180). A text with a comma, quote or line break is quoted, with inner
-/// quotes doubled; joint names from a file may contain these.
+/// One CSV field (RFC 4180), quoted if it has a comma, quote or line break.
 std::string csv_field(std::string_view text);
 
 }  // namespace verp::files

@@ -3,9 +3,8 @@
 
 namespace verp::files {
 
-/// Lock of a folder against other programs while this object lives; the constructor waits for it.
-/// On a file system without locks it does nothing. Files of two writers may then be mixed in the
-/// folder, but each file is complete.
+/// Locks a folder against other programs; the constructor waits. Without file locks it does
+/// nothing: files of two writers may then mix, but each is complete.
 class FolderLock {
  public:
   explicit FolderLock(const std::filesystem::path& folder);

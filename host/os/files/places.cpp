@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// share/verp beside `file` or one of its parent folders; empty: not found.
+/// share/verp beside `file` or a parent folder; empty: not found.
 fs::path share_beside(const fs::path& file) {
   std::error_code ignored;
   fs::path folder = fs::canonical(file, ignored).parent_path();

@@ -4,14 +4,13 @@
 
 namespace verp::files {
 
-/// A file or folder could not be created; what() is one line with the remedy.
+/// what() is one line with the remedy.
 class FileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A new directory, removed with its contents: below TMPDIR, or below /tmp if TMPDIR is unusable.
-/// Throws FileError if both fail.
+/// Removed with its contents; below TMPDIR, or else /tmp. Throws FileError if both fail.
 class TemporaryDirectory {
  public:
   TemporaryDirectory();

@@ -8,21 +8,21 @@
 
 #include "common/base/can_frame.hpp"
 
-/// Conversion between CAN frames and the kernel's structures.
+/// CAN frames and the kernel's structures.
 namespace verp::link {
 
 canfd_frame to_kernel(const CanFrame& frame);
 CanFrame from_kernel(const canfd_frame& raw, bool fd);
 
-/// Metadata that the kernel delivers with a frame.
+/// Delivered by the kernel with a frame.
 struct CanBeside {
   std::uint64_t wall_ns = 0;  ///< 0: missing
-  std::uint32_t drops = 0;    ///< total drops of the socket's queue
+  std::uint32_t drops = 0;    ///< of the socket's queue, in total
   bool drops_told = false;
 };
 CanBeside read_beside(msghdr& message);
 
-/// Frames and their metadata in one kernel call.
+/// Frames and metadata of one kernel call.
 struct CanBatch {
   static constexpr std::size_t kMost = 16;
 

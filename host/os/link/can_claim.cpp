@@ -11,8 +11,7 @@
 
 namespace verp::link {
 
-// An abstract socket name is free again when its socket closes. Like the interface, it belongs to a
-// network namespace, not to a user.
+// The name is free when its socket closes; like the interface, it belongs to a network namespace.
 CanClaim::CanClaim(const std::string& interface, const std::string& part, const std::string& who)
     : socket_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
   const std::string name = "verp/can/" + interface + "/" + part;
@@ -22,7 +21,7 @@ CanClaim::CanClaim(const std::string& interface, const std::string& part, const 
   std::copy_n(name.begin(), size, address.sun_path + 1);
   const auto length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + size);
   if (::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&address), length) == 0) return;
-  if (errno != EADDRINUSE) return;  // a system without such names has no guard
+  if (errno != EADDRINUSE) return;  // no such names: no guard
   throw LinkError(LinkError::Kind::kBusy,
                   "can:" + interface + ": another " + who + " has this interface; end it first");
 }

@@ -19,7 +19,6 @@ namespace {
 
 using Kind = LinkError::Kind;
 
-/// Attributes of a netlink message in `size` bytes from `first`.
 class Attributes {
  public:
   Attributes(const void* first, std::size_t size)
@@ -123,7 +122,7 @@ std::vector<CanInterface> network_interfaces() {
   if (::send(socket.get(), &request, sizeof request, 0) < 0) kernel_silent(errno);
 
   std::vector<CanInterface> all;
-  alignas(nlmsghdr) std::array<std::uint8_t, 32768> buffer;  // the kernel fills at most this much
+  alignas(nlmsghdr) std::array<std::uint8_t, 32768> buffer;  // most that the kernel fills
   for (;;) {
     const ssize_t count = ::recv(socket.get(), buffer.data(), buffer.size(), 0);
     if (count < 0 && errno == EINTR) continue;

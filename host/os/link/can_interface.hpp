@@ -11,25 +11,24 @@ struct CanInterface {
   std::string name;
   int index = 0;
   bool is_can = false;
-  bool is_virtual = false;  ///< vcan, vxcan: no wire, no bit rate, no bus-off
+  bool is_virtual = false;  ///< vcan, vxcan: no wire or bit rate
   bool up = false;
   bool fd = false;
   std::uint32_t bitrate = 0;     ///< bit/s; 0: unknown or none
-  std::uint32_t restart_ms = 0;  ///< restart delay after a bus-off; 0: no automatic restart
+  std::uint32_t restart_ms = 0;  ///< after bus-off; 0: never
 };
 
-/// All network interfaces of this PC, CAN or not. Throws LinkError if the kernel does not answer.
+/// This PC's interfaces, CAN or not. Throws LinkError if the kernel does not answer.
 std::vector<CanInterface> network_interfaces();
 
-/// The interface `name`, ready to be opened. Throws LinkError with the remedy if it is missing,
-/// down or not CAN.
+/// Ready to be opened. Throws LinkError with the remedy if missing, down or not CAN.
 CanInterface find_can_interface(const std::string& name);
 
-/// Advice for a usable interface; empty: none.
+/// For a usable interface; may be empty.
 std::string advice(const CanInterface& interface);
 
-/// Why the interface cannot carry a robot's bus at `baud` bit/s, with the remedy. Empty: it can, or
-/// its rate is unknown.
+/// Why the interface cannot carry `baud` bit/s, with the remedy. Empty: it can, or its rate is
+/// unknown.
 std::string bit_rate_trouble(const CanInterface& interface, const std::string& robot,
                              std::uint32_t baud);
 

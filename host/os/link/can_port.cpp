@@ -21,10 +21,10 @@ namespace {
 
 using Kind = LinkError::Kind;
 
-// If the kernel's queue is full of other programs' frames, no event reports room.
+// A queue full of other programs' frames gives no event.
 constexpr std::uint64_t kRetry_ns = 1'000'000;
-constexpr std::uint64_t kLook_ns = 10'000'000;  // retry interval for a missing interface
-// Half a second of a full bus at 1 Mbit/s; the kernel may grant less.
+constexpr std::uint64_t kLook_ns = 10'000'000;  // for a missing interface
+// Half a second at 1 Mbit/s; the kernel may grant less.
 constexpr int kReceiveBuffer = 4 << 20;
 
 [[noreturn]] void cannot_open(const Endpoint& endpoint, int error) {
@@ -82,12 +82,11 @@ void CanPort::set_up(int socket, const std::vector<CanFilter>& filters) {
   if (stamps_) set_option(socket, SOL_SOCKET, SO_TIMESTAMPNS, on);
   set_option(socket, SOL_SOCKET, SO_RXQ_OVFL, on);
   set_option(socket, SOL_SOCKET, SO_RCVBUF, kReceiveBuffer);
-  set_option(socket, SOL_SOCKET, SO_RCVBUFFORCE, kReceiveBuffer);  // root gets the full size
+  set_option(socket, SOL_SOCKET, SO_RCVBUFFORCE, kReceiveBuffer);  // root only
   set_option(socket, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, can_err_mask_t{CAN_ERR_MASK});
   if (interface_.fd) set_option(socket, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, on);
   if (filters.empty()) {
-    // Our own frames come back when they have left. They show which frames still wait and when the
-    // last one left.
+    // Our own frames show which still wait and when the last one left.
     set_option(socket, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, on);
     return;
   }
@@ -116,7 +115,7 @@ void CanPort::lose(int error) {
   away_ = true;
   bus_off_ = false;
   drop_what_waits();
-  // Down: the socket works again when the interface is up. Removed: the socket is useless.
+  // A socket works again when its interface is up; it is useless when that was removed.
   if (error != ENETDOWN) socket_.reset();
 }
 
@@ -133,7 +132,7 @@ void CanPort::look_for_it() {
       open();
     }
     away_ = false;
-  } catch (const LinkError&) {  // the interface may be on its way back
+  } catch (const LinkError&) {  // it may come back
   }
 }
 
@@ -176,10 +175,10 @@ void CanPort::take(CanBatch& batch, std::size_t index, std::uint64_t now_ns,
   if ((raw.can_id & CAN_ERR_FLAG) != 0) {
     return take_error_frame(raw.data, raw.can_id & CAN_ERR_MASK);
   }
-  // The stamp uses the wall clock, which may be set at any time, so only its age counts.
+  // Only the stamp's age counts: the wall clock may be set.
   const std::uint64_t age_ns = now_wall_ns > beside.wall_ns ? now_wall_ns - beside.wall_ns : 0;
   const std::uint64_t time_us = us_since_opened(now_ns > age_ns ? now_ns - age_ns : 0);
-  bus_off_ = false;  // a node that receives is not bus-off
+  bus_off_ = false;  // it receives
   if ((message.msg_hdr.msg_flags & MSG_CONFIRM) != 0) {
     if (in_kernel_ > 0) --in_kernel_;
     anchor_us_ = std::max(anchor_us_, time_us);
@@ -233,7 +232,7 @@ bool CanPort::send(const CanFrame& frame) {
   anchor_us_ = us_since_opened(monotonic_ns());
   push();
   if (connected()) return true;
-  --trouble_.dropped;  // not accepted, so not dropped
+  --trouble_.dropped;
   return false;
 }
 
@@ -271,7 +270,7 @@ bool CanPort::take_from_inbox(CanFrame& frame) {
 }
 
 bool CanPort::receive_waiting(CanFrame& frame) {
-  // A frame that arrived with an earlier one needs no look at the bus.
+  // A frame behind another one needs no look at the bus.
   if (outbox_.empty() && take_from_inbox(frame)) return true;
   look_for_it();
   drain();
@@ -279,7 +278,7 @@ bool CanPort::receive_waiting(CanFrame& frame) {
   return take_from_inbox(frame);
 }
 
-// `since_us` may change meanwhile, when one of our frames turns out to have left.
+// `since_us` changes when one of our frames turns out to have left.
 bool CanPort::receive(CanFrame& frame, const std::uint64_t& since_us, std::uint32_t wait_us) {
   for (;;) {
     const std::uint64_t now_us = us_since_opened(monotonic_ns());
@@ -303,7 +302,7 @@ bool CanPort::await(CanFrame& frame, std::uint32_t wait_us) {
   stands_ = false;
   if (wait_us == 0) return receive_waiting(frame);
   const std::uint64_t now_us = us_since_opened(monotonic_ns());
-  wait(std::uint64_t{wait_us} * 1000);  // returns at once if something is there
+  wait(std::uint64_t{wait_us} * 1000);  // at once if something is there
   return receive(frame, now_us, wait_us);
 }
 

@@ -14,42 +14,41 @@ namespace verp::link {
 
 struct CanBatch;
 
-/// Accepts frames whose identifier equals `id` in the bits of `mask`.
+/// Identifiers equal to `id` in the bits of `mask`.
 struct CanFilter {
   std::uint32_t id = 0;
   std::uint32_t mask = 0;
   bool extended = false;
 };
 
-/// The PC's CanBus, in wall time: a raw SocketCAN socket. Use one CanPort from one thread.
+/// The PC's CanBus, in wall time: a raw SocketCAN socket for one thread.
 ///
-/// Bus time is Linux's monotonic clock; a frame has the kernel's receive time. Frames in the
-/// kernel's queue leave in its order, not by identifier. That queue is usually short, and frames
-/// that wait here leave in order of priority. An interface that goes down or disappears acts like a
-/// silent bus; the port uses it again when it is back. As at a bus-off, waiting frames are then
-/// dropped and counted, because old goals must not leave later.
+/// Time is the monotonic clock; frames have the kernel's receive time. Frames in the kernel's short
+/// queue leave in its order, those here by priority. An interface that is down or gone acts like a
+/// silent bus, and is used again when it is back. Waiting frames are then dropped and counted, as
+/// at a bus-off: old goals must not leave later.
 class CanPort {
  public:
-  /// `filters`: accepts a frame that one of them accepts; empty: all. With filters, a poll's
-  /// timeout starts when a frame was accepted, not when it left. Without `stamps` a frame has the
-  /// time at which this port read it, which saves clock reads. Throws LinkError.
+  /// `filters`: any of them accepts; empty: all. With filters, a poll's timeout starts at an
+  /// accepted frame, not when that left. Without `stamps` frames have the time of this port's read,
+  /// which saves clock reads. Throws LinkError.
   explicit CanPort(const Endpoint& endpoint, const std::vector<CanFilter>& filters = {},
                    bool stamps = true);
 
   // CanBus
   bool send(const CanFrame& frame);
   bool poll(CanFrame& frame, std::uint32_t timeout_us);
-  /// Like repeated send(), in one kernel call if possible; the frames leave in this order. Returns
-  /// the number accepted: the frames before the first refused one.
+  /// In one kernel call if possible, in this order. Returns the number before the first refused
+  /// frame.
   std::size_t send_all(const CanFrame* frames, std::size_t count);
   /// Like poll(), but the timeout starts now.
   bool await(CanFrame& frame, std::uint32_t wait_us);
   std::uint64_t now_us();
   hal::CanErrors errors() const;
 
-  /// Errors by kind. Updated by each send and poll.
+  /// By kind; updated by each send and poll.
   const CanTrouble& trouble() const { return trouble_; }
-  /// True if the interface is up and this node on the bus. Updated by each send and poll.
+  /// Interface up and this node on the bus, as of the last send or poll.
   bool connected() const { return !away_ && !bus_off_; }
   const CanInterface& interface() const { return interface_; }
 
@@ -65,17 +64,17 @@ class CanPort {
   void look_for_it();
   void lose(int error);
   void drop_what_waits();
-  /// Reads all waiting frames for which there is room.
+  /// As far as there is room.
   void drain();
-  /// False: the kernel has no more frames for now.
+  /// False: no more for now.
   bool receive_some();
   void take(CanBatch& batch, std::size_t index, std::uint64_t now_ns, std::uint64_t now_wall_ns);
   bool take_from_inbox(CanFrame& frame);
   void take_error_frame(const std::uint8_t* data, std::uint32_t kinds);
   bool may_leave(const CanFrame& frame) const;
-  /// Passes frames to the kernel while it accepts them.
+  /// While the kernel accepts frames.
   void push();
-  /// The same for frames that have not waited; returns the number accepted.
+  /// Frames that have not waited; returns the number accepted.
   std::size_t push_at_once(const CanFrame* frames, std::size_t count);
   bool receive_waiting(CanFrame& frame);
   bool receive(CanFrame& frame, const std::uint64_t& since_us, std::uint32_t wait_us);
@@ -88,13 +87,13 @@ class CanPort {
   CanInterface interface_;
   Descriptor socket_;
   std::uint64_t opened_ns_;
-  std::uint64_t anchor_us_ = 0;  ///< when the last accepted frame left, as far as known
+  std::uint64_t anchor_us_ = 0;  ///< last accepted frame left
   std::uint64_t last_us_ = 0;
-  bool stands_ = false;  ///< now_us() is frozen since a poll returned a frame
+  bool stands_ = false;  ///< since a poll returned a frame
   bool away_ = false;
   bool bus_off_ = false;
   std::uint64_t looked_ns_ = 0;
-  std::size_t in_kernel_ = 0;  ///< frames given to the kernel and not confirmed
+  std::size_t in_kernel_ = 0;  ///< given, not confirmed
   std::uint32_t queue_drops_ = 0;
   CanTrouble trouble_;
   CanOutbox<hal::kCanQueue> outbox_;

@@ -17,7 +17,7 @@ namespace verp::link {
 struct Endpoint {
   enum class Kind : std::uint8_t { kSerial, kPty, kTcp, kTcpListen, kUnix, kUnixListen, kCan };
   Kind kind = Kind::kPty;
-  std::string place;       ///< device, host, path or interface; empty: pty: without a path
+  std::string place;       ///< device, host, path, interface; pty: may be empty
   std::uint32_t baud = 0;  ///< kSerial
   std::uint16_t port = 0;  ///< kTcp, kTcpListen
   bool operator==(const Endpoint&) const = default;
@@ -25,7 +25,7 @@ struct Endpoint {
 
 inline constexpr std::uint32_t kDefaultBaud = 2'000'000;
 
-/// Usage error: exit status 2. what() is one line with the error and the correct form.
+/// Exit status 2. what() is one line with the correct form.
 class EndpointError : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
@@ -33,7 +33,7 @@ class EndpointError : public std::invalid_argument {
 
 Endpoint parse_endpoint(const std::string& text);
 
-/// Text from which parse_endpoint() makes an equal endpoint.
+/// parse_endpoint() makes an equal endpoint from it.
 std::string to_text(const Endpoint& endpoint);
 
 }  // namespace verp::link

@@ -3,7 +3,7 @@
 
 namespace verp::link {
 
-/// Sets any rate that the adapter supports and reads the actual one; libserial can do neither.
+/// Any rate of the adapter, and reads the actual one; libserial can do neither.
 bool set_line_rate(int descriptor, std::uint32_t baud);
 /// 0: unknown.
 std::uint32_t line_rate(int descriptor);

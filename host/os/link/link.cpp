@@ -28,7 +28,7 @@ bool wait_for(int descriptor, short events, std::uint64_t deadline_ns) {
   return ready > 0 || (ready < 0 && errno == EINTR);
 }
 
-// A lost socket peer must cause an error, not a signal that ends the program.
+// A lost peer must cause an error, not a signal.
 ssize_t put(int descriptor, const void* data, std::size_t size) {
   const ssize_t sent = ::send(descriptor, data, size, MSG_NOSIGNAL);
   return sent < 0 && errno == ENOTSOCK ? ::write(descriptor, data, size) : sent;
@@ -76,7 +76,7 @@ bool Link::connect_until(std::uint64_t deadline_ns) {
   while (descriptor_ < 0) {
     try {
       descriptor_ = port_->open();
-    } catch (const LinkError&) {  // it may be unplugged and come back
+    } catch (const LinkError&) {  // it may come back
     }
     if (descriptor_ >= 0) break;
     const std::uint64_t now_ns = monotonic_ns();
@@ -101,7 +101,7 @@ std::size_t Link::write(const std::uint8_t* data, std::size_t size, std::uint32_
     } else if (count < 0 && would_block(errno)) {
       if (!wait_for(descriptor_, POLLOUT, deadline_ns)) break;
     } else if (count == 0 || errno != EINTR) {
-      if (!unread()) lose();  // otherwise read() handles the loss after the remaining bytes
+      if (!unread()) lose();  // else read() handles the loss
       break;
     }
   }

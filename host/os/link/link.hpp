@@ -11,17 +11,16 @@
 
 namespace verp::link {
 
-/// The PC's ByteLink: a serial port, a pseudo-terminal or a socket. After a loss, read() and
-/// write() reconnect by themselves. Use one Link from one thread.
+/// The PC's ByteLink: serial port, pseudo-terminal or socket. read() and write() reconnect after a
+/// loss. For one thread.
 class Link {
  public:
-  /// Opens the endpoint. A listener or pseudo-terminal is connected only when a peer has come.
-  /// Throws LinkError.
+  /// A listener or pseudo-terminal connects when a peer comes. Throws LinkError.
   explicit Link(const Endpoint& endpoint);
 
-  /// Endpoint that a peer can open: `/dev/pts/4`, `tcp:127.0.0.1:6000`.
+  /// For a peer: `/dev/pts/4`, `tcp:127.0.0.1:6000`.
   std::string place() const { return port_->place(); }
-  /// For a pseudo-terminal: the rate in baud that its other end has set or found; otherwise 0.
+  /// Baud of a pseudo-terminal's other end; otherwise 0.
   std::uint32_t rate() const { return port_->rate(); }
   void set_rate(std::uint32_t baud) { port_->set_rate(baud); }
 
@@ -31,11 +30,11 @@ class Link {
   bool connected() const { return descriptor_ >= 0; }
   hal::LinkErrors errors() const;
 
-  /// Waits for a peer; false: timeout_us has passed. read() and write() do this too.
+  /// False: timeout. read() and write() wait too.
   bool wait_connected(std::uint32_t timeout_us);
 
  private:
-  /// Deadline in nanoseconds of the monotonic clock.
+  /// The deadline is in ns of the monotonic clock.
   bool connect_until(std::uint64_t deadline_ns);
   void lose();
   bool unread() const;

@@ -31,7 +31,7 @@ class Descriptor {
   int number_;
 };
 
-/// Implementation of a Link, one per kind of endpoint. Not thread-safe.
+/// One per kind of endpoint; not thread-safe.
 class Port {
  public:
   Port() = default;
@@ -39,23 +39,22 @@ class Port {
   Port& operator=(const Port&) = delete;
   virtual ~Port() = default;
 
-  /// A non-blocking descriptor to a peer, owned by this Port; -1: no peer yet. Never waits for
-  /// long. Throws LinkError.
+  /// Non-blocking, owned by this Port; -1: no peer yet. Never waits long. Throws LinkError.
   virtual int open() = 0;
-  /// Called after a loss, when the descriptor is no longer useful.
+  /// Called after a loss.
   virtual void close() = 0;
   virtual std::uint32_t retry_us() const = 0;
-  /// Endpoint for a peer; see Link::place().
+  /// See Link::place().
   virtual std::string place() const = 0;
-  /// Rate in baud set by a peer; 0: none, or irrelevant to the peer.
+  /// Baud set by a peer; 0: none.
   virtual std::uint32_t rate() const { return 0; }
-  /// Sets the rate that a peer finds and may change. A peer that has already set a rate keeps it.
+  /// A peer finds it and may change it; a rate that it set before stays.
   virtual void set_rate(std::uint32_t) {}
-  /// Counts since this Port was created, without losses.
+  /// Errors since construction, without losses.
   virtual hal::LinkErrors counted() { return {}; }
 };
 
-/// Creates what can be created at once (a listening socket, a pseudo-terminal); throws LinkError.
+/// Creates a listening socket or pseudo-terminal; throws LinkError.
 std::unique_ptr<Port> make_port(const Endpoint& endpoint);
 
 std::unique_ptr<Port> make_serial_port(const Endpoint& endpoint);

@@ -28,21 +28,20 @@ std::string folder_of(const std::string& path) {
   return end == std::string::npos ? "." : path.substr(0, end + 1);
 }
 
-/// True for a pseudo-terminal's name, as ptsname() gives it.
+/// The name is as ptsname() gives it.
 bool is_terminal_name(std::string_view name) {
   if (!name.starts_with(kTerminals) || name.size() == kTerminals.size()) return false;
   name.remove_prefix(kTerminals.size());
   return std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// The kernel removes the name with the master. Do not open it to check: its master would see a
-/// peer that came and left.
+/// The kernel removes the name with the master. Opening it would look like a peer to its master.
 bool exists(const std::string& name) {
   struct stat status {};
   return ::stat(name.c_str(), &status) == 0;
 }
 
-/// Master end of a pseudo-terminal: a program that opens the other end finds a serial port.
+/// The other end is a serial port to other programs.
 class PtyPort final : public Port {
  public:
   explicit PtyPort(std::string path) : path_(std::move(path)) {
@@ -55,8 +54,7 @@ class PtyPort final : public Port {
                           "; mount /dev/pts, or close programs that use many");
     }
     name_ = name.data();
-    // Raw mode from the start. Opening and closing the other end once shows the master that no peer
-    // is there.
+    // Raw mode; opening and closing the other end shows the master that no peer is there.
     const Descriptor slave(::open(name_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
     termios settings{};
     if (::tcgetattr(slave.get(), &settings) == 0) {
@@ -75,8 +73,8 @@ class PtyPort final : public Port {
     pollfd one{master_.get(), 0, 0};
     return ::poll(&one, 1, 0) < 0 || (one.revents & POLLHUP) != 0 ? -1 : master_.get();
   }
-  // The next peer must not get bytes that the last one did not read. The master's flush does not
-  // reach bytes already in the other end's line buffer.
+  // The next peer must not get unread bytes; the master's flush does not reach the other end's line
+  // buffer.
   void close() override {
     const Descriptor slave(::open(name_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
     ::tcflush(master_.get(), TCOFLUSH);
@@ -90,7 +88,7 @@ class PtyPort final : public Port {
   std::string place() const override { return path_.empty() ? name_ : path_; }
 
  private:
-  /// Target of the symbolic link at path_; empty if there is none.
+  /// The target of path_, or empty.
   std::string target() const {
     std::array<char, 64> target{};
     return ::readlink(path_.c_str(), target.data(), target.size() - 1) > 0 ? target.data() : "";
@@ -99,7 +97,7 @@ class PtyPort final : public Port {
     const int error = link();
     if (error == 0) return;
     if (error != EEXIST || !is_terminal_name(target())) refuse_link(error);
-    // If two programs find a killed program's link, the second must see the first one's new link.
+    // Of two programs that find a killed program's link, the second must see the first one's.
     const Descriptor folder(::open(folder_of(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (folder.get() >= 0) ::flock(folder.get(), LOCK_EX);
     const std::string other = target();
@@ -109,8 +107,7 @@ class PtyPort final : public Port {
     }
     if (const int still = link(); still != 0) refuse_link(still);
   }
-  /// errno of the failed link. A killed program's terminal number may now be ours; then its link is
-  /// ours too.
+  /// errno of the failed link. A killed program's number may be ours now, and then its link.
   int link() const {
     const int error = ::symlink(name_.c_str(), path_.c_str()) == 0 ? 0 : errno;
     return error == EEXIST && target() == name_ ? 0 : error;

@@ -38,7 +38,7 @@ std::vector<std::uint8_t> rgb_of(const hal::CameraFrame& frame) {
       } else if (frame.format == hal::PixelFormat::kGrey) {
         std::fill_n(out, 3, in[x]);
       } else {
-        // The last pixel of an odd row has no partner, so it uses the previous pair's Cr.
+        // The last pixel of an odd row uses the previous pair's Cr.
         const std::size_t pair = 4 * (x / 2);
         const double cr = pair + 3 < row ? in[pair + 3] : (pair >= 4 ? in[pair - 1] : 128);
         put_yuv(out, in[2 * x], in[pair + 1], cr);

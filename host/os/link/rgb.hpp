@@ -6,7 +6,7 @@
 
 namespace verp::link {
 
-/// The picture with three bytes per pixel, rows without gaps. Empty: it is compressed or too short.
+/// Three bytes per pixel, no gaps. Empty: compressed or too short.
 std::vector<std::uint8_t> rgb_of(const hal::CameraFrame& frame);
 
 }  // namespace verp::link

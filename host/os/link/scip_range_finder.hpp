@@ -8,15 +8,15 @@
 
 namespace verp::link {
 
-/// A Hokuyo laser on a link as hal/contract/range_finder.hpp. It requests endless scans, and again
-/// after a silence. Now: this PC's time, ns.
+/// A Hokuyo as hal/contract/range_finder.hpp. Endless scans, requested again after a silence. Now:
+/// ns.
 template <hal::ByteLink Line, std::uint64_t (*Now)() = monotonic_ns>
 class ScipRangeFinder {
  public:
   struct Steps {
-    int first = 44, last = 725;     ///< URG-04LX: 240 degrees, from right to left
-    std::uint16_t least_mm = 20;    ///< DMIN of its PP reply; smaller values are error codes
-    std::uint32_t silent_ms = 500;  ///< a scan takes 100 ms, a start two scans
+    int first = 44, last = 725;     ///< URG-04LX: 240 degrees, right to left
+    std::uint16_t least_mm = 20;    ///< DMIN of PP; smaller values are errors
+    std::uint32_t silent_ms = 500;  ///< scan: 100 ms; start: two scans
   };
 
   ScipRangeFinder(Line& line, Steps steps) : line_(line), steps_(steps) {}
@@ -43,7 +43,7 @@ class ScipRangeFinder {
   }
   std::uint32_t faults() const { return faults_; }
 
-  /// Last error reply to a request; empty: none.
+  /// Last error reply, or empty.
   const std::string& last_complaint() const { return complaint_; }
   std::uint32_t damaged() const { return replies_.damaged(); }
 
@@ -56,15 +56,14 @@ class ScipRangeFinder {
     while ((size = line_.read(bytes, sizeof bytes, 0)) > 0) replies_.add(bytes, size);
   }
   bool is_ill(const scip::Replies::Reply& reply) {
-    // The laser answers BM with 02 if it is already on.
+    // 02: already on.
     if (reply.status == "00" || reply.status == "99" ||
         (reply.echo.starts_with("BM") && reply.status == "02"))
       return false;
     complaint_ = reply.echo + " " + reply.status;
     return reply.echo.starts_with("MD");
   }
-  /// Switches a sensor that may start in 1.1 to SCIP 2.0, turns the laser on and requests endless
-  /// scans of single steps.
+  /// To SCIP 2.0 from 1.1, laser on, endless scans of single steps.
   void ask() {
     const auto digits = [](int value) {
       const std::string text = std::to_string(value);

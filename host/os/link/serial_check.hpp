@@ -3,8 +3,8 @@
 
 namespace verp::link {
 
-/// Throws LinkError if `device` visibly cannot be opened as a serial port: it is missing, is
-/// another kind of file, lacks permission, or is open exclusively elsewhere.
+/// Throws LinkError if `device` is missing, of another kind, without permission, or open
+/// exclusively elsewhere.
 void check_serial_port(const std::string& device);
 
 }  // namespace verp::link

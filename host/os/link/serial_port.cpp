@@ -72,7 +72,7 @@ void check_serial_port(const std::string& device) {
 
 namespace {
 
-/// libserial's constant for a rate; BAUD_INVALID: set the rate through the kernel.
+/// BAUD_INVALID: set it through the kernel.
 BaudRate standard_rate(std::uint32_t baud) {
   switch (baud) {
     case 9600:
@@ -109,7 +109,7 @@ class SerialPort final : public Port {
     } catch (const LinkError&) {
       close();
       throw;
-    } catch (const std::exception& error) {  // libserial's, without an error number
+    } catch (const std::exception& error) {  // without an error number
       close();
       throw LinkError(Kind::kUnsuitable,
                       device_ + ": " + error.what() + "; is it a serial port, and free?");
@@ -144,8 +144,8 @@ class SerialPort final : public Port {
   }
 
  private:
-  // A second reader would take half of the bytes. TIOCEXCL excludes other programs but not root;
-  // flock() excludes all that use it.
+  // A second reader would take half of the bytes. TIOCEXCL does not exclude root; flock() excludes
+  // all that use it.
   void own() const {
     const int descriptor = port_->GetFileDescriptor();
     if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) throw busy(device_);
@@ -153,8 +153,8 @@ class SerialPort final : public Port {
     ::fcntl(descriptor, F_SETFD, FD_CLOEXEC);
   }
 
-  // Closing restores the settings, which fails on an unplugged device; libserial's destructor then
-  // ends the program. So give it a terminal on which closing succeeds.
+  // Closing restores the settings; on an unplugged device that fails, and libserial's destructor
+  // ends the program. So give it a terminal.
   void give_it_a_terminal() {
     int master = -1;
     int slave = -1;
@@ -164,7 +164,7 @@ class SerialPort final : public Port {
       spare_.reset(master);
     } else {
       ::close(port_->GetFileDescriptor());
-      static_cast<void>(port_.release());  // better leak an object than lose a robot
+      static_cast<void>(port_.release());  // better a leak than a lost robot
     }
   }
 
@@ -173,7 +173,7 @@ class SerialPort final : public Port {
     port_->SetParity(LibSerial::Parity::PARITY_NONE);
     port_->SetStopBits(LibSerial::StopBits::STOP_BITS_1);
     port_->SetFlowControl(LibSerial::FlowControl::FLOW_CONTROL_NONE);
-    port_->SetVMin(1);  // with 0, an empty read would look like a hang-up
+    port_->SetVMin(1);  // 0: an empty read is like a hang-up
     port_->SetVTime(0);
     port_->SetSerialPortBlockingStatus(false);
     set_line();
@@ -182,12 +182,11 @@ class SerialPort final : public Port {
     const int descriptor = port_->GetFileDescriptor();
     if (::ioctl(descriptor, TIOCGSERIAL, &settings) == 0) {
       settings.flags |= ASYNC_LOW_LATENCY;
-      ::ioctl(descriptor, TIOCSSERIAL, &settings);  // not supported by all drivers
+      ::ioctl(descriptor, TIOCSSERIAL, &settings);  // not in all drivers
     }
   }
 
-  // Receivers tolerate about 2 % of rate error. An adapter that does not support the rate silently
-  // uses another.
+  // Receivers tolerate about 2 % of rate error. An adapter silently replaces rates that it lacks.
   void set_line() const {
     const int descriptor = port_->GetFileDescriptor();
     const BaudRate rate = standard_rate(baud_);
@@ -205,7 +204,7 @@ class SerialPort final : public Port {
     serial_icounter_struct count{};
     if (!port_ || !port_->IsOpen() ||
         ::ioctl(port_->GetFileDescriptor(), TIOCGICOUNT, &count) != 0) {
-      return at_open_;  // pseudo-terminals and unplugged devices have no counters
+      return at_open_;  // no counters on these
     }
     const auto sum = [](int a, int b) { return static_cast<std::uint32_t>(a + b); };
     return {.overruns = sum(count.overrun, count.buf_overrun),
@@ -218,7 +217,7 @@ class SerialPort final : public Port {
   Descriptor spare_;  ///< must outlive port_
   std::unique_ptr<LibSerial::SerialPort> port_;
   hal::LinkErrors before_;   ///< from earlier openings
-  hal::LinkErrors at_open_;  ///< the driver counts from its own start
+  hal::LinkErrors at_open_;  ///< driver's counters
 };
 
 }  // namespace

@@ -21,7 +21,6 @@ constexpr int kConnectTimeout_ms = 2000;
 constexpr std::uint32_t kRetryClient_us = 50'000;
 constexpr std::uint32_t kRetryListener_us = 1000;
 
-/// Address to which an endpoint's sockets are bound or connected.
 using Kind = LinkError::Kind;
 
 struct Address {
@@ -87,7 +86,7 @@ Descriptor new_socket(const Endpoint& endpoint, const Address& address) {
   return made;
 }
 
-// Frames are small and wait for answers, so TCP must not delay them.
+// TCP must not delay small frames.
 void send_at_once(int descriptor) {
   const int on = 1;
   ::setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
@@ -123,7 +122,7 @@ class SocketPort final : public Port {
   Descriptor peer_;
 };
 
-/// One peer at a time; the next one waits until it has left.
+/// The next peer waits for the last one to leave.
 class Listener final : public Port {
  public:
   Listener(Endpoint endpoint, const Address& address) : endpoint_(std::move(endpoint)) {
@@ -140,7 +139,7 @@ class Listener final : public Port {
     sockaddr_storage name{};
     socklen_t size = sizeof name;
     ::getsockname(listening_.get(), reinterpret_cast<sockaddr*>(&name), &size);
-    // The port has the same offset in both address families.
+    // At the same offset in both families.
     endpoint_.port = ntohs(reinterpret_cast<const sockaddr_in*>(&name)->sin_port);
   }
   ~Listener() override {
@@ -162,7 +161,7 @@ class Listener final : public Port {
   }
 
  private:
-  // A killed program leaves its socket behind; connecting to it is refused.
+  // A killed program's socket refuses connections.
   void remove_dead_socket(const Address& address) const {
     struct stat status {};
     if (::stat(endpoint_.place.c_str(), &status) != 0 || !S_ISSOCK(status.st_mode)) return;

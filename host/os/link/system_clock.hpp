@@ -18,8 +18,8 @@ inline std::uint64_t monotonic_ns() {
          static_cast<std::uint64_t>(now.tv_nsec);
 }
 
-/// Returns when monotonic_ns() reaches `time_ns`. The loop is needed because a replaced clock
-/// (tests/support/quick_clock.cpp) may wake a few microseconds early.
+/// A replaced clock (tests/support/quick_clock.cpp) may wake a few microseconds early: hence the
+/// loop.
 inline void sleep_until_ns(std::uint64_t time_ns) {
   const timespec until = to_timespec(time_ns);
   do {
@@ -27,8 +27,8 @@ inline void sleep_until_ns(std::uint64_t time_ns) {
   } while (monotonic_ns() < time_ns);
 }
 
-/// The PC's TickSource. The scheduler decides how late wait() returns: usually well under a
-/// millisecond, milliseconds under load. SCHED_FIFO helps.
+/// The PC's TickSource. wait() returns usually well under a millisecond late, under load by
+/// milliseconds. SCHED_FIFO helps.
 class SystemClock {
  public:
   bool start(std::uint32_t period_us) {

@@ -20,9 +20,9 @@ namespace {
 using hal::PixelFormat;
 using Kind = LinkError::Kind;
 
-constexpr std::uint32_t kBuffers = 4;  ///< one held, one being filled, two spare for delays
+constexpr std::uint32_t kBuffers = 4;  ///< held, filling, two spare
 constexpr std::uint64_t kReopen_ns = 200'000'000;
-constexpr std::uint32_t kMostPixels = 16384;  ///< each way; larger values are driver errors
+constexpr std::uint32_t kMostPixels = 16384;  ///< each way; more is a driver's error
 
 std::string cameras_here() {
   std::vector<std::string> names;
@@ -167,7 +167,7 @@ void V4l2Camera::choose_format() {
   stride_bytes_ = row == 0 ? 0 : std::max(row, pixels.bytesperline);
 }
 
-/// The driver chooses the nearest rate that it supports.
+/// The driver takes the nearest.
 void V4l2Camera::choose_rate() {
   v4l2_streamparm parameters{};
   parameters.type = v4l2::kCapture;
@@ -249,13 +249,13 @@ hal::CameraStatus V4l2Camera::read(hal::CameraFrame& frame) {
   return hal::CameraStatus::kFault;
 }
 
-/// 0; EAGAIN: no picture; otherwise an errno.
+/// 0; EAGAIN: no picture; else an errno.
 int V4l2Camera::take_newest(hal::CameraFrame& frame) {
   const std::size_t row = hal::row_bytes(format_, width_px_);
   const std::size_t least = row == 0 ? 4 : std::size_t{stride_bytes_} * (height_px_ - 1) + row;
   std::optional<v4l2_buffer> newest;
   int error = EAGAIN;
-  // Limit the loop: a device may fill buffers as fast as they are returned.
+  // A device may fill buffers as fast as they return.
   for (std::size_t taken = 0; taken < 2 * buffers_.size(); ++taken) {
     v4l2_buffer buffer{};
     buffer.type = v4l2::kCapture;
@@ -274,7 +274,7 @@ int V4l2Camera::take_newest(hal::CameraFrame& frame) {
   if (error != EAGAIN || !newest) return error;
   if (held_ >= 0) give_back(static_cast<std::uint32_t>(held_));
   held_ = static_cast<int>(newest->index);
-  // Some drivers never count; then losses are unknown.
+  // Drivers that never count hide losses.
   const std::uint32_t gap = newest->sequence - next_sequence_;
   frame.lost = gap < 0x8000'0000U ? gap : 0;
   frame.sequence = gap < 0x8000'0000U ? newest->sequence : next_sequence_;

@@ -10,27 +10,25 @@
 namespace verp::link {
 
 struct VideoFormat {
-  std::string code;   ///< four characters, as in the kernel: YUYV
+  std::string code;   ///< four characters, "YUYV"
   std::string name;   ///< the driver's description
-  std::string sizes;  ///< "640x480 320x240", "16x16 to 1920x1080"; empty: unknown
+  std::string sizes;  ///< "640x480 320x240", "16x16 to 1920x1080"; may be empty
   hal::PixelFormat format = hal::PixelFormat::kNone;  ///< kNone: not supported here
 };
 
-/// Requested format; 0 and kNone: the device's own.
+/// 0 and kNone: the device's own.
 struct VideoWish {
   std::uint32_t width_px = 0, height_px = 0;
   double rate_hz = 0;
   hal::PixelFormat format = hal::PixelFormat::kNone;
 };
 
-/// A Linux camera (V4L2, <linux/videodev2.h>: capture, streaming into mapped buffers) as
-/// hal/contract/camera.hpp. The constructor opens and starts it; it restarts by itself after it was
-/// unplugged and returned.
+/// A V4L2 camera (<linux/videodev2.h>, mapped buffers) as hal/contract/camera.hpp. It starts in the
+/// constructor, and again after it was unplugged.
 class V4l2Camera {
  public:
   using Now = std::uint64_t (*)();  ///< ns; monotonic
-  /// Throws LinkError, one line: missing device, permission, busy, not a camera, unsupported
-  /// picture.
+  /// Throws LinkError: missing, permission, busy, no camera, unsupported picture.
   V4l2Camera(std::string device, const VideoWish& wish, VideoCalls& calls = kernel_video_calls(),
              Now now = monotonic_ns);
   ~V4l2Camera();
@@ -43,15 +41,15 @@ class V4l2Camera {
 
   void wait(int time_ms);
   std::vector<VideoFormat> formats() const;
-  /// The driver's name for the camera, and its present settings.
+  /// The driver's name for the camera.
   const std::string& card() const { return card_; }
   std::uint32_t width_px() const { return width_px_; }
   std::uint32_t height_px() const { return height_px_; }
   hal::PixelFormat format() const { return format_; }
   double rate_hz() const { return rate_hz_; }  ///< 0: unknown
-  /// Incomplete pictures, and pictures that the driver marked as damaged.
+  /// Incomplete or marked by the driver.
   std::uint32_t damaged() const { return damaged_; }
-  /// Why the camera is lost; empty: it works.
+  /// Empty: it works.
   const std::string& trouble() const { return trouble_; }
 
  private:

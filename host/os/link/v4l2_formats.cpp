@@ -13,7 +13,7 @@ hal::PixelFormat format_of(std::uint32_t code) {
   return found == kCodes.end() ? hal::PixelFormat::kNone : found->format;
 }
 
-/// Four characters, lowest byte first; a dot replaces unprintable ones.
+/// Lowest byte first; a dot is unprintable.
 std::string fourcc_text(std::uint32_t code) {
   std::string text;
   for (int shift = 0; shift < 32; shift += 8) {
@@ -23,7 +23,7 @@ std::string fourcc_text(std::uint32_t code) {
   return text;
 }
 
-/// Sizes of one format. A driver may list single sizes, a range or nothing.
+/// The driver lists sizes, a range or nothing.
 std::string sizes_of(VideoCalls& calls, int descriptor, std::uint32_t code) {
   std::vector<std::string> sizes;
   for (std::uint32_t i = 0; i < 100; ++i) {

@@ -11,7 +11,7 @@
 #include "host/os/link/v4l2_camera.hpp"
 #include "host/os/link/video_calls.hpp"
 
-/// Formats of a V4L2 device, and which of them this code reads. Private to this folder.
+/// Formats of a device that this code reads. Private to this folder.
 namespace verp::link::v4l2 {
 
 inline constexpr std::uint32_t kCapture = V4L2_BUF_TYPE_VIDEO_CAPTURE;
@@ -20,7 +20,7 @@ struct Code {
   std::uint32_t code;
   hal::PixelFormat format;
 };
-/// In order of preference: lossless and colour first.
+/// Lossless and colour first.
 inline constexpr std::array kCodes = {Code{V4L2_PIX_FMT_YUYV, hal::PixelFormat::kYuyv},
                                       Code{V4L2_PIX_FMT_RGB24, hal::PixelFormat::kRgb},
                                       Code{V4L2_PIX_FMT_GREY, hal::PixelFormat::kGrey},

@@ -16,10 +16,9 @@
 namespace verp::process {
 namespace {
 
-constexpr int kFirstFree = STDERR_FILENO + 1;  // lower numbers are the standard streams of both
-                                               // processes
+constexpr int kFirstFree = STDERR_FILENO + 1;  // below: standard streams
 
-/// Pipe for the error of a failed start. A successful exec closes it.
+/// A failed start writes its error; exec closes the pipe.
 struct Report {
   int read_end = -1, write_end = -1;
 
@@ -38,7 +37,7 @@ struct Report {
   Report(const Report&) = delete;
   Report& operator=(const Report&) = delete;
 
-  /// Error number, or 0; waits for either.
+  /// Or 0; waits for either.
   int read() {
     ::close(std::exchange(write_end, -1));
     int error = 0;
@@ -50,8 +49,9 @@ struct Report {
   }
 };
 
-/// Path of the program in PATH; `program` itself if it contains a slash or is not found. execvp()
-/// would pass a file that is no program to a shell, whose message is misleading.
+/// In PATH; else `program` itself. execvp() would pass a file that is no program to a shell.
+/// `program` itself if it contains a slash or is not found. execvp() would pass a file that is no
+/// program to a shell, whose message is misleading.
 std::string place_of(const std::string& program) {
   const char* path = std::getenv("PATH");
   if (path == nullptr || program.find('/') != std::string::npos) return program;
@@ -63,21 +63,19 @@ std::string place_of(const std::string& program) {
   return program;
 }
 
-/// The forked child before exec. It uses only async-signal-safe calls and allocates no memory,
-/// because another thread's lock may be held here forever.
+/// The forked child before exec. Only async-signal-safe calls and no memory: another thread's lock
+/// may be held forever.
 class Becoming {
  public:
   Becoming(const Command& command, const char* program, char* const* words, int report)
       : command_(command), program_(program), words_(words), report_(report) {}
 
   [[noreturn]] void become(pid_t parent) {
-    // If our own standard streams are closed, the report may have one of their numbers.
+    // It may have a standard stream's number.
     report_ = must(::fcntl(report_, F_DUPFD_CLOEXEC, kFirstFree));
     must(::setpgid(0, 0));
     if (command_.ends_with_thread) must(::prctl(PR_SET_PDEATHSIG, SIGKILL));
-    if (::getppid() != parent)
-      ::_exit(kNotStarted);  // the parent died before the kernel could
-                             // watch it
+    if (::getppid() != parent) ::_exit(kNotStarted);  // the parent died first
     const int input = open(command_.input, O_RDONLY);
     const int output = open(command_.output, O_WRONLY | O_CREAT | O_TRUNC);
     const int error = command_.error ? open(*command_.error, O_WRONLY | O_CREAT | O_TRUNC) : output;
@@ -156,7 +154,7 @@ std::optional<int> Child::reap(int flags) {
     const pid_t ended = ::waitpid(pid_, &status, flags);
     if (ended == 0) break;
     if (ended < 0 && errno == EINTR) continue;
-    // Another waiter took the status; the process has ended.
+    // Another waiter took the status.
     status_ = ended < 0           ? 128 + SIGKILL
               : WIFEXITED(status) ? WEXITSTATUS(status)
                                   : 128 + WTERMSIG(status);

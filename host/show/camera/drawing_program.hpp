@@ -10,27 +10,25 @@
 
 namespace verp::camera {
 
-/// The drawing program is missing, has ended, or lacks OpenGL or a file; one line.
+/// The drawing program is missing, has ended, or lacks OpenGL or a file.
 class CameraError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// VERP_CAMERA_PROGRAM if set; else libexec/verp where this program or library is installed; else
-/// the build tree.
+/// VERP_CAMERA_PROGRAM, else the installed libexec/verp, else the build tree.
 std::filesystem::path find_program();
 
-/// The running drawing program and this end of its socket. Only that program uses OpenGL, so the
-/// caller needs none and survives a driver's crash.
+/// The drawing program and our end of its socket. Only it uses OpenGL: the caller survives a
+/// driver's crash.
 class DrawingProgram {
  public:
   enum class Life {
-    kOfThread,  ///< ends with its starting thread: create it on the main thread
-    kOfSocket   ///< ends when the socket closes: for any thread
+    kOfThread,  ///< with its starting thread: the main thread
+    kOfSocket   ///< with the socket: any thread
   };
   using Seconds = std::chrono::seconds;
-  /// Starts it and waits until it can draw. Throws CameraError. `patience`: the socket's time
-  /// limit; 0: none.
+  /// Waits until it can draw. Throws CameraError. `patience`: 0: no limit.
   DrawingProgram(const std::filesystem::path& program, const Stage& stage,
                  Life life = Life::kOfThread, Seconds patience = Seconds(0));
   ~DrawingProgram();
@@ -38,11 +36,10 @@ class DrawingProgram {
   DrawingProgram& operator=(const DrawingProgram&) = delete;
 
   int socket() const { return socket_; }
-  /// Sets the lowest priority: a run in real time must not wait for a core that draws its pictures.
+  /// A run in real time must not wait for it.
   void step_back();
   pid_t process() const { return child_->id(); }
-  /// For a socket that gave nothing, with errno set. Ends the program; returns whether it hung or
-  /// had ended.
+  /// For a silent socket, errno set. Returns whether it hung or had ended.
   std::string end();
 
  private:

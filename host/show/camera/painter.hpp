@@ -9,22 +9,22 @@
 
 namespace verp::camera {
 
-/// Draws a moment on request and waits for the picture. A run that keeps all its pictures uses a
-/// Rig, which draws meanwhile. Works on any thread, one call at a time.
+/// Draws a moment and waits. A Rig draws meanwhile, for runs that keep all pictures. Any thread,
+/// one call at a time.
 class Painter {
  public:
   using Seconds = DrawingProgram::Seconds;
 
-  /// Starts `program` and waits until it can draw. Throws CameraError. `patience` only ends a
-  /// program that hangs: a busy PC may need minutes for a picture.
+  /// Waits until it can draw. Throws CameraError. `patience` is for a program that hangs: a busy PC
+  /// may need minutes.
   Painter(const std::filesystem::path& program, const Stage& stage, Seconds patience = Seconds(600))
       : program_(std::make_unique<DrawingProgram>(program, stage, DrawingProgram::Life::kOfSocket,
                                                   patience)) {}
 
-  /// One picture, with depth two, per camera of moment.robot that looks. Throws CameraError if the
-  /// program has ended or does not answer; the painter is then useless.
+  /// One per camera of moment.robot that looks, with depth two. After CameraError the painter is
+  /// useless.
   std::vector<Picture> look(const Moment& moment);
-  /// From outside, rgb8. Also throws std::invalid_argument for an unknown view.
+  /// rgb8. Also throws std::invalid_argument for an unknown view.
   Picture look(const Moment& moment, const Outside& from);
   bool works() const { return program_ != nullptr; }
 

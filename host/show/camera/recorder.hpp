@@ -8,19 +8,17 @@
 
 namespace verp::camera {
 
-/// Writes camera pictures into the robot's trace: to /NAME/image/compressed (colour), /NAME/depth
-/// or /NAME/labels, with the lens on /NAME/camera_info. Their frame is NAME_optical, which
-/// /tf_static attaches to the camera's link. In the file a picture comes a little after the ticks
-/// of its time.
+/// Pictures in the robot's trace: /NAME/image/compressed (colour), /NAME/depth or /NAME/labels,
+/// with the lens on /NAME/camera_info. Frame NAME_optical is on /tf_static. A picture comes a
+/// little after its ticks.
 class Recorder {
  public:
-  /// All arguments must outlive the recorder.
+  /// The arguments outlive it.
   Recorder(Rig& rig, const model::Entity& entity, const Params& params, record::TraceWriter& trace);
 
-  /// For session::Hooks::exposed. Never throws: an error, in failure(), ends the pictures and not
-  /// the run.
+  /// A session::Hooks::exposed. Never throws: failure() ends the pictures, not the run.
   void exposed(const sim::Exposure& exposure, std::uint64_t stamp_ns);
-  /// Waits for pictures in progress; before the trace is closed.
+  /// Call before the trace is closed.
   void finish();
 
   std::uint64_t pictures() const { return pictures_; }
@@ -35,7 +33,7 @@ class Recorder {
   const model::Entity& entity_;
   const Params& params_;
   record::TraceWriter& trace_;
-  std::deque<std::uint64_t> stamps_ns_;  ///< of the moments in progress
+  std::deque<std::uint64_t> stamps_ns_;  ///< in progress
   std::uint64_t pictures_ = 0;
   std::string failure_;
 };

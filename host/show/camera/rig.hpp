@@ -12,35 +12,32 @@
 
 namespace verp::camera {
 
-/// A run's cameras. A separate program draws on another core meanwhile. Pictures return in the
-/// order of moments.
+/// A separate program draws on another core; pictures return in the order of moments.
 class Rig {
  public:
   enum class Pace {
-    kEveryPicture,  ///< the run waits for the pictures
+    kEveryPicture,  ///< the run waits
     kNeverWaits     ///< the rig drops pictures
   };
-  /// Starts `program` and waits until it can draw. Throws CameraError. On the main thread
-  /// (DrawingProgram).
+  /// Waits until it can draw. Throws CameraError. On the main thread (DrawingProgram).
   Rig(const std::filesystem::path& program, const Stage& stage, Pace pace);
   ~Rig();
   Rig(const Rig&) = delete;
   Rig& operator=(const Rig&) = delete;
 
-  /// Throws CameraError if the program has ended.
+  /// If the program has ended.
   void expose(const Moment& moment);
-  /// The pictures of the next moment that is due, else empty. With kEveryPicture that is the one
-  /// kAhead before the last, otherwise any that is done.
+  /// For the next due moment, else empty. kEveryPicture: kAhead before the last; otherwise any that
+  /// is done.
   std::vector<Picture> take();
-  /// Waits for the pictures of the next moment; empty after the last.
+  /// Waits; empty after the last moment.
   std::vector<Picture> take_last();
 
   std::uint64_t moments() const { return sent_; }     ///< drawn or in progress
   std::uint64_t dropped() const { return dropped_; }  ///< not drawn
-  double processor_s() const;                         ///< used by the program so far
+  double processor_s() const;                         ///< the program's so far
 
-  /// Most moments in progress. Fixed, so that drawing speed does not decide which pictures a run
-  /// gets when.
+  /// Moments in progress; fixed, so that drawing speed does not decide which pictures a run gets.
   static constexpr std::uint64_t kAhead = 8;
 
  private:
@@ -53,7 +50,7 @@ class Rig {
   std::uint64_t sent_ = 0, taken_ = 0, dropped_ = 0;
   mutable std::mutex mutex_;
   std::condition_variable came_;
-  std::deque<std::vector<Picture>> done_;  ///< one per moment that is drawn, not taken
+  std::deque<std::vector<Picture>> done_;  ///< drawn, not taken
   std::uint64_t processor_us_ = 0;
   bool ended_ = false;
   std::thread listener_;

@@ -10,9 +10,9 @@
 
 namespace verp::camera {
 
-/// One of a twin's cameras behind hal/contract/camera.hpp. It takes all of the twin's exposures, so
-/// other cameras get none. Cameras of only depth or labels give no pictures. Drawer is a Rig or a
-/// test's replacement; if its take() never waits, read() does not either.
+/// A twin's camera as hal/contract/camera.hpp. It takes all exposures: other cameras get none.
+/// Depth or labels alone give no pictures. Drawer: a Rig or a test's; if its take() never waits,
+/// read() does not.
 template <class Drawer = Rig>
 class TwinCamera {
  public:
@@ -56,7 +56,7 @@ class TwinCamera {
     picture_ = std::move(picture);
     return true;
   }
-  /// Exposures are at whole periods of simulated time, which give the sequence number.
+  /// Whole periods give the sequence number.
   void tell(hal::CameraFrame& frame) {
     const double rate_hz = twin_.entity().cameras[camera_].rate_hz;
     const auto period = std::llround(1e-6 * static_cast<double>(picture_.time_us) * rate_hz);

@@ -35,7 +35,7 @@ class Packer {
   std::string data_;
 };
 
-/// A read beyond the end gives zeros and makes whole() false.
+/// Beyond the end: zeros, and whole() is false.
 class Unpacker {
  public:
   explicit Unpacker(std::string_view data) : data_(data) {}
@@ -51,7 +51,7 @@ class Unpacker {
     return {x, y, z};
   }
   std::string text() { return std::string(bytes(get<std::uint64_t>())); }
-  /// Reads a count of items of that size.
+  /// A count of items of that size.
   std::uint64_t count(std::size_t size_of_one) {
     const auto count = get<std::uint64_t>();
     good_ = good_ && count <= data_.size() / size_of_one;
@@ -81,7 +81,7 @@ class Unpacker {
   bool good_ = true;
 };
 
-/// Increase it with each change of the messages: a program of another build is refused.
+/// Increase with each change of the messages.
 constexpr std::uint32_t kBuild = 0x63616d03;
 
 struct Head {

@@ -8,11 +8,10 @@
 
 #include "host/twin/sim/exposure.hpp"
 
-/// Messages between a run and its drawing program over a socket pair. Both are of one build on one
-/// PC: numbers are in machine form.
+/// A run and its drawing program on a socket pair, of one build on one PC: numbers are in machine
+/// form.
 namespace verp::camera {
 
-/// The world and robots to draw.
 struct Stage {
   struct Robot {
     std::string file;
@@ -26,13 +25,13 @@ struct Moment {
   std::uint64_t time_us = 0;
   std::vector<std::uint32_t> cameras;                     ///< that look
   std::vector<std::vector<model::Transform>> link_world;  ///< per robot
-  std::vector<model::Transform> body_world;               ///< of the world's moving objects
+  std::vector<model::Transform> body_world;               ///< the world's moving objects
   std::uint32_t robot = 0;                                ///< whose cameras look
-  bool raw = false;                                       ///< colour as rgb8, not as PNG
+  bool raw = false;                                       ///< rgb8, not PNG
 };
 
 struct Outside {
-  std::string view;  ///< of scene::view(), for moment.robot; empty: from eye_m to target_m
+  std::string view;  ///< scene::view() for moment.robot; empty: eye_m to target_m
   model::Vec3 eye_m = model::Vec3::Zero(), target_m = model::Vec3::Zero();
   double vertical_fov_rad = 0.5;
   std::uint32_t width = 0, height = 0;
@@ -45,18 +44,18 @@ struct Picture {
   std::uint64_t time_us = 0;
   std::uint32_t width = 0, height = 0;
   std::string encoding, data;
-  std::vector<std::string> names = {};  ///< of labels from 1 on; empty: not in view
+  std::vector<std::string> names = {};  ///< labels from 1; empty: not in view
 };
 
 enum class Kind : std::uint32_t {
   kStage,    ///< to the program, first
-  kReady,    ///< from it: it can draw
-  kFailed,   ///< from it: the reason, in one line
+  kReady,    ///< it can draw
+  kFailed,   ///< one line
   kMoment,   ///< to it
-  kPicture,  ///< from it, one or two for each camera that looked
-  kDone,     ///< from it, after a moment's pictures: its processor time so far, us
-  kOutside,  ///< to it, a moment and a viewpoint; then kPicture and kDone, or kRefused
-  kRefused   ///< from it: why not, in one line; it still works
+  kPicture,  ///< one or two per camera that looked
+  kDone,     ///< after a moment's pictures: processor time so far, us
+  kOutside,  ///< moment and viewpoint; then kPicture and kDone, or kRefused
+  kRefused   ///< one line; it still works
 };
 
 struct Message {
@@ -64,9 +63,9 @@ struct Message {
   std::string data;
 };
 
-/// Waits until all bytes are sent. False: the other end is gone.
+/// False: the other end is gone.
 bool send(int socket, Kind kind, std::string_view data);
-/// Waits for the next; empty: the other end is gone.
+/// Empty: the other end is gone.
 std::optional<Message> receive(int socket);
 
 std::string pack(const Stage& stage);
@@ -74,7 +73,7 @@ std::string pack(const Moment& moment);
 std::string pack(const Moment& moment, const Outside& from);
 std::string pack(const Picture& picture);
 std::string pack(std::uint64_t number);
-/// Reverses pack(); empty for other data. A stage of another build is refused too.
+/// Empty for other data, also from another build.
 std::optional<Stage> unpack_stage(std::string_view data);
 std::optional<Moment> unpack_moment(std::string_view data);
 std::optional<std::pair<Moment, Outside>> unpack_outside(std::string_view data);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kReach_px = 12;
 constexpr int kLeastJump = 10;  ///< of 255
-constexpr int kLeastPart = 10;  ///< one tenth of the brighter value
+constexpr int kLeastPart = 10;  ///< of the brighter value
 
 class Smoother {
  public:
@@ -31,7 +31,7 @@ class Smoother {
  private:
   int luma(int at) const { return luma_[static_cast<std::size_t>(at)]; }
 
-  /// Curvature of brightness along `step`, here and in two neighbours.
+  /// Here and in two neighbours along `step`.
   int bend(int at, int step, int beside) const {
     const auto one = [&](int i) { return std::abs(luma(i - step) - 2 * luma(i) + luma(i + step)); };
     return 2 * one(at) + one(at - beside) + one(at + beside);
@@ -53,7 +53,7 @@ class Smoother {
     if (share > 0) mix(at, other, share);
   }
 
-  /// Share of a pixel behind its edge to `other`.
+  /// Behind its edge to `other`.
   float hidden(int at, int other, int along, const int (&room)[2]) const {
     const int jump = luma(other) - luma(at), middle = luma(at) + luma(other);
     int steps[2], change[2];
@@ -67,7 +67,7 @@ class Smoother {
       if (2 * std::abs(change[side]) < std::abs(jump)) change[side] = 0;
     }
     const int nearer = steps[0] <= steps[1] ? 0 : 1;
-    // At the nearer end this side must change toward the other, else the stairs run elsewhere.
+    // Else the stairs run elsewhere.
     if (change[nearer] == 0 || (change[nearer] > 0) != (jump > 0)) return 0;
     const auto run = static_cast<float>(steps[0] + steps[1] - 1);
     return 0.5F - (static_cast<float>(steps[nearer]) - 0.5F) / run;

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostMeshBytes = 200u << 20;  // a whole robot for 3D printing is 50 MB
+constexpr std::uintmax_t kMostMeshBytes = 200u << 20;  // a whole robot for printing has 50 MB
 constexpr int kMostTexture = 8192;
 
 [[noreturn]] void refuse(const std::string& file, const std::string& what, const std::string& fix) {
@@ -31,7 +31,7 @@ bool is_sound(const aiVector3D& point) {
   return std::abs(point.x) < kFar && std::abs(point.y) < kFar && std::abs(point.z) < kFar;
 }
 
-/// False: a point is not finite or too far off.
+/// False: a point is not finite, or too far.
 bool add_part(scene::Triangles& out, const aiMesh& part, const aiMatrix4x4& pose) {
   const auto first = static_cast<std::uint32_t>(out.points.size());
   const aiMatrix3x3 turn(pose);
@@ -63,7 +63,7 @@ bool add_node(scene::Triangles& out, const aiScene& in, const aiNode& node, aiMa
   return true;
 }
 
-/// libpng's simplified interface: whole pictures, no setjmp.
+/// Whole pictures, no setjmp.
 struct Png {
   png_image image{};
   Png() { image.version = PNG_IMAGE_VERSION; }
@@ -115,7 +115,7 @@ scene::Triangles read_mesh(const std::string& file) {
 
 namespace {
 
-/// For a PNG whose header has been read.
+/// Reads a PNG after its header.
 Image finish_reading(const std::string& name, Png& png) {
   if (png.image.width > kMostTexture || png.image.height > kMostTexture) {
     refuse(name,
@@ -192,7 +192,7 @@ void write_depth_png(const std::string& file, const Measured& measured) {
     const float value = depth * 1000;
     mm.push_back(value < 65535.5F ? static_cast<std::uint16_t>(std::lround(value)) : 0);
   }
-  // libpng stores 16-bit grey as linear values, unchanged.
+  // 16-bit grey is linear, unchanged.
   write(file, measured.size, PNG_FORMAT_LINEAR_Y, mm.data());
 }
 

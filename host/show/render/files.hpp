@@ -7,19 +7,18 @@
 
 namespace verp::render {
 
-/// Reads any format of assimp (STL, OBJ, DAE, glTF), in the file's units. Throws RenderError that
-/// names file, fault and remedy.
+/// By assimp (STL, OBJ, DAE, glTF), file's units. Throws RenderError with file, fault and remedy.
 scene::Triangles read_mesh(const std::string& file);
 
 /// Throws RenderError.
 Texture read_texture(const std::string& file);
 
-/// Writes all or nothing. Throws RenderError.
+/// All or nothing. Throws RenderError.
 void write_png(const std::string& file, const Image& image);
 
-/// Compressed quickly: half as large again as write_png()'s file.
+/// Quick: half as large again as write_png()'s.
 std::string png_of(const Image& image);
-/// Throws RenderError that names `name`.
+/// Throws RenderError with `name`.
 Image read_png(const std::string& name, std::string_view bytes);
 
 /// 16-bit grey, 1 mm a step; 0: nothing within 65.5 m.

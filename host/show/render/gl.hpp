@@ -7,7 +7,7 @@
 
 #include "host/show/scene/scene.hpp"
 
-/// Owning handles of OpenGL objects. Private to this folder.
+/// Owning handles; private to this folder.
 namespace verp::render {
 
 using Mat4 = Eigen::Matrix4f;
@@ -52,7 +52,7 @@ RenderBuffer new_renderbuffer();
 
 class Program {
  public:
-  /// Throws RenderError with the compiler's first line.
+  /// Throws RenderError with the compiler's line.
   Program(const char* vertex, const char* fragment, const char* fragment_header = "");
   void use() const { glUseProgram(name_.id()); }
   GLint at(const char* uniform);
@@ -82,11 +82,11 @@ class GpuMesh {
   Eigen::AlignedBox3f around_;
 };
 
-/// A render target with colour and depth, to be read back.
+/// With colour and depth, to be read back.
 class Canvas {
  public:
   Canvas() = default;
-  /// samples 0: no multisampling. Throws RenderError if the driver refuses the size.
+  /// samples 0: no multisampling. Throws RenderError for a refused size.
   Canvas(int width, int height, GLenum format, int samples);
   bool fits(int width, int height, int samples) const {
     return frame_.id() != 0 && width == width_ && height == height_ && samples == samples_;
@@ -99,7 +99,6 @@ class Canvas {
   int width_ = 0, height_ = 0, samples_ = 0;
 };
 
-/// Throws RenderError for a size that the driver cannot hold.
 void require_size(int width, int height);
 
 }  // namespace verp::render

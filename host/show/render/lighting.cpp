@@ -8,7 +8,6 @@ namespace {
 
 constexpr std::size_t kMostLights = 8;
 
-/// Defines for the lit shader.
 std::string header_of(const scene::Scene& scene, const View& view, const Effects& effects,
                       bool of_floor, bool textured) {
   const std::size_t count = std::min<std::size_t>(scene.lights.size(), kMostLights);
@@ -130,7 +129,7 @@ void Lighting::set_lights(const scene::Scene& scene, Program& program, double su
   glBindTexture(GL_TEXTURE_2D, shadow_.id());
 }
 
-/// Sets the uniforms that a picture's items share.
+/// Shared by a picture's items.
 void Lighting::set_common(const scene::Scene& scene, Program& program, const View& view) {
   program.use();
   program.set("clip_world", view.clip);

@@ -7,10 +7,10 @@
 #include "host/show/render/projection.hpp"
 #include "host/show/render/shaders.hpp"
 
-/// A scene's lights and the sun's shadows. Private to this folder.
+/// Lights and shadows; private to this folder.
 namespace verp::render {
 
-/// Converts sRGB to linear colour.
+/// Converts from sRGB.
 Eigen::Vector3f linear(const scene::Colour& colour);
 
 class Lighting {
@@ -19,9 +19,9 @@ class Lighting {
 
   /// The light that casts shadows, or -1.
   static int shadow_light(const scene::Scene& scene, const Effects& effects);
-  /// Draws solid items as the sun sees them.
+  /// As the sun sees solid items.
   void draw_shadows(const std::vector<Placed>& placed, const Mat4& sun, const Effects& effects);
-  /// An item's shader, in use, with the uniforms that a picture's items share.
+  /// In use, with a picture's shared uniforms.
   Program& program(const scene::Scene& scene, const View& view, const Effects& effects,
                    bool of_floor, bool textured);
 

@@ -6,20 +6,20 @@
 #include "host/show/render/shapes.hpp"
 #include "host/show/render/stage.hpp"
 
-/// Depth and item of each pixel. Private to this folder.
+/// Depth and item per pixel; private to this folder.
 namespace verp::render {
 
-/// Sets the OpenGL state with which every pass begins.
+/// Every pass begins with it.
 void begin_pass();
 
 class Meter {
  public:
   enum class Names {
     kLabels,  ///< scene::label_of; floor: 0
-    kItems    ///< indices into Scene::items; floor: -1
+    kItems    ///< Scene::items; floor: -1
   };
-  /// Four floats a pixel, rows from the bottom: depth along the camera's axis (infinity: nothing
-  /// there), name, two unused.
+  /// Four floats a pixel, rows from the bottom: depth along the axis (infinity: nothing), name, two
+  /// unused.
   std::vector<float> measure(const Stage& stage, const scene::Snapshot& now,
                              const scene::Camera& camera, Size size, const Effects& effects,
                              Names names);

@@ -22,7 +22,7 @@ bool can_be_loaded(const char* library) {
   return handle != nullptr;
 }
 
-/// libepoxy ends the program at the first call into a missing library.
+/// libepoxy would end the program.
 void require_libraries() {
   if (!can_be_loaded("libEGL.so.1")) no_driver("libEGL.so.1 is not there");
   if (!can_be_loaded("libOpenGL.so.0") && !can_be_loaded("libGL.so.1"))
@@ -32,7 +32,7 @@ void require_libraries() {
 }  // namespace
 
 OffscreenContext::OffscreenContext() {
-  ::setenv("EGL_LOG_LEVEL", "fatal", 0);  // our message replaces libEGL's lines
+  ::setenv("EGL_LOG_LEVEL", "fatal", 0);  // our message instead
   require_libraries();
   if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
     no_driver("EGL has no surfaceless platform here");

@@ -2,8 +2,7 @@
 
 namespace verp::render {
 
-/// An OpenGL context without a window or display (EGL's surfaceless platform), current in the
-/// constructor's thread.
+/// Without window or display (EGL surfaceless), current in the constructor's thread.
 class OffscreenContext {
  public:
   /// Throws RenderError without a driver.

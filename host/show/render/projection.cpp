@@ -35,7 +35,7 @@ Mat4 perspective(const scene::Camera& camera, Size size) {
   return clip;
 }
 
-/// Orthographic projection along the light over a ball.
+/// Along the light, over a ball.
 Mat4 sun_of(const Vec3& direction, const Stage::Ball& ball) {
   const Vec3 toward = direction.normalized();
   const Mat4 view = look_at(ball.centre_m - 2 * ball.radius_m * toward, ball.centre_m,
@@ -48,7 +48,7 @@ Mat4 sun_of(const Vec3& direction, const Stage::Ball& ball) {
   return clip * view;
 }
 
-/// The floor area that light past the ball's box reaches.
+/// Floor that light past the ball's box reaches.
 Area shaded_by(const Mat4& sun, const Vec3& direction, const Stage::Ball& ball) {
   Area area;
   const Vec3 toward = direction.normalized();
@@ -73,7 +73,7 @@ Mat4 clip_of(const scene::Camera& camera, Size size) {
 std::vector<Placed> in_sight(const std::vector<Placed>& placed, const scene::Camera& camera,
                              Size size) {
   const Mat4 clip = clip_of(camera, size);
-  // In the picture, w + x, w - x, w + y, ... are positive: six planes.
+  // Inside, w + x, w - x, w + y, ... are positive: six planes.
   Eigen::Matrix<float, 6, 4> planes;
   for (int axis = 0; axis < 3; ++axis) {
     planes.row(2 * axis) = clip.row(3) + clip.row(axis);

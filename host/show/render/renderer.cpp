@@ -85,8 +85,7 @@ struct Renderer::Impl {
     View unshaded = view;
     unshaded.shadow_light = -1;
     if (view.shadow_light < 0) return draw_floor_part(unshaded, effects, all);
-    // Shades only the part in the shadow map; most of the floor is outside. The parts overlap by a
-    // shadowless margin, so that no crack shows.
+    // Most of the floor is outside the shadow map; parts overlap without shadow, so no crack shows.
     constexpr double kOverlap_m = 0.001;
     const Area in = view.shaded.intersection(all);
     if (in.isEmpty()) return draw_floor_part(unshaded, effects, all);
@@ -121,7 +120,7 @@ struct Renderer::Impl {
     solid.set("glow", linear(material.glow));
     solid.set("roughness", material.roughness);
     solid.set("metallic", material.metallic);
-    // A closed shape hides its far side. Meshes from files may be open or wind either way.
+    // It hides its far side; meshes may be open or wind either way.
     const bool closed = placed.item->shape < scene::Shape::kPlane;
     (closed ? glEnable : glDisable)(GL_CULL_FACE);
     glActiveTexture(GL_TEXTURE1);
@@ -139,7 +138,7 @@ struct Renderer::Impl {
     }
   }
 
-  /// Transparent items, farthest first, after all solid ones.
+  /// Farthest first, after solid ones.
   void draw_clear(const std::vector<Placed>& placed, const Effects& effects, const Vec3& eye_m,
                   float opacity) {
     std::vector<const Placed*> clear;
@@ -167,7 +166,7 @@ struct Renderer::Impl {
                  marks.vertices.data(), GL_STREAM_DRAW);
     const auto count = static_cast<GLsizei>(marks.vertices.size());
     glDepthMask(GL_FALSE);
-    glDepthFunc(GL_GREATER);  // marks behind something are faint
+    glDepthFunc(GL_GREATER);  // hidden marks are faint
     mark.set("opacity", 0.3F);
     glDrawArrays(GL_TRIANGLES, 0, count);
     glDepthMask(GL_TRUE);
@@ -176,7 +175,7 @@ struct Renderer::Impl {
     glDrawArrays(GL_TRIANGLES, 0, count);
   }
 
-  /// Solid items before floor and sky: a hidden pixel costs little.
+  /// A hidden pixel costs little: solid items first.
   void draw_all(const scene::Snapshot& now, const scene::Camera& camera, Size size,
                 const Effects& effects, GLuint target) {
     const std::vector<Placed> placed = stage.place(now, effects);
@@ -208,7 +207,7 @@ struct Renderer::Impl {
     glBindVertexArray(0);
   }
 
-  /// Limited to what the scene's file leaves on.
+  /// The scene's file may switch effects off.
   void draw_canvas(const scene::Snapshot& now, const scene::Camera& camera, Size size,
                    Effects effects) {
     effects.antialias &= stage.scene().antialias;

@@ -9,20 +9,20 @@
 #include "host/show/scene/camera.hpp"
 #include "host/show/scene/snapshot.hpp"
 
-/// OpenGL 3.3 core through libepoxy, in the current context: a window's or an OffscreenContext.
+/// OpenGL 3.3 core by libepoxy, in the current context.
 namespace verp::render {
 
-/// No driver, no context, or a bad file; one line.
+/// No driver, context or valid file.
 class RenderError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// All can change between pictures.
+/// Effects may change between pictures.
 struct Effects {
   bool antialias = true;
   bool shadows = true;
-  bool quick = false;  ///< coarser shadows, for a window drawn by the PC's processor
+  bool quick = false;  ///< coarser shadows, for windows drawn by the processor
   bool fog = true;
   bool textures = true;
   bool transparency = true;
@@ -30,14 +30,13 @@ struct Effects {
   bool ground = true;
   bool ground_grid = true;
   bool visuals = true;
-  bool collisions = false;  ///< collision shapes, over the visuals
+  bool collisions = false;  ///< over the visuals
   // Marks of what cannot be seen:
   bool axes = false;  ///< of each link
   bool com = false, zmp = false, support = false, contacts = false, footsteps = false;
   bool trails = false, rays = false;
-  bool goals = false;  ///< the robot at its joint goals, transparent
+  bool goals = false;  ///< at its joint goals, transparent
 
-  /// All marks that explain a walk.
   static Effects explained();
 };
 
@@ -53,32 +52,30 @@ struct Image {
 /// Per pixel, rows from the top.
 struct Measured {
   Size size;
-  std::vector<float> depth_m;        ///< along the camera's axis; infinity: nothing there
+  std::vector<float> depth_m;        ///< along the axis; infinity: nothing
   std::vector<std::uint16_t> label;  ///< scene::label_of
 };
 
-/// Its OpenGL objects belong to the context that is current in the constructor, which must be
-/// current in the destructor. A snapshot never makes it throw: it skips items whose numbers are not
-/// finite.
+/// The constructor's context must be current in the destructor. No snapshot makes it throw: it
+/// skips items that are not finite.
 class Renderer {
  public:
-  /// Throws RenderError without a context of OpenGL 3.3 or later.
+  /// Throws RenderError without OpenGL 3.3.
   Renderer();
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// True if the PC's processor draws: pictures cost its time.
+  /// Pictures then cost its time.
   bool on_processor() const;
 
-  /// Uploads shapes, meshes and textures. Leaves out files that it cannot read, with a line in
-  /// notes().
+  /// Unreadable files are left out, with a line in notes().
   void set_scene(const scene::Scene& scene);
-  /// Sets other materials, lights, fog, sky or ground for the same items, without an upload.
+  /// Materials, lights, fog, sky or ground of the same items, without upload.
   void set_looks(const scene::Scene& scene);
   const std::vector<std::string>& notes() const;
 
-  /// Draws into `framebuffer` (in a window, QOpenGLWidget::defaultFramebufferObject()).
+  /// `framebuffer`: in a window QOpenGLWidget::defaultFramebufferObject().
   void draw(const scene::Snapshot& now, const scene::Camera& camera, Size size,
             const Effects& effects, unsigned framebuffer = 0);
 
@@ -87,7 +84,7 @@ class Renderer {
   Measured measure(const scene::Snapshot& now, const scene::Camera& camera, Size size,
                    const Effects& effects = {});
 
-  /// The item at a pixel (from the top left): an index into Scene::items, or -1, and the point.
+  /// At a pixel from the top left: index into Scene::items, or -1, and point.
   struct Hit {
     int item = -1;
     scene::Vec3 point_world_m = scene::Vec3::Zero();

@@ -18,7 +18,7 @@ void add_point(Triangles& mesh, const Vector3f& point, const Vector3f& normal, c
   mesh.texture_at.push_back(at);
 }
 
-/// Two triangles for each cell of a grid of points; `columns` is the row length.
+/// Two triangles per cell; `columns`: row length.
 void add_grid(Triangles& mesh, std::uint32_t first, std::uint32_t rows, std::uint32_t columns) {
   for (std::uint32_t r = 0; r + 1 < rows; ++r) {
     for (std::uint32_t c = 0; c + 1 < columns; ++c) {
@@ -28,7 +28,7 @@ void add_grid(Triangles& mesh, std::uint32_t first, std::uint32_t rows, std::uin
   }
 }
 
-/// From -half to half: arcs in steps of angle, the flat part in one.
+/// -half to half: arcs in steps, the flat part in one.
 std::vector<float> ticks(float half, float round) {
   constexpr int kArc = 2;
   std::vector<float> at;
@@ -78,7 +78,7 @@ Triangles box(const scene::Vec3& edges_m, double round_m) {
     add_face(mesh, {0, 2, 1, sign}, half, round);
     add_face(mesh, {2, 1, 0, sign}, half, round);
   }
-  // The faces' grids wind inward.
+  // The grids wind inward.
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
   }
@@ -99,7 +99,7 @@ Triangles turned(const std::vector<Vector2f>& profile, const std::vector<Vector2
                      static_cast<float>(std::max<std::size_t>(profile.size(), 2) - 1)});
     }
   }
-  // Profiles run from the top down, so triangles face outward.
+  // From the top down: triangles face outward.
   add_grid(mesh, 0, static_cast<std::uint32_t>(profile.size()),
            static_cast<std::uint32_t>(around + 1));
   return mesh;

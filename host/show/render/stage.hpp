@@ -4,13 +4,13 @@
 #include "host/show/render/gl.hpp"
 #include "host/show/render/renderer.hpp"
 
-/// A scene in the driver. Private to this folder.
+/// A scene in the driver; private to this folder.
 namespace verp::render {
 
 struct Placed {
   const scene::Item* item;
   const GpuMesh* mesh;
-  const GpuMesh* sharp;  ///< the same without rounded edges, or null
+  const GpuMesh* sharp;  ///< without rounded edges, or null
   GLuint texture = 0;
   int index = 0;  ///< in Scene::items
   Mat4 world = Mat4::Identity();
@@ -19,16 +19,16 @@ struct Placed {
 
 class Stage {
  public:
-  /// Bad files do not throw; notes() lists those left out.
+  /// notes() lists bad files.
   void fill(const scene::Scene& scene);
   void set_looks(const scene::Scene& scene);
   const scene::Scene& scene() const { return scene_; }
   const std::vector<std::string>& notes() const { return notes_; }
 
-  /// Skips items of robots or bodies that the snapshot lacks, and poses that are not finite.
+  /// Without missing robots and bodies, and poses that are not finite.
   std::vector<Placed> place(const scene::Snapshot& now, const Effects& effects) const;
 
-  /// A ball that the sun's shadows must cover.
+  /// The sun's shadows must cover it.
   struct Ball {
     scene::Vec3 centre_m = scene::Vec3::Zero();
     double radius_m = 1;
@@ -41,10 +41,10 @@ class Stage {
   GLuint texture_of_file(const std::string& file);
 
   scene::Scene scene_;
-  std::vector<GpuMesh> own_;          ///< one per item; empty if the mesh is from a file
-  std::vector<GpuMesh> sharp_;        ///< one per item with rounded edges, without them
+  std::vector<GpuMesh> own_;          ///< per item; empty: a file's mesh
+  std::vector<GpuMesh> sharp_;        ///< without rounded edges
   std::vector<const GpuMesh*> mesh_;  ///< one per item
-  std::vector<GLuint> texture_;       ///< one per item; 0: no texture
+  std::vector<GLuint> texture_;       ///< per item; 0: none
   std::map<std::string, GpuMesh> files_;
   std::map<std::string, Texture> pictures_;
   std::vector<std::string> notes_;

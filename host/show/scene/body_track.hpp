@@ -5,7 +5,7 @@
 
 namespace verp::scene {
 
-/// Link poses at a tick's measured angles.
+/// At a tick's measured angles.
 class TickPoses {
  public:
   TickPoses(const Entity& entity, const Params& params) : entity_(entity), params_(params) {}
@@ -21,13 +21,12 @@ Transform to_transform(const record::ros::BodyPose& pose);
 /// `part` runs from 0 to 1.
 Transform between(const Transform& from, const Transform& to, double part);
 
-/// The body's pose tick by tick. Interpolates the trace's true poses if there are any. Otherwise
-/// tilt and heading are the controller's estimate, and position follows from the lower sole, which
-/// does not slide.
+/// The body's pose tick by tick. Interpolates the trace's true poses, if any. Else tilt and heading
+/// are the estimate, and position follows from the lower sole, which does not slide.
 class BodyTrack {
  public:
   BodyTrack(const record::Trace& trace, const TickPoses& poses) : trace_(trace), poses_(poses) {}
-  /// For one tick after the other; state and outputs after the tick.
+  /// Tick after tick; state and outputs after it.
   Transform at(std::size_t index, const State& state, const Outputs& outputs);
 
  private:
@@ -36,8 +35,8 @@ class BodyTrack {
 
   const record::Trace& trace_;
   const TickPoses& poses_;
-  std::size_t next_ = 0;  ///< in Trace::bodies: the first after the tick
-  int standing_ = -1;     ///< the foot that carried last
+  std::size_t next_ = 0;  ///< first in Trace::bodies after the tick
+  int standing_ = -1;     ///< last carrying foot
   Vec2 stands_m_ = Vec2::Zero();
 };
 

@@ -56,7 +56,7 @@ class RobotBuilder {
     return meshes_ == Meshes::kFromFiles && !visual.mesh.empty();
   }
 
-  /// One note a robot: robots of third parties often lack their meshes.
+  /// One a robot: many lack their meshes.
   void note_missing() {
     std::size_t count = 0;
     std::string first;
@@ -124,7 +124,7 @@ class RobotBuilder {
     if (node.collisions.empty()) add_body_of_inertia(index);
   }
 
-  /// The uniform box with a link's mass and inertia, for a link without shapes.
+  /// Uniform, with a shapeless link's mass and inertia.
   void add_body_of_inertia(int index) {
     const model::Node& node = e_.nodes[static_cast<std::size_t>(index)];
     if (node.mass_kg <= 0) return;
@@ -152,7 +152,7 @@ class RobotBuilder {
         .colour = {0.03F, 0.05F, 0.09F, 1}, .roughness = 0.08F};
   }
 
-  /// An axle between links whose file gives no colour; else their boxes hang in the air.
+  /// Else boxes without colour hang in the air.
   void add_hub(const model::Joint& joint) {
     const int node = static_cast<int>(&joint - e_.joints.data()) + 1;
     double least_m = 1;

@@ -24,7 +24,7 @@ Vec3 around(double azimuth_rad, double elevation_rad) {
           std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad)};
 }
 
-/// Heading of the link's x axis.
+/// By the link's x axis.
 double heading_rad(const Transform& body) {
   const Vec3 ahead = body.linear().col(0);
   return std::atan2(ahead.y(), ahead.x());
@@ -37,7 +37,7 @@ Camera through(const Mount& mount, const Snapshot& now, double aspect) {
     pose = robot.link_world[static_cast<std::size_t>(mount.node)] * mount.pose;
   }
   Camera camera;
-  // The eye is ahead of the drawn lens and its rim.
+  // Ahead of the drawn lens.
   camera.eye_m = pose * Vec3(0.008, 0, 0);
   camera.target_m = pose * Vec3(1, 0, 0);
   camera.up = pose.linear().col(2);

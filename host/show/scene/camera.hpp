@@ -16,7 +16,7 @@ struct Camera {
   double near_m = 0.02, far_m = 60;
 };
 
-/// A camera on a sphere around its target, turned by the mouse.
+/// Around a target, by mouse.
 struct Orbit {
   Vec3 target_m = Vec3(0, 0, 0.25);
   double azimuth_rad = -0.65;   ///< 0: from ahead of a robot along x; positive: from its left
@@ -25,18 +25,18 @@ struct Orbit {
   double vertical_fov_rad = 0.5;
 
   Camera camera() const;
-  /// Angles in radians; stops short of the pole.
+  /// Radians; stops short of the pole.
   void turn(double azimuth_rad, double elevation_rad);
-  /// In the picture's plane, in picture heights: the point under the mouse stays there.
+  /// Picture heights: the point under the mouse stays.
   void pan(double right, double up);
   void zoom(double factor);
 };
 
-/// front, side, three-quarter, back, top, follow, head, and the names of the scene's cameras.
+/// front, side, three-quarter, back, top, follow, head, and the scene's cameras.
 std::vector<std::string> view_names(const Scene& scene);
 
-/// Empty for an unknown name. `aspect` is the picture's width / height and sets the distance. A
-/// declared camera keeps its horizontal field.
+/// Empty: unknown. `aspect`: width / height, sets the distance. A declared camera keeps its
+/// horizontal field.
 std::optional<Camera> view(const std::string& name, const Scene& scene, const Snapshot& now,
                            int robot, double aspect);
 

@@ -19,8 +19,7 @@
 namespace verp::scene {
 namespace {
 
-constexpr std::size_t kEvery = 125;  // ticks between stored States: a seek recomputes at most this
-                                     // many
+constexpr std::size_t kEvery = 125;  // between States: most that a seek recomputes
 
 bool is_same_robot(const Entity& entity, const Params& params) {
   if (entity.joints.size() != params.joint_count) return false;

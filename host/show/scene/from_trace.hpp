@@ -8,12 +8,12 @@
 
 namespace verp::scene {
 
-/// Shows a trace at any time. Runs the controller again over the recorded Inputs, so its goals are
-/// known even without recorded State.
+/// Shows a trace at any time. Runs the controller over the recorded Inputs, so goals need no
+/// recorded State.
 class TracePlayer {
  public:
-  /// Throws TraceError. If the robot's file is gone or has other joints, shows a robot made of the
-  /// trace's Params; note() says so.
+  /// Throws TraceError. Without a fitting robot file it shows one from the trace's Params, and
+  /// note() says so.
   explicit TracePlayer(const std::filesystem::path& file);
   ~TracePlayer();
 
@@ -25,10 +25,9 @@ class TracePlayer {
   double begin_s() const;
   double end_s() const;
   std::size_t size() const;                ///< ticks
-  std::size_t index_at(double t_s) const;  ///< the tick at or before
+  std::size_t index_at(double t_s) const;  ///< at or before
 
   Snapshot at(std::size_t index) const;
-  /// The controller after that tick.
   void controller_at(std::size_t index, State& state, Outputs& outputs) const;
 
  private:

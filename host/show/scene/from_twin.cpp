@@ -24,7 +24,7 @@ void add_truth(RobotView& view, const sim::Observation& seen, const Entity& enti
   }
 }
 
-/// Adds the contacts of the last physics step.
+/// Contacts of the last physics step.
 void add_contacts(RobotView& view, const sim::World& world, int owner) {
   for (const sim::Contact& contact : world.contacts()) {
     if (contact.owner != owner) continue;

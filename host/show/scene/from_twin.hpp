@@ -5,11 +5,9 @@
 
 namespace verp::scene {
 
-/// A robot's view at a tick, for session::Hooks::ticked. Only reads: the run has the same bits with
-/// and without it.
+/// For session::Hooks::ticked. Changes no bit of the run.
 RobotView look(const session::Tick& tick, const Entity& entity, const Params& params);
 
-/// Snapshot of one robot's run.
 Snapshot snapshot(const session::Tick& tick, const Entity& entity, const Params& params);
 
 }  // namespace verp::scene

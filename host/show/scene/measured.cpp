@@ -9,7 +9,7 @@
 namespace verp::scene {
 namespace {
 
-/// A sole this close to the floor stands on it, if feet have no force cells.
+/// Without force cells, a sole this close stands.
 constexpr double kTouches_m = 0.004;
 
 Vec3 com_of(const RobotView& view, const Entity& entity) {
@@ -22,7 +22,7 @@ Vec3 com_of(const RobotView& view, const Entity& entity) {
   return mass_kg > 0 ? Vec3(moment / mass_kg) : view.link_world.front().translation();
 }
 
-/// Cells at the sole's corners: front-left, front-right, back-left, back-right.
+/// Order of cells: front-left, front-right, back-left, back-right.
 constexpr std::size_t kCorner[kFootSensors] = {0, 1, 3, 2};
 
 void add_foot_cells(RobotView& view, const sim::Truth& feet, const Params& params,

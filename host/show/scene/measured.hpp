@@ -6,7 +6,7 @@
 #include "host/show/scene/snapshot.hpp"
 #include "host/twin/sim/truth.hpp"
 
-/// From a robot's own sensors, where the true state is unknown.
+/// By the robot's sensors, where the truth is unknown.
 namespace verp::scene {
 
 /// Text of a name in Params.
@@ -14,7 +14,7 @@ std::string text_of(const char (&name)[kNameLength]);
 
 std::vector<double> measured_rad(const Inputs& inputs, const Params& params);
 
-/// Adds soles, CoM, support and foot forces to a view with link poses.
+/// Soles, CoM, support and foot forces, for a view with link poses.
 void add_measured(RobotView& view, const Entity& entity, const Params& params,
                   const Inputs& inputs);
 

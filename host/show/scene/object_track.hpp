@@ -5,12 +5,11 @@
 
 namespace verp::scene {
 
-/// Poses of a world's moving objects, interpolated between a trace's. An object that the trace does
-/// not name stays where it began.
+/// Moving objects' poses, between a trace's. An unnamed object stays where it began.
 class ObjectTrack {
  public:
   ObjectTrack(const record::Trace& trace, const model::World& world);
-  /// After that tick, in the order of model::moving().
+  /// In the order of model::moving().
   std::vector<Transform> at(std::size_t tick) const;
 
  private:

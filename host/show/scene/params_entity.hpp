@@ -4,7 +4,7 @@
 
 namespace verp::scene {
 
-/// A robot made of Params alone: tree and soles, with bones to draw.
+/// From Params alone: tree, soles, and bones to draw.
 Entity entity_of(const Params& params);
 
 }  // namespace verp::scene

@@ -18,7 +18,7 @@ std::array<double, 3> turned(const float (&rotation)[9], const std::int16_t (&co
   return out;
 }
 
-/// Maps the gait's walk frame to the world by a foothold known in both.
+/// Walk frame to world, by a foothold known in both.
 struct Placed {
   Vec2 from_m, to_m;
   double turn_rad;

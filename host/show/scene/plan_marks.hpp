@@ -6,13 +6,13 @@
 
 namespace verp::scene {
 
-/// Adds goals, mode, phase, state, stance and faults.
+/// Goals, mode, phase, state, stance and faults.
 void add_outputs(RobotView& view, const Outputs& outputs, const Params& params);
 
-/// Adds gyro and accelerometer in body axes.
+/// Gyro and accelerometer in body axes.
 void add_imu(RobotView& view, const Inputs& inputs, const Params& params);
 
-/// The planned footholds, placed relative to the stance foot: the plan is in the gait's own frame.
+/// Relative to the stance foot: the plan has its own frame.
 std::vector<Footstep> footsteps(const gait::GaitState& gait, const Transform& left_sole_world,
                                 const Transform& right_sole_world);
 

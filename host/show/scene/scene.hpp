@@ -6,8 +6,7 @@
 
 #include "host/robot/model/entity.hpp"
 
-/// Shapes, materials and lights (Scene) and one instant of them (snapshot.hpp). All displays take
-/// only these two. Nothing here touches physics or a controller.
+/// Scene, and one instant of it (snapshot.hpp), for all displays. Without physics or controller.
 namespace verp::scene {
 
 using model::Entity;
@@ -25,10 +24,10 @@ struct Material {
   float roughness = 0.55F;
   float metallic = 0;
   Colour glow{0, 0, 0, 1};
-  std::string texture = {};  ///< image file, times the colour; may be empty
+  std::string texture = {};  ///< times the colour; may be empty
 };
 
-/// In the item's frame, metres. Without normals, faces are flat.
+/// Item's frame, metres; without normals faces are flat.
 struct Triangles {
   std::vector<Eigen::Vector3f> points, normals;
   std::vector<Eigen::Vector2f> texture_at;  ///< empty: no texture
@@ -38,29 +37,29 @@ struct Triangles {
 enum class Shape {
   kBox,       ///< size: edges
   kSphere,    ///< size.x: radius
-  kCapsule,   ///< size.x: radius, size.z: length between the caps' centres, along z
+  kCapsule,   ///< size.x: radius, size.z: between the caps' centres, along z
   kCylinder,  ///< size.x: radius, size.z: length
-  kPlane,     ///< size.x, size.y: edges; faces z; no thickness
-  kMesh,      ///< of mesh_file; size: scale of each axis
+  kPlane,     ///< size.x, size.y: edges; faces z
+  kMesh,      ///< mesh_file; size: scale per axis
   kTriangles  ///< of `triangles`
 };
 
 inline constexpr int kWorld = -1;
 
-/// A shape on a robot's link or in the world.
+/// On a link or in the world.
 struct Item {
   std::string name;
   int robot = kWorld;  ///< index into Scene::robots
-  /// The robot's link; in the world, the index into Snapshot::body_world, or kWorld if fixed.
+  /// Link; in the world, index into Snapshot::body_world, or kWorld if fixed.
   int node = 0;
-  Transform pose = Transform::Identity();  ///< in the frame of `node`
+  Transform pose = Transform::Identity();  ///< frame of `node`
   Shape shape = Shape::kBox;
   Vec3 size_m = Vec3::Zero();
-  double round_m = 0;  ///< edge radius of a box or cylinder
+  double round_m = 0;  ///< edges of a box or cylinder
   Material material;
   std::string mesh_file;
   std::shared_ptr<const Triangles> triangles;
-  bool collision = false;  ///< drawn only if Effects::collisions is set
+  bool collision = false;  ///< with Effects::collisions
 };
 
 struct Light {
@@ -70,21 +69,21 @@ struct Light {
   Colour colour;
   float strength = 1;
   double range_m = 10;  ///< point, spot
-  /// Point and spot at distance d: strength / (x + y d + z d^2), less near the end of the range.
+  /// Point and spot at distance d: strength / (x + y d + z d^2), less near the range's end.
   Vec3 fading = Vec3(0.01, 0, 1);
   double inner_rad = 0.4, outer_rad = 0.6;
-  bool shadows = false;  ///< only the first such sun casts them
+  bool shadows = false;  ///< first such sun only
 };
 
 struct Fog {
   bool on = false;
   Colour colour{0.8F, 0.83F, 0.87F, 1};
   double begin_m = 4, end_m = 30;  ///< linear between the two
-  double density_1_m = 0;          ///< if above 0, instead: e^-(density d) remains at distance d
+  double density_1_m = 0;          ///< above 0: e^-(density d) remains at d
   bool squared = false;            ///< e^-(density d)^2
 };
 
-/// A soft gradient; smooth surfaces mirror it.
+/// Smooth surfaces mirror it.
 struct Sky {
   Colour zenith{0.62F, 0.72F, 0.84F, 1};
   Colour horizon{0.93F, 0.945F, 0.96F, 1};
@@ -97,14 +96,14 @@ struct Ground {
   Colour dark{0.775F, 0.79F, 0.812F, 1};
   Colour line{0.64F, 0.66F, 0.70F, 1};
   double tile_m = 0.1;
-  double fade_m = 6;  ///< at this distance it is half horizon
+  double fade_m = 6;  ///< half horizon here
 };
 
-/// A camera from a file, on a robot or in the world (robot: kWorld).
+/// From a file; in the world, robot is kWorld.
 struct Mount {
   std::string name;
   int robot = 0, node = 0;
-  Transform pose = Transform::Identity();  ///< x ahead, z up, as SDF has it
+  Transform pose = Transform::Identity();  ///< x ahead, z up
   double horizontal_fov_rad = 1.0472;
   int width_px = 320, height_px = 240;
   double near_m = 0.02, far_m = 20;
@@ -125,15 +124,15 @@ struct Scene {
   Fog fog;
   Sky sky;
   Ground ground;
-  bool antialias = true, textures = true, transparency = true;  ///< what its file leaves on
+  bool antialias = true, textures = true, transparency = true;  ///< left on by its file
   std::vector<Mount> cameras;
-  std::vector<std::string> notes;  ///< missing files that a robot's file names, one line a robot
+  std::vector<std::string> notes;  ///< missing files, one line a robot
 };
 
-/// Value in a segmentation picture. Links count from 1, by robot and link; then the world's things,
-/// where consecutive items of one name share a value. 0: nothing or the floor.
+/// Value in a segmentation picture. Links count from 1, by robot and link; then things, where
+/// consecutive items of one name share a value. 0: nothing or floor.
 int label_of(const Scene& scene, const Item& item);
-/// ROBOT/LINK, or the item's name.
+/// ROBOT/LINK, or the item's.
 std::string label_name(const Scene& scene, int label);
 
 }  // namespace verp::scene

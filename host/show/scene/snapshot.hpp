@@ -22,7 +22,7 @@ struct Footstep {
   double yaw_rad = 0;
 };
 
-/// Members that the source does not know are empty.
+/// Unknown members are empty.
 struct RobotView {
   std::vector<Transform> link_world;  ///< one per node
   std::vector<double> joint_rad, goal_rad, torque_use;
@@ -37,29 +37,28 @@ struct RobotView {
   std::uint8_t mode = 0;              ///< safety::Mode
   std::uint8_t phase = 0;             ///< gait::Phase
   std::uint8_t gait_state = 0;        ///< 0..15
-  std::uint8_t stance = 2;            ///< foot that carries: 0 left, 1 right, 2 both
+  std::uint8_t stance = 2;            ///< carries: 0 left, 1 right, 2 both
   bool held = false, fallen = false;
   std::array<double, 3> gyro_rad_s{}, accel_m_s2{};  ///< body axes
 };
 
-/// The latest point is last.
 struct Trail {
   Colour colour;
   std::vector<Vec3> points_world_m;
 };
 
-/// A ray from a range finder to the hit.
+/// From a range finder to the hit.
 struct Ray {
   Vec3 from_world_m = Vec3::Zero(), to_world_m = Vec3::Zero();
   bool hit = true;
 };
 
 struct Snapshot {
-  double t_s = 0;  ///< simulated time, or the trace's
+  double t_s = 0;  ///< simulated, or the trace's
   std::uint32_t tick = 0;
   std::vector<RobotView> robots;      ///< one per Scene::robots
   std::vector<Transform> body_world;  ///< the world's moving bodies
-  std::vector<Trail> trails;          ///< kept by the display (trails.hpp)
+  std::vector<Trail> trails;          ///< by the display (trails.hpp)
   std::vector<Ray> rays;
 };
 

@@ -8,7 +8,7 @@ namespace {
 
 using Kind = model::Shape::Kind;
 
-constexpr double kMostRound_m = 0.004;  // larger would look unlike what physics touches
+constexpr double kMostRound_m = 0.004;  // more would look unlike its physics
 
 Colour colour_of(const model::Color& c) {
   return {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2]),
@@ -26,7 +26,7 @@ Shape shape_of(Kind kind) {
   return kShapes[static_cast<int>(kind)];
 }
 
-/// SDF gives only the brightness of highlights: bright means smooth.
+/// SDF gives only brightness: bright means smooth.
 Material material_of(const model::Material& m) {
   const double shine = std::max({m.specular[0], m.specular[1], m.specular[2]});
   Material out;
@@ -91,7 +91,7 @@ Light light_of(const model::Light& light, bool shadows) {
   out.colour = colour_of(light.diffuse);
   out.range_m = light.range_m;
   out.fading = Vec3(light.constant, light.linear_1_m, light.quadratic_1_m2);
-  out.inner_rad = light.inner_rad / 2;  // SDF gives the full cone angle
+  out.inner_rad = light.inner_rad / 2;  // SDF: full cone
   out.outer_rad = std::max(light.outer_rad / 2, out.inner_rad + 1e-3);
   out.shadows = light.casts_shadows && shadows;
   return out;
@@ -157,7 +157,7 @@ class WorldBuilder {
     item.round_m = std::min(rounding_m(item.shape, item.size_m), kMostRound_m);
     if (shape.mesh && !shape.mesh->triangle.empty()) {
       item.triangles = triangles_of(*shape.mesh);
-    } else if (shape.mesh) {  // display only: any format, read by the renderer
+    } else if (shape.mesh) {  // any format, by the renderer
       item.shape = Shape::kMesh;
       item.mesh_file = shape.mesh->file;
     }
@@ -170,7 +170,7 @@ class WorldBuilder {
     add(object, visual.shape, visual.pose).material = material_of(visual.material);
   }
 
-  /// A level plane at height 0 has no end, as in physics.
+  /// At height 0 it has no end, as in physics.
   bool is_floor(const model::WorldVisual& visual) const {
     const Transform pose = frame_ * visual.pose;
     return visual.shape.kind == Kind::kPlane && visual.material.texture.empty() &&

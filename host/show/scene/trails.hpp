@@ -3,10 +3,10 @@
 
 namespace verp::scene {
 
-/// Paths of one robot's centre of mass and soles.
+/// Centre of mass and soles.
 class Trails {
  public:
-  /// Adds this instant; writes the trails into the snapshot.
+  /// Writes the trails into the snapshot, too.
   void follow(Snapshot& now, const Entity& entity);
 
  private:

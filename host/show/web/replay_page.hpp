@@ -2,15 +2,15 @@
 #include <filesystem>
 #include <string>
 
-/// A run to turn and scrub in any browser, without a server.
+/// For any browser, without a server.
 namespace verp::web {
 
 struct Replay {
-  std::string html;  ///< a section with its style and scripts; may be empty
-  std::string note;  ///< what is missing, in one line; may be empty
+  std::string html;  ///< with style and scripts; may be empty
+  std::string note;  ///< missing parts; may be empty
 };
 
-/// Throws TraceError. Returns a note if three.js is not installed.
+/// Throws TraceError. A note: three.js is missing.
 Replay replay_of(const std::filesystem::path& trace);
 
 std::string page_of(const std::string& title, const std::string& html);

@@ -57,7 +57,7 @@ Json rgb(const scene::Colour& c) {
   return {c.r, c.g, c.b};
 }
 
-/// A scene's own lights, floor and sky; viewer.js has a studio of its own.
+/// viewer.js has a studio of its own.
 Json air_json(const scene::Scene& scene) {
   Json lights = Json::array();
   for (const scene::Light& light : scene.lights) {

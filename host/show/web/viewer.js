@@ -1,4 +1,3 @@
-// Draws the run in the page; the user can turn, play and scrub it.
 (function () {
   'use strict';
   const section = document.getElementById('replay');
@@ -7,9 +6,7 @@
   const run = JSON.parse(section.querySelector('script.run').textContent);
   const bytes = Uint8Array.from(atob(run.frames), (c) => c.charCodeAt(0));
   const data = new Float32Array(bytes.buffer);
-  const joints = run.joints.length, columns = 25 + joints + 7 * run.bodies;  // the order of
-                                                                             // add_frame in
-                                                                             // scene_json.cpp
+  const joints = run.joints.length, columns = 25 + joints + 7 * run.bodies;  // as add_frame in scene_json.cpp
   const kPhases = ['stands', 'starts', 'walks', 'ends'];
 
   let renderer;
@@ -58,7 +55,6 @@
   })();
   scene.add(floor);
 
-  // A world's own floor, sky and lights.
   const air = run.air;
   if (air) {
     const linear = (rgb) => new THREE.Color(...rgb).convertSRGBToLinear();
@@ -80,14 +76,14 @@
     }
   }
 
-  // Grid points on the box, projected onto spheres around an inner box.
+  // On the box, projected onto spheres around an inner box.
   function roundBox(size, round) {
     const geometry = new THREE.BoxBufferGeometry(size[0], size[1], size[2], 8, 8, 8);
     const at = geometry.attributes.position, normal = geometry.attributes.normal;
     const half = size.map((s) => s / 2), r = Math.min(round, 0.98 * Math.min(...half));
     if (!(r > 0)) return geometry;
     const p = new THREE.Vector3(), inner = new THREE.Vector3();
-    const spread = (v, h) => {  // grid lines lie in the corners' arcs
+    const spread = (v, h) => {  // lines lie in the corners' arcs
       const k = Math.round(4 * v / h);
       if (Math.abs(k) === 4) return v;
       return Math.sign(k) * (h - r * (1 - Math.tan(Math.PI / 4 * Math.abs(k) / 4)));
@@ -239,7 +235,7 @@
     const flat = turn.distance * Math.cos(turn.elevation);
     camera.position.set(target.x + flat * Math.cos(turn.azimuth), target.y + flat * Math.sin(turn.azimuth), target.z + turn.distance * Math.sin(turn.elevation));
     camera.lookAt(target);
-    // The floor follows in whole tiles, so it seems endless.
+    // In whole tiles: it seems endless.
     floor.position.set(Math.round(body.x / 0.2) * 0.2, Math.round(body.y / 0.2) * 0.2, 0);
     sun.target.position.copy(body);
     sun.position.copy(body).addScaledVector(sunward, 3 * reach);
@@ -301,7 +297,7 @@
     if (dirty) draw();
     requestAnimationFrame(frame);
   }
-  // For a user's own scripts.
+  // For users' scripts.
   window.verpReplay = { begin: begin, end: end, seek: (t) => { setPlaying(false); seek(t); draw(); }, time: () => time, turn: turn, draw: draw };
   draw();
   requestAnimationFrame(frame);

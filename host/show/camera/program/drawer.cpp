@@ -15,8 +15,8 @@
 namespace verp::camera {
 namespace {
 
-/// As in a camera, no marks. No shadows or multisampling: they cost most of a picture where the
-/// PC's processor draws 30 a second. Edges are smoothed afterwards instead.
+/// No marks. No shadows or multisampling: they cost most of a picture on the processor; edges are
+/// smoothed afterwards.
 render::Effects effects() {
   render::Effects effects;
   effects.quick = true;
@@ -25,8 +25,8 @@ render::Effects effects() {
   return effects;
 }
 
-/// Noise, as a fraction of white, on the 8-bit values, as a sensor's chip does last. Four uniform
-/// numbers from one 64-bit draw sum to a good enough normal: a picture needs 230,000.
+/// On the 8-bit values, fraction of white. Four uniform numbers of one draw are normal enough: a
+/// picture needs 230,000.
 void add_noise(const model::CameraSensor& camera, sim::Random& random, render::Image& image) {
   if (camera.noise_stddev == 0 && camera.noise_mean == 0) return;
   constexpr float kMean = 4 * 0.5F * 65535, kStddev = 37836.6F;  // 65536 * sqrt(4 / 12)
@@ -46,7 +46,7 @@ std::string bytes_of(const std::vector<std::uint16_t>& values) {
   return {reinterpret_cast<const char*>(values.data()), 2 * values.size()};
 }
 
-/// 16UC1: millimetres; 0 where nothing is between the camera's planes.
+/// 16UC1: mm; 0: nothing between the planes.
 std::string depth_mm(const model::CameraSensor& camera, sim::Random& random,
                      const std::vector<float>& depth_m) {
   std::vector<std::uint16_t> out;
@@ -54,7 +54,7 @@ std::string depth_mm(const model::CameraSensor& camera, sim::Random& random,
   const bool noisy = camera.noise_stddev != 0 || camera.noise_mean != 0;
   for (const float depth : depth_m) {
     const auto true_m = static_cast<double>(depth);
-    // Always draws a number, so that pixels do not change each other's noise.
+    // Pixels must not change each other's noise: always draw.
     const double noise_m = noisy ? camera.noise_mean + camera.noise_stddev * random.normal() : 0;
     const double mm = 1000 * (true_m + noise_m);
     const bool there = true_m >= camera.near_m && true_m <= camera.far_m && mm >= 0.5;
@@ -64,7 +64,7 @@ std::string depth_mm(const model::CameraSensor& camera, sim::Random& random,
   return bytes_of(out);
 }
 
-/// The drawn lenses are around the cameras' eyes.
+/// Lenses are drawn around the eyes.
 scene::Scene without_lenses(scene::Scene scene, int robot,
                             const std::vector<model::CameraSensor>& cameras) {
   std::erase_if(scene.items, [&](const scene::Item& item) {
@@ -90,7 +90,7 @@ scene::Camera standing_at(const Outside& from) {
     throw std::invalid_argument("the eye is where it looks at");
   camera.eye_m = from.eye_m;
   camera.target_m = from.target_m;
-  // Looking straight up or down, x is up in the picture.
+  // Straight up or down, x is up.
   constexpr double kSteep = 0.9999;
   if (std::abs(way.z()) > kSteep * distance_m) camera.up = model::Vec3::UnitX();
   camera.vertical_fov_rad = from.vertical_fov_rad;

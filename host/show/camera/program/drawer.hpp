@@ -10,17 +10,16 @@
 
 namespace verp::camera {
 
-/// A stage's scene, its cameras, and a renderer for each robot whose cameras look.
+/// A scene, its cameras, and a renderer per robot that looks.
 class Drawer {
  public:
   /// Throws LoadError and RenderError.
   explicit Drawer(const Stage& stage);
 
-  /// One picture, with depth two, from that camera of moment.robot. Independent of other pictures:
-  /// noise depends on the robot's seed, the camera and the time. Throws std::invalid_argument for
-  /// an unknown robot or link.
+  /// One picture, with depth two. Noise depends only on the robot's seed, the camera and the time.
+  /// Throws std::invalid_argument for an unknown robot or link.
   std::vector<Picture> draw(const Moment& moment, std::uint32_t camera);
-  /// From outside. Throws std::invalid_argument for an unknown view.
+  /// Throws std::invalid_argument for an unknown view.
   Picture draw(const Moment& moment, const Outside& from);
 
  private:
@@ -40,9 +39,9 @@ class Drawer {
 
   std::vector<Eyes> eyes_;  ///< one per robot
   scene::Scene scene_;
-  std::vector<std::string> names_;  ///< of labels, made on first use
+  std::vector<std::string> names_;  ///< labels, by first use
   render::OffscreenContext context_;
-  std::map<int, render::Renderer> renderers_;  ///< by the robot that looks; kWorld: from outside
+  std::map<int, render::Renderer> renderers_;  ///< by robot; kWorld: from outside
 };
 
 }  // namespace verp::camera

@@ -67,10 +67,10 @@ void serve() {
 
 }  // namespace
 
-/// Draws what a run's cameras see (camera::Rig). Reads a stage, then moments, from the socket at
-/// standard input; answers with pictures.
+/// Draws for camera::Rig: reads a stage and moments from standard input's socket; answers with
+/// pictures.
 int main() {
-  // One core at low priority: the run has the other core and goes first.
+  // One core at low priority: the run goes first.
   ::setenv("LP_NUM_THREADS", "0", 0);
   ::setpriority(PRIO_PROCESS, 0, 5);
   try {

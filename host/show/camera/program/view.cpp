@@ -17,14 +17,14 @@ View::View(const model::CameraSensor& camera)
   if (!model::is_plain(camera)) place_pixels();
 }
 
-/// A wider pinhole with pixels as fine as the camera's in the middle.
+/// A wider pinhole, as fine as the camera in the middle.
 void View::place_pixels() {
   constexpr double kMost_px = 4096, kMargin_px = 2;
   std::vector<Vector2d> direction;
   Vector2d widest(0, 0);
   for (int y = 0; y < size_.height; ++y) {
     for (int x = 0; x < size_.width; ++x) {
-      // The loader has checked the edge; distortion is milder inside.
+      // The loader has checked the edge.
       direction.push_back(model::direction_of(camera_, Vector2d(x, y)).value_or(Vector2d(0, 0)));
       widest = widest.cwiseMax(direction.back().cwiseAbs());
     }
@@ -77,7 +77,7 @@ std::size_t View::nearest(const From& from) const {
          static_cast<std::size_t>(std::lround(from.x));
 }
 
-/// The nearest pixel: a mean of two depths or labels would be neither.
+/// A mean of two depths or labels would be neither.
 render::Measured View::seen(render::Measured drawn) const {
   if (from_.empty()) return drawn;
   render::Measured out{size_, {}, {}};

@@ -6,8 +6,7 @@
 
 namespace verp::camera {
 
-/// One camera's view. Renderers draw only plain pinholes, so a distorted picture is sampled from a
-/// wider one.
+/// Renderers draw plain pinholes; a distorted picture is sampled from a wider one.
 class View {
  public:
   explicit View(const model::CameraSensor& camera);
@@ -22,7 +21,7 @@ class View {
 
  private:
   struct From {
-    float x = 0, y = 0;  ///< in the rendered picture, pixel centres at integers
+    float x = 0, y = 0;  ///< pixel centres at integers
   };
   void place_pixels();
   std::size_t nearest(const From& from) const;
@@ -30,7 +29,7 @@ class View {
   model::CameraSensor camera_;
   render::Size size_, drawn_;
   double focal_px_;         ///< of the rendered picture
-  std::vector<From> from_;  ///< one per pixel; empty: no distortion
+  std::vector<From> from_;  ///< per pixel; empty: no distortion
 };
 
 }  // namespace verp::camera
