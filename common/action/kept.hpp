@@ -11,7 +11,7 @@
 namespace verp::action {
 
 struct KeptMark {
-  std::uint32_t robot = 0;  ///< robot_mark()
+  std::uint32_t robot = 0;  ///< robot_mark() of their robot
   std::uint32_t crc32 = 0;  ///< of the library's header and `robot`
   VERP_FIELDS(robot, crc32)
 };
@@ -40,10 +40,10 @@ KeptMark make_mark(const LibraryHeader& library, const Params& params);
 /// `bytes` aligned to 4; `size` may exceed the actions (a flash section).
 KeptFault check_kept(const void* bytes, std::size_t size, const Params& params);
 
-/// For any robot.
+/// check_kept() for whichever robot the mark names.
 KeptFault check_any_kept(const void* bytes, std::size_t size);
 
-/// Library and mark, for any robot; 0: not sound.
+/// Size of a sound library and its mark, for any robot; 0: not sound.
 std::size_t kept_size(const void* bytes, std::size_t size);
 
 struct KeptLibrary {

@@ -40,7 +40,7 @@ inline constexpr char kGetUpBack[kNameLength] = "get_up_back";
 inline constexpr char kGetUpLeft[kNameLength] = "get_up_left";
 inline constexpr char kGetUpRight[kNameLength] = "get_up_right";
 
-/// `next`, `otherwise` or `exit`.
+/// A frame that returns to the stand: `next`, `otherwise` or `exit`.
 inline constexpr std::uint16_t kToStand = 0xFFFF;
 
 /// Condition for leaving a frame.
@@ -61,22 +61,22 @@ inline constexpr int kConditions = 10;
 enum class Stance : std::uint8_t { kLeft = 0, kRight = 1, kBoth = 2, kNone = 3 };
 
 struct Frame {
-  std::uint16_t time_ms = 0;   ///< of the motion, at least kLeastFrame_ms
-  std::uint16_t pause_ms = 0;  ///< holds the pose
-  std::uint16_t wait_ms = 0;   ///< at most, for `condition`
+  std::uint16_t time_ms = 0;   ///< duration of the motion, at least kLeastFrame_ms
+  std::uint16_t pause_ms = 0;  ///< then the pose is held
+  std::uint16_t wait_ms = 0;   ///< then at most this long for `condition`
   std::uint16_t next = kToStand;
-  std::uint16_t otherwise = kToStand;  ///< frame if `condition` fails
-  std::uint16_t exit = kToStand;       ///< frame on a stop
-  std::uint16_t loop_to = kToStand;    ///< frame for the first `loops` times
+  std::uint16_t otherwise = kToStand;  ///< next frame if `condition` fails
+  std::uint16_t exit = kToStand;       ///< next frame on a stop
+  std::uint16_t loop_to = kToStand;    ///< next frame for the first `loops` times
   std::uint8_t loops = 0;
   Condition condition = Condition::kNone;
-  Stance stance = Stance::kBoth;  ///< feet that carry
-  std::uint8_t balance = 1;       ///< 1: feedback and gravity feed-forward
+  Stance stance = Stance::kBoth;  ///< feet that carry the robot
+  std::uint8_t balance = 1;       ///< 1: legs with feedback and gravity feed-forward
   std::uint16_t reserved = 0;
-  std::uint32_t joints = 0;  ///< bit j: joint j has a goal
+  std::uint32_t joints = 0;  ///< bit j: joint j has a goal; others stand
   std::uint32_t smooth = 0;  ///< bit j: quintic motion; else cubic
   std::int16_t goal_tenth_mrad[kMaxJoints] = {};
-  std::int16_t speed_mrad_s[kMaxJoints] = {};  ///< in passing the goal
+  std::int16_t speed_mrad_s[kMaxJoints] = {};  ///< speed in passing the goal
   std::uint8_t stiffness_percent[kMaxJoints] = {};
   VERP_FIELDS(time_ms, pause_ms, wait_ms, next, otherwise, exit, loop_to, loops, condition, stance,
               balance, reserved, joints, smooth, goal_tenth_mrad, speed_mrad_s, stiffness_percent)

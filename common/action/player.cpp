@@ -106,7 +106,7 @@ PlayerOut look(const Params& params, const Library& library, const PlayerState& 
   return out;
 }
 
-// From the present angles and rates.
+// Starts a motion from the present angles and rates.
 void set_out(const Params& params, const Library& library, const PlayerIn& in, PlayerState& state) {
   float rate_rad_s[kMaxJoints] = {};
   const PlayerOut here = look(params, library, state, in, rate_rad_s);

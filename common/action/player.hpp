@@ -12,9 +12,9 @@ struct PlayerState {
   std::int32_t time_us = 0;  ///< in the frame or the return
   std::int32_t return_us = 0;
   std::uint32_t moved = 0;  ///< bit j: joint j had a goal
-  std::uint16_t frame = 0;  ///< index in the library
+  std::uint16_t frame = 0;  ///< frame index in the library
   std::uint16_t reserved[3] = {};
-  std::uint8_t number = 0;  ///< 0: none
+  std::uint8_t number = 0;  ///< action that plays; 0: none
   std::uint8_t asked = 0;   ///< previous tick's request: each plays once
   std::uint8_t loops = 0;   ///< done so far
   Part part = Part::kFrame;
@@ -28,29 +28,29 @@ struct PlayerState {
 VERP_PACKED(PlayerState);
 
 struct PlayerIn {
-  std::uint8_t asked = 0;  ///< 0: none, ends one that plays
+  std::uint8_t asked = 0;  ///< requested action; 0: none, ends one that plays
   bool may_begin = false;
-  std::uint8_t begin = 0;           ///< to begin unconditionally; 0: none
-  const float* from_rad = nullptr;  ///< where `begin` starts
+  std::uint8_t begin = 0;           ///< action to begin unconditionally; 0: none
+  const float* from_rad = nullptr;  ///< joint angles where `begin` starts
   bool stop = false;                ///< by the frame's exit, or to the stand
   std::int32_t period_us = 10000;
   const float* stand_rad = nullptr;
   float roll_rad = 0, pitch_rad = 0, up = 1;
-  bool pressed[kFeet] = {};  ///< by the ground
+  bool pressed[kFeet] = {};  ///< feet that feel the ground
 };
 
 struct PlayerOut {
   float angle_rad[kMaxJoints] = {};
   float stiffness[kMaxJoints] = {};
-  float carry[kFeet] = {0.5F, 0.5F};  ///< share of the weight
-  float balance = 1;                  ///< share of the corrections
+  float carry[kFeet] = {0.5F, 0.5F};  ///< share of the weight on each foot
+  float balance = 1;                  ///< share of the balance corrections
   Stance stance = Stance::kBoth;
 };
 
-/// Exists, and was not asked in the previous tick.
+/// True if action `asked` exists and is a new request.
 bool is_new(const Library& library, const PlayerState& state, std::uint8_t asked);
 
-/// Valid if state.number is then not 0.
+/// The result is valid if state.number is then not 0.
 PlayerOut update(const Params& params, const Library& library, PlayerState& state,
                  const PlayerIn& in);
 

@@ -11,7 +11,7 @@ constexpr float kFarthest_rad = 0.6F;
 void swing_arms(const Params& params, const BalanceTuning& tuning, const gait::Posture& posture,
                 float* angle_rad) {
   const gait::Xy between_m = posture.foot[gait::kLeft].on.at_m - posture.foot[gait::kRight].on.at_m;
-  // Shortened by cos(trunk pitch).
+  // The body's x axis on the ground, shortened by cos(trunk pitch).
   const Vec3 ahead = posture.body.rotation.col(0);
   const float ahead_m = between_m.x * ahead.x() + between_m.y * ahead.y();
   for (int side = 0; side < kFeet; ++side) {

@@ -9,7 +9,7 @@ constexpr float kLeastLevel2 = 0.01F;  // x axis nearly vertical: no heading
 constexpr float kSettle_s = 1.2F;
 // Above a MEMS gyro's bias (ICM-20648 data sheet: 5 deg/s), below real motion.
 constexpr float kStillRate_rad_s = 0.12F;
-// So that a wrong reading cannot end the calibration.
+// Clamps readings, so that a wrong one cannot end the calibration.
 constexpr float kMostOfOne_rad_s = 2.0F * kStillRate_rad_s;
 // Longer than the trembling of hunting servos (5 Hz and above), shorter than a person's turn of the
 // robot.
@@ -38,7 +38,7 @@ void learn_bias(AttitudeState& state, const AttitudeIn& in) {
   const Vec3 slow = before + fade * (rate - before);
   state.slow_rad_s = math::to_xyz(slow);
   state.shake_rad2_s2 += fade * ((rate - slow).squaredNorm() - state.shake_rad2_s2);
-  // The raw rate: a wrong bias must not hide stillness.
+  // Tests the raw rate: a wrong bias must not hide stillness.
   const bool calibrated = state.still_s >= kCalibrated_s;
   if (!in.standing || !within(slow, kStillRate_rad_s) || state.shake_rad2_s2 > kMostShake_rad2_s2) {
     if (calibrated) return;

@@ -9,11 +9,11 @@ namespace verp::balance {
 
 struct AttitudeState {
   Xyz up_body{0, 0, 1};       ///< unit vector, body frame
-  Xyz slow_up_body{0, 0, 1};  ///< for the heading, slower
+  Xyz slow_up_body{0, 0, 1};  ///< for the heading, with a slower accelerometer
   float heading_rad = 0;      ///< left, since power-up, in (-pi, pi]
   Xyz gyro_bias_rad_s;        ///< learnt while standing still
-  float still_s = 0;          ///< up to kBestKnown_s
-  float mean_s = 0;           ///< averaging time, up to kHeadingTime_s
+  float still_s = 0;          ///< time stood still, up to kBestKnown_s
+  float mean_s = 0;           ///< averaging time of both, up to kHeadingTime_s
   Xyz slow_rad_s;             ///< gyro without trembling
   float shake_rad2_s2 = 0;    ///< mean square of trembling
   VERP_FIELDS(up_body, slow_up_body, heading_rad, gyro_bias_rad_s, still_s, mean_s, slow_rad_s,
@@ -31,7 +31,7 @@ inline constexpr float kCalibrated_s = 3.0F;
 inline constexpr float kBestKnown_s = 5.0F;
 
 struct AttitudeIn {
-  bool fresh = false;  ///< of this tick
+  bool fresh = false;  ///< gyro and accelerometer are of this tick
   bool anew = false;   ///< discard the estimate
   Vec3 gyro_body_rad_s{0, 0, 0};
   Vec3 accel_body_m_s2{0, 0, 0};  ///< specific force: +g up at rest

@@ -13,12 +13,12 @@ constexpr float kBelief_per_s = 22.0F;
 // Age of the IMU's data: filters and bus.
 constexpr float kTiltLead_s = 0.005F;
 constexpr float kAccelLead_s = 0.003F;
-constexpr float kGroundTime_s = 0.5F;        // forgetting steps up and down
-constexpr float kExchange_s = 0.015F;        // load transfer to a foot without cells
-constexpr float kLeastShareOfWeight = 0.2F;  // load on both soles, standing
-constexpr float kLeastShare = 0.2F;          // of the load on legs that reported
+constexpr float kGroundTime_s = 0.5F;        // time constant for forgetting steps up and down
+constexpr float kExchange_s = 0.015F;        // time of load transfer to a foot without cells
+constexpr float kLeastShareOfWeight = 0.2F;  // least load on both soles of a standing robot
+constexpr float kLeastShare = 0.2F;          // least share of the load on legs that reported
 constexpr std::uint8_t kPatience = 10;       // ticks of silence bridged
-constexpr float kStanding_s = 0.1F;          // to standstill after a longer silence
+constexpr float kStanding_s = 0.1F;          // time constant to standstill after a longer silence
 constexpr float kMostVelocity_m_s = 10.0F, kMostAhead_m = 0.05F;
 
 // Standing, the mean of ground and accelerometer errs less than either, weighted by squared errors:
@@ -35,7 +35,7 @@ struct Leg {
   bool fresh = true;  ///< all joints reported this tick
 };
 
-// By encoders. Adds the leg's mass and moment.
+// The leg's pose by its encoders. Adds its mass and moment.
 Leg look(const Params& params, const LegParams& leg, const Inputs& inputs, Vec3& moment_kg_m,
          float& mass_kg) {
   Leg seen;
@@ -133,7 +133,7 @@ bool feel(const Params& params, const EstimatorIn& in, float weight_n, float per
   return in.on_feet;
 }
 
-// Since the last tick; false if no loaded leg reported.
+// Motion since the last tick; false if no loaded leg reported.
 bool moved_over_soles(const EstimatorState& state, const Leg* leg, const Vec3* sole_m,
                       Vec3& moved_m, float& height_m) {
   float share[kFeet] = {state.left, 1.0F - state.left};
@@ -157,7 +157,7 @@ Vec3 limited(const Vec3& v, float most) {
           math::clamp(v.z(), -most, most)};
 }
 
-// By legs and accelerometer; returns the step.
+// Moves the body by legs and accelerometer; returns its step.
 Vec3 follow_body(bool carried, const Vec3& moved_m, float height_m, const Vec3& accel_m_s2,
                  float period_s, EstimatorState& state) {
   Vec3 velocity = math::to_vec(state.body_velocity_m_s);
@@ -217,7 +217,7 @@ void update(const Params& params, EstimatorState& state, const EstimatorIn& in) 
   }
   const Vec3 step_m = follow_body(carried, moved_m, height_m, accel_m_s2, period_s, state);
   for (int side = 0; side < kFeet; ++side) {
-    // A silent leg's sole stands.
+    // A silent leg's sole is assumed to stand.
     Xyz& from_body_m = state.sole_from_body_m[side];
     from_body_m = math::to_xyz(leg[side].fresh ? sole_m[side] : math::to_vec(from_body_m) - step_m);
   }

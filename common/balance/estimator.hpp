@@ -14,15 +14,15 @@ struct EstimatorState {
   Xyz up_body{0, 0, 1};
   Xyz body_m;
   Xyz body_velocity_m_s;
-  Xyz ahead_m;                     ///< the legs' position minus body_m
-  Xyz sole_from_body_m[kFeet];     ///< middle of each, odometry axes
+  Xyz ahead_m;                     ///< the legs' body position minus body_m
+  Xyz sole_from_body_m[kFeet];     ///< middle of each sole, odometry axes
   Xyz com_from_body_m;             ///< odometry axes
   Xyz com_velocity_m_s;            ///< over the ground
-  gait::Xy slow_m_s;               ///< mean of the body's velocity
+  gait::Xy slow_m_s;               ///< slow mean of the body's velocity
   Xyz uneven;                      ///< mean of soles' up minus attitude's
-  float stood_s = 0;               ///< averaging time, up to kUnevenTime_s
-  float left = 0.5F;               ///< share of the weight
-  std::uint8_t feet_silent = 255;  ///< ticks, up to 255
+  float stood_s = 0;               ///< its averaging time, up to kUnevenTime_s
+  float left = 0.5F;               ///< left foot's share of the weight
+  std::uint8_t feet_silent = 255;  ///< ticks since the soles' cells reported, up to 255
   std::uint8_t blind = 255;        ///< ticks without leg motion, up to 255
   std::uint8_t grounded = 0;       ///< 1: cells bear weight
   std::uint8_t begun = 0;          ///< 0 until masses are known
@@ -60,11 +60,11 @@ inline Vec3 sole_m(const EstimatorState& state, int side) {
 /// rest.
 gait::Xy dcm_m(const EstimatorState& state);
 
-/// Fixed-axis, as in AttitudeOut.
+/// Fixed-axis angles of the body, as in AttitudeOut.
 float roll_rad(const EstimatorState& state);
 float pitch_rad(const EstimatorState& state);
 
-/// In the order of the controller's registers from body_position on.
+/// The whole estimate, ordered as the controller's registers from body_position on.
 struct Whereabouts {
   Xyz body_m;
   Xyz roll_pitch_yaw_rad;

@@ -6,7 +6,7 @@
 /// Gyro and tilt feedback on ankles and hips of stance legs; keeps a swing foot level.
 namespace verp::balance {
 
-/// One leg's canonical angles, rad.
+/// Corrections of one leg's canonical angles, rad.
 struct LegCorrection {
   float hip_roll_rad = 0;
   float hip_pitch_rad = 0;
@@ -25,7 +25,7 @@ VERP_PACKED(FeedbackOut);
 FeedbackOut feedback(const BalanceTuning& tuning, const AttitudeOut& attitude,
                      float planned_pitch_rad, std::uint8_t swing);
 
-/// To joint angles (hip to ankle), by the leg's directions.
+/// Adds to joint angles (hip to ankle), by the leg's directions.
 void add(const LegParams& leg, const LegCorrection& correction, float* leg_rad);
 
 }  // namespace verp::balance

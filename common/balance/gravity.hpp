@@ -7,21 +7,21 @@
 /// mass.
 namespace verp::balance {
 
-/// A link's acceleration is interpolated between body and foot by height.
+/// Load of one leg. A link's acceleration is interpolated between body and foot by height.
 struct LegLoad {
   Vec3 ground_m;        ///< where the ground pushes
   Vec3 push_n;          ///< its force
-  Vec3 body_lift_m_s2;  ///< body's, plus gravity upwards
-  Vec3 foot_lift_m_s2;  ///< likewise
+  Vec3 body_lift_m_s2;  ///< acceleration of the body, plus gravity upwards
+  Vec3 foot_lift_m_s2;  ///< the same for the foot
 };
 
-/// For rotor inertia and gear friction.
+/// Planned motion of a leg, for rotor inertia and gear friction.
 struct LegMotion {
   float rate_rad_s[kLegJoints] = {};
   float accel_rad_s2[kLegJoints] = {};
 };
 
-/// The previous tick's plan.
+/// Both legs' plan in the previous tick.
 struct DriveState {
   float angle_rad[kFeet * kLegJoints] = {};
   float rate_rad_s[kFeet * kLegJoints] = {};
@@ -29,7 +29,7 @@ struct DriveState {
 };
 VERP_PACKED(DriveState);
 
-/// A jump, as at a plan's start, is no motion.
+/// Takes one leg's planned angles. A jump, as at a plan's start, is no motion.
 LegMotion follow(const Params& params, int side, const float* leg_rad, DriveState& state);
 
 /// Adds the servos' sag to one leg's angles, hip to ankle.

@@ -8,7 +8,7 @@
 namespace verp::balance {
 
 struct LandingState {
-  float beyond = 0;                      ///< share of the way
+  float beyond = 0;                      ///< overshoot, as a share of the way
   std::uint32_t carrying = gait::kBoth;  ///< GaitOut::carrying, previous tick
   VERP_FIELDS(beyond, carrying)
 };

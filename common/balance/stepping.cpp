@@ -41,7 +41,7 @@ float apart_m(const Params& params, const gait::Step& step, Xy by_m) {
   return gait::soles_apart_m(params, foot[gait::kLeft], foot[gait::kRight]);
 }
 
-// Over the stance foot, body's axes.
+// DCM error over the stance foot, in the body's axes.
 Xy error_of(const Params& params, const SteppingIn& in, const gait::Step& step, float now_s,
             float yaw_rad) {
   const int side = step.carrying();
@@ -53,7 +53,7 @@ Xy error_of(const Params& params, const SteppingIn& in, const gait::Step& step, 
          gait::turned(planned_m, -yaw_rad);
 }
 
-// The soles stay as far apart as in standing.
+// Landing offset; the soles stay as far apart as in standing.
 Xy landing_off(const Params& params, const Tuning& tuning, const SteppingIn& in,
                const gait::Step& step, float now_s, float yaw_rad) {
   const LegParams& leg = params.leg[step.swing];
@@ -72,7 +72,7 @@ Xy landing_off(const Params& params, const Tuning& tuning, const SteppingIn& in,
   return gait::turned(off_m, yaw_rad);
 }
 
-// As fast as this phase allows.
+// Moves the swing foot's offset as fast as this phase allows.
 void move_foot(const Tuning& tuning, const gait::Step& step, float time_s, float period_s,
                Xy wanted_m, SteppingState& state) {
   const float swing_s = step.duration_s() - step.double_support_s;

@@ -9,10 +9,10 @@
 namespace verp::balance {
 
 struct SteppingState {
-  gait::Xy body_m;                    ///< the stance foot is on its plan
-  gait::Xy foot_m;                    ///< both in the walk frame
+  gait::Xy body_m;                    ///< body's offset; the stance foot is on its plan
+  gait::Xy foot_m;                    ///< swing foot's offset; both in the walk frame
   std::uint32_t swing = gait::kBoth;  ///< of the goals' step
-  std::uint32_t steps = 0;            ///< left after a push while standing
+  std::uint32_t steps = 0;            ///< steps left after a push while standing
   VERP_FIELDS(body_m, foot_m, swing, steps)
 };
 VERP_PACKED(SteppingState);
@@ -24,7 +24,7 @@ struct SteppingIn {
   float period_s = 0.01F;
 };
 
-/// And the ZMP under them.
+/// Moves the plan's feet, and the ZMP under them, by the offsets.
 void step_aside(const Params& params, const Tuning& tuning, const SteppingIn& in,
                 SteppingState& state, gait::GaitOut& plan);
 

@@ -10,7 +10,7 @@ inline constexpr std::uint8_t kMaxCanFdData = 64;
 
 inline constexpr std::uint8_t kCanFdSizes[] = {12, 16, 20, 24, 32, 48, 64};  ///< beyond 8 bytes
 
-/// At most 64.
+/// Smallest FD size that holds `size` bytes; at most 64.
 constexpr std::uint8_t can_fd_size(std::size_t size) {
   if (size <= kMaxCanData) return static_cast<std::uint8_t>(size);
   for (const std::uint8_t each : kCanFdSizes) {

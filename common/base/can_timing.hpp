@@ -6,10 +6,10 @@
 namespace verp {
 
 struct CanTiming {
-  std::uint32_t prescaler = 0;  ///< of the controller's clock; 0: impossible
-  std::uint32_t before = 0;     ///< propagation and phase segment 1
-  std::uint32_t after = 0;      ///< phase segment 2
-  std::uint32_t jump = 0;       ///< most quanta of a resynchronisation
+  std::uint32_t prescaler = 0;  ///< of the controller's clock; 0: rate impossible
+  std::uint32_t before = 0;     ///< quanta of propagation and phase segment 1
+  std::uint32_t after = 0;      ///< quanta of phase segment 2
+  std::uint32_t jump = 0;       ///< quanta that a resynchronisation may move
 
   constexpr bool possible() const { return prescaler != 0; }
   constexpr std::uint32_t quanta() const { return 1 + before + after; }

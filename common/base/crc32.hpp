@@ -4,7 +4,7 @@
 
 namespace verp {
 
-/// As in zip (reflected 0x04C11DB7). Continues from `previous`.
+/// CRC-32 as in zip (reflected 0x04C11DB7). Continues from `previous`.
 std::uint32_t crc32(const void* bytes, std::size_t size, std::uint32_t previous = 0);
 
 }  // namespace verp

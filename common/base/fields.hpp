@@ -52,7 +52,7 @@ consteval std::size_t packed_size() {
   }
 }
 
-/// Every scalar, in field order.
+/// Calls leaf(value) for every scalar, in field order.
 template <class T, class Leaf>
 constexpr void for_each_leaf(T& value, Leaf&& leaf) {
   using Plain = std::remove_const_t<T>;

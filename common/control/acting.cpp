@@ -17,7 +17,7 @@ bool plays(Mode mode) {
   return mode == Mode::kActing || mode == Mode::kFalling || mode == Mode::kGettingUp;
 }
 
-// By the exit. A fall's action cannot be stopped.
+// A stop leaves by the exit. A fall's action cannot be stopped.
 bool shall_stop(const State& state, const Inputs& inputs, const AdmitOut& admitted) {
   constexpr std::uint32_t kNoMore = safety::kAskRelax | safety::kOperatorQuiet | safety::kPowerBad;
   if (state.machine.mode == Mode::kFalling) return false;
@@ -53,7 +53,7 @@ action::PlayerOut play(const Params& params, const action::Library& actions, Sta
   return action::update(params, actions, state.action, in);
 }
 
-// Body frame.
+// Both legs of the action's pose, body frame.
 struct Legs {
   kinematics::LegChain chain[kFeet];
   Vec3 up[kFeet];      ///< of each sole
@@ -101,7 +101,7 @@ balance::FeedbackOut keep_up(const BalanceTuning& tuning, const Vec3& up,
   const Vec3 lift = math::kGravityMS2 * up;
   for (int side = 0; side < kFeet; ++side) {
     const LegParams& leg = params.leg[side];
-    // As far as this sole reaches.
+    // Under the centre of mass, as far as this sole reaches.
     const Vec3 below_m = com_m - (com_m - legs.sole_m[side]).dot(up) * up;
     const Vec3 off_m = below_m - legs.sole_m[side];
     const float most_m = 0.5F * (leg.sole_left_m + leg.sole_right_m);

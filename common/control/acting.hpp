@@ -5,7 +5,7 @@
 /// Actions in the tick.
 namespace verp::control {
 
-/// Drops a walk request meanwhile: the walk ends first.
+/// Asks for an action; drops a walk request meanwhile: the walk ends first.
 void ask_action(const action::Library& actions, const State& state, const Inputs& inputs,
                 AdmitOut& admitted);
 

@@ -35,7 +35,7 @@ std::uint32_t count_periods(const Inputs& inputs, AdmitState& state) {
   return periods > 0 ? periods : 1;
 }
 
-// At least one: a servo read every tick is never stale.
+// Periods of a silence, at least one: a servo read every tick is never stale.
 int ticks(const Params& params, float duration_s) {
   const float period_s = static_cast<float>(params.period_us) * 1e-6F;
   const std::int32_t whole = math::to_int32(duration_s / period_s);
@@ -58,7 +58,7 @@ bool is_frozen(const Inputs& inputs, AdmitState& state) {
   return state.imu_alike == kFrozenReadings;
 }
 
-// After `lost` periods the robot may have fallen.
+// After `lost` periods the last tilt means nothing: the robot may have fallen.
 void read_imu(const Params& params, const Inputs& inputs, int lost, std::uint32_t periods,
               AdmitState& state, AdmitOut& out) {
   state.imu_age = older(state.imu_age, periods);

@@ -18,7 +18,7 @@ inline constexpr std::uint8_t kSupplyReadings = 21;
 /// (gyro) and 9 (accelerometer) one sigma: this many are equal once in 1e15, even with all sigmas a
 /// third of a count. At 10 ms an IMU may update at 5 Hz.
 inline constexpr std::uint8_t kFrozenReadings = 20;
-/// Beyond every limit.
+/// Age of a device never heard: beyond every limit.
 inline constexpr std::uint8_t kNeverHeard = 255;
 
 /// Ages count all control periods, also those without a tick.
@@ -30,11 +30,11 @@ struct AdmitState {
   /// 10 for 0 to kAlarmReadings.
   std::uint32_t alarm_low = 0;
   std::uint32_t alarm_high = 0;
-  std::int16_t imu_count[6] = {};  ///< gyro, accelerometer
+  std::int16_t imu_count[6] = {};  ///< last fresh gyro and accelerometer
   std::uint8_t imu_age = 0;        ///< up to 255
-  std::uint8_t voltage_low = 0;    ///< readings in a row, up to 255
+  std::uint8_t voltage_low = 0;    ///< low readings in a row, up to 255
   std::uint8_t started = 0;        ///< 0 until start()
-  std::uint8_t imu_alike = 0;      ///< unchanged readings, up to kFrozenReadings
+  std::uint8_t imu_alike = 0;      ///< fresh unchanged readings, up to kFrozenReadings
   VERP_FIELDS(servo_age, tick, operator_age, alarm_low, alarm_high, imu_count, imu_age, voltage_low,
               started, imu_alike)
 };

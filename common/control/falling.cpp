@@ -8,7 +8,7 @@ using safety::Mode;
 // Capture point as an angle: tilt plus rate times sqrt(height / g). A CoM 0.25 m high gives 0.16 s;
 // a taller robot's fall is seen slightly late.
 constexpr float kLookAhead_s = 0.16F;
-// No step helps beyond it.
+// No step catches the body beyond it.
 constexpr float kNoReturn_rad = 0.7F;
 // A knock turns a body fast, not far.
 constexpr float kLeastTilt_rad = 0.25F;
@@ -28,7 +28,7 @@ bool will_meet_ground(const State& state, const balance::AttitudeOut& attitude) 
          tilt_rad + kLookAhead_s * tilt_rate_rad_s(up, level, attitude) > kNoReturn_rad;
 }
 
-// By the lower side, else the side it leans to.
+// By the lower side; sitting or kneeling, by the side it leans to.
 std::uint8_t get_up_action(const action::Library& actions, const State& state) {
   const Xyz& up = state.attitude.up_body;
   const std::uint8_t aside =

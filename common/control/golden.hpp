@@ -3,13 +3,13 @@
 
 namespace verp::control {
 
-/// Angles spread over each joint's range. `angle_rad` holds kMaxJoints.
+/// Posture `seed`, spread over each joint's range. `angle_rad` holds kMaxJoints.
 void golden_posture(const Params& params, std::uint32_t seed, float* angle_rad);
 
-/// The same bits on every core.
+/// Kinematics of that posture: the same bits on every core.
 GoldenVector golden_vector(const Params& params, std::uint32_t seed);
 
-/// That this core reproduces; kGoldenVectors if all is well.
+/// Golden vectors that this core reproduces; kGoldenVectors if all is well.
 int count_golden_matches(const ParamsImage& image);
 
 }  // namespace verp::control

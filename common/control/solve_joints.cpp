@@ -10,7 +10,7 @@
 namespace verp::control {
 namespace {
 
-// Each joint with its own delay, if any.
+// One leg's angles, each joint with its own delay, if any.
 kinematics::LegAngles leg_angles(const Params& params, const State& state,
                                  const gait::Posture& posture, int side, const float* previous) {
   const LegParams& leg = params.leg[side];
@@ -28,7 +28,7 @@ kinematics::LegAngles leg_angles(const Params& params, const State& state,
   return angles;
 }
 
-// Third to sixth state after an exchange.
+// Third to sixth state after an exchange: landed, and the next not begun.
 bool in_mid_step(const gait::GaitOut& plan) {
   const int state = plan.cycle_state & 7;
   return state >= 3 && state <= 6;
@@ -86,7 +86,7 @@ void rest_joints(const Params& params, const State& state, const AdmitOut& admit
   for (int j = 0; j < params.joint_count; ++j) wanted.plain_rad[j] = wanted.angle_rad[j];
 }
 
-// Feet aimed by the learnt landings.
+// The plan with feet aimed by the learnt landings.
 gait::Posture aim_feet(const Params& params, State& state, const Inputs& inputs,
                        const gait::GaitOut& plan) {
   gait::Posture aimed = plan.posture;

@@ -166,7 +166,7 @@ void watch_push(const Params& params, State& state, AdmitOut& admitted) {
   if (mode != Mode::kStanding && mode != Mode::kWalking) return;
   if (!balance::pushed(params, state.tuning, stepping_in(params, state), state.stepping)) return;
   admitted.conditions |= safety::kPushed;
-  // A push: step on the spot.
+  // The operator did not ask for a walk: step on the spot.
   if ((admitted.conditions & safety::kAskWalk) == 0) {
     admitted.vx_m_s = admitted.vy_m_s = admitted.wz_rad_s = 0.0F;
   }
@@ -201,7 +201,7 @@ void lean(const Params& params, State& state, const AdmitOut& admitted,
   const Mode mode = state.machine.mode;
   const bool off = !(state.tuning.balance.feedback_enable > 0.5F);
   if (off || lies(mode) || !safety::has_torque(mode)) state.lean = balance::LeanState{};
-  // A standing robot learns the gyro's bias.
+  // A standing robot learns the gyro's bias and must not turn.
   if (!off && mode == Mode::kWalking && admitted.imu_fresh) {
     const float planned_rad = state.tuning.gait.trunk_pitch_rad;
     balance::learn_lean(attitude, planned_rad, period_s(params), state.lean);

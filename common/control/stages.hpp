@@ -2,10 +2,10 @@
 #include "common/control/state.hpp"
 #include "common/model/params.hpp"
 
-/// They connect the modules, which do the arithmetic.
+/// The stages of step() connect the modules, which do the arithmetic.
 namespace verp::control {
 
-/// First tick: Params' tuning; starts the ages.
+/// First tick: copies the tuning from Params and starts the ages.
 void start(const Params& params, const Inputs& inputs, State& state);
 
 balance::AttitudeOut estimate(const Params& params, State& state, const AdmitOut& admitted);
@@ -13,10 +13,10 @@ balance::AttitudeOut estimate(const Params& params, State& state, const AdmitOut
 /// Body and centre of mass from the legs, by the last tick's plan.
 void locate(const Params& params, State& state, const Inputs& inputs, const AdmitOut& admitted);
 
-/// Beyond what ankles balance.
+/// Sets the condition of a push beyond what ankles balance.
 void watch_push(const Params& params, State& state, AdmitOut& admitted);
 
-/// By the safety table; corrects heading drift.
+/// Walks if the safety table says so; corrects heading drift.
 gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& admitted,
                           const balance::AttitudeOut& attitude);
 
@@ -27,7 +27,7 @@ void lean(const Params& params, State& state, const AdmitOut& admitted,
 
 struct Wanted {
   float angle_rad[kMaxJoints];
-  float plain_rad[kMaxJoints];  ///< no sag, zeros and feedback
+  float plain_rad[kMaxJoints];  ///< without sag, zeros and feedback
   bool leg_limited;
 };
 

@@ -19,11 +19,11 @@
 
 namespace verp {
 
-/// Corrects the walk's heading.
+/// The ordered heading, to which the walk is corrected.
 struct SteerState {
   float heading_rad = 0;
   float slip_rad = 0;          ///< integral of the heading error
-  std::int32_t fallen_us = 0;  ///< tilt beyond its limit
+  std::int32_t fallen_us = 0;  ///< how long the tilt has exceeded its limit
   VERP_FIELDS(heading_rad, slip_rad, fallen_us)
 };
 VERP_PACKED(SteerState);
@@ -32,7 +32,7 @@ VERP_PACKED(SteerState);
 /// tick.
 struct State {
   TickDigest digest{.chain = record::kChainSeed};
-  Tuning tuning;  ///< in force
+  Tuning tuning;  ///< in force: Params::tuning and parameter writes
   AdmitState admit;
   balance::AttitudeState attitude;
   balance::EstimatorState estimator;

@@ -3,7 +3,7 @@
 namespace verp::gait {
 namespace {
 
-// 0 without double support, where the ZMP jumps.
+// Velocity of the ZMP; 0 without double support, where it jumps.
 Xy zmp_velocity(const Step& step) {
   return step.double_support_s > 0.0F
              ? (1.0F / step.double_support_s) * (step.zmp_end_m - step.zmp_begin_m)

@@ -6,13 +6,13 @@
 /// its end. The CoM follows by x' = omega (xi - x).
 namespace verp::gait {
 
-/// `time_s` after the step's start.
+/// ZMP `time_s` after the step's start.
 Xy zmp_at(const Step& step, float time_s);
 
-/// `time_s` after the step's start, from step.dcm_end_m.
+/// DCM `time_s` after the step's start, from step.dcm_end_m.
 Xy dcm_at(const Step& step, float omega, float time_s);
 
-/// From the CoM at from_s; from_s <= to_s, in the step.
+/// CoM at to_s from the CoM at from_s; from_s <= to_s, in the step.
 Xy com_after(const Step& step, float omega, Xy com_m, float from_s, float to_s);
 
 /// DCM at the end of the last known step if the ZMP displacements `next_m` and `second_m` alternate

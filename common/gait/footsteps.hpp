@@ -6,7 +6,7 @@
 /// previous one and the present velocity order.
 namespace verp::gait {
 
-/// One step, in the body's frame.
+/// Body displacement of one step, in its own frame.
 struct Stride {
   Xy by_m;
   float turn_rad = 0;
@@ -14,22 +14,22 @@ struct Stride {
 };
 VERP_PACKED(Stride);
 
-/// Compromises (FootstepState::notes).
+/// Compromises of the plan (FootstepState::notes).
 enum PlanNote : std::uint16_t {
   kStrideLimited = 1 << 0,   ///< velocity needs more than max_step_m or max_turn_rad
   kReachShortened = 1 << 1,  ///< step shortened: leg too short at touch-down
   kZmpShortened = 1 << 2,    ///< step shortened: planned ZMP too near the sole's edge
   kPlanRefused = 1 << 3,     ///< no walk: a step on the spot leaves the soles, or soles overlap
   kStepWidened = 1 << 4,     ///< foot lands further out, beside the other sole
-  kTurnShortened = 1 << 5,   ///< soles would overlap at any width
+  kTurnShortened = 1 << 5,   ///< turns less: soles would overlap at any width
 };
 
 struct FootstepState {
-  Stride stride;            ///< last planned
-  Foothold body;            ///< midpoint and heading of the feet
+  Stride stride;            ///< of the last planned step
+  Foothold body;            ///< midpoint and heading of the feet after it
   float scale = 1;          ///< 0.1 to 1: shortens strides, to keep the ZMP in the sole
   std::uint8_t calm = 0;    ///< key points in a row with room for longer strides
-  std::uint8_t made = 0;    ///< planned, modulo 8
+  std::uint8_t made = 0;    ///< planned steps, modulo 8
   std::uint16_t notes = 0;  ///< PlanNote
   VERP_FIELDS(stride, body, scale, calm, made, notes)
 };
@@ -49,10 +49,10 @@ float soles_apart_m(const Params& params, const Foothold& left, const Foothold& 
 
 Xy sole_center(const Params& params, int side, const Foothold& foot);
 
-/// Sole's centroid plus tuned offset, support_margin_m inside the edges.
+/// Wanted ZMP: sole's centroid plus tuned offset, support_margin_m inside the edges.
 Xy zmp_under(const Params& params, const GaitTuning& tuning, int side, const Foothold& foot);
 
-/// Side by side about the origin, ZMP between them.
+/// Feet side by side about the origin, ZMP between them.
 Step standing_feet(const Params& params, const GaitTuning& tuning);
 
 /// Both feet stand; the ZMP moves from the middle under the first stance foot.
@@ -71,7 +71,7 @@ Step rest_step(const GaitTuning& tuning, const Step& last);
 Step next_step(const Params& params, const GaitTuning& tuning, const VelocityIn& wanted,
                const Step& last, FootstepState& state);
 
-/// For the ZMP only: does not check the swing's path.
+/// The same for the ZMP only: does not check the swing's path.
 Step next_footholds(const Params& params, const GaitTuning& tuning, const VelocityIn& wanted,
                     const Step& last, FootstepState& state);
 

@@ -12,7 +12,7 @@ namespace {
 // 0.9 with it.
 constexpr float kTaken_s = 0.008F;
 
-// At most one step back and within stored key points.
+// A moment at most one step back and within stored key points.
 struct Moment {
   const Step* step;
   std::int32_t time_us;    // since the step's beginning
@@ -165,7 +165,7 @@ void lay_key_points(const Params& params, const Tuning& tuning, const GaitIn& in
   }
 }
 
-// Once a step, so that roundings do not add up.
+// Moves the origin once a step, so that roundings do not add up.
 void rebase_walk(Xy origin_m, GaitState& state) {
   const auto move_step = [&](Step& step) {
     for (Foothold& foot : step.foot) foot.at_m = foot.at_m - origin_m;

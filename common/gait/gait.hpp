@@ -19,11 +19,11 @@ struct GaitState {
   Step queue[kQueue];  ///< queue[0]: the step at `clock_us`
   PreviewState preview;
   FootstepState footsteps;
-  Settled settled;                ///< for which stand_body_m holds
-  Xy stand_body_m;                ///< while standing, walk frame
-  std::int32_t clock_us = 0;      ///< goals' moment, since queue[0]'s start
-  std::uint8_t queued = 0;        ///< 0: standing
-  std::uint8_t first_key = 0;     ///< at queue[0]'s start, mod 256
+  Settled settled;                ///< digests for which stand_body_m holds
+  Xy stand_body_m;                ///< body position while standing, walk frame
+  std::int32_t clock_us = 0;      ///< the goals' moment, since queue[0]'s start
+  std::uint8_t queued = 0;        ///< steps in the queue; 0: standing
+  std::uint8_t first_key = 0;     ///< fixed key point at queue[0]'s start, mod 256
   std::uint8_t previous_key = 0;  ///< the same of `previous`
   std::uint8_t moving = 0;        ///< 0: the head runs ahead before a walk
   VERP_FIELDS(previous, queue, preview, footsteps, settled, stand_body_m, clock_us, queued,
@@ -45,14 +45,14 @@ struct GaitOut {
   Xy zmp_m;                           ///< planned, goals' moment
   Xy accel_m_s2;                      ///< planned, of the body, goals' moment
   Phase phase = Phase::kIdle;         ///< now: look_ahead_s before the goals' moment
-  std::uint8_t swing = kBoth;         ///< in the air now; kBoth: none
+  std::uint8_t swing = kBoth;         ///< foot in the air now; kBoth: none
   std::uint8_t carrying = kBoth;      ///< stance foot now, in double support the next
   std::uint8_t cycle_state = 0;       ///< 0..15, now
 };
 
 GaitOut update(const Params& params, const Tuning& tuning, GaitState& state, const GaitIn& in);
 
-/// Before the goals' moment, for delayed joints (GaitTuning::joint_delay_s).
+/// Posture `delay_us` before the goals' moment (GaitTuning::joint_delay_s).
 Posture posture_before(const Params& params, const Tuning& tuning, const GaitState& state,
                        std::int32_t delay_us);
 

@@ -10,7 +10,7 @@ namespace {
 // clearance.
 constexpr int kLooks = 10;
 
-// In the swing.
+// Share of the swing at sample `i`.
 constexpr float time_of(int i) {
   const float w = 2.0F * static_cast<float>(i) / static_cast<float>(kLooks) - 1.0F;
   return 0.5F + 0.25F * w * (1.0F + w * w);

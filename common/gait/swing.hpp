@@ -3,7 +3,7 @@
 #include "common/math/spline.hpp"
 #include "common/math/xyz.hpp"
 
-/// Splines between the plan's ends and extreme.
+/// The feet during a step: splines between the plan's ends and extreme.
 namespace verp::gait {
 
 struct FootPose {
@@ -15,7 +15,7 @@ struct FootPose {
 /// Progress 0 to 1: a quintic at rest at both ends. Haste mixes in a cubic, which needs less servo
 /// speed.
 inline math::CurvePoint swing_along(float u, float haste) {
-  constexpr float kBrisk = 0.24F;  // of the cubic, per haste
+  constexpr float kBrisk = 0.24F;  // share of the cubic per unit of haste
   const math::CurvePoint gentle = math::minimum_jerk(u);
   if (haste == 0.0F) return gentle;
   const math::CurvePoint brisk = math::smooth_step(u);

@@ -31,7 +31,7 @@ inline Xy turned(Xy v, float yaw_rad) {
   return turned(v, math::sincos(yaw_rad));
 }
 
-/// Sole frame's origin on the ground, and heading.
+/// A sole frame's origin on the ground, and heading.
 struct Foothold {
   Xy at_m;
   float yaw_rad = 0;
@@ -56,7 +56,7 @@ inline constexpr int kKeyPointsPerStep = 15;
 struct Step {
   std::int32_t key_us = 0;      ///< time between key points
   std::uint8_t key_points = 0;  ///< duration is key_points * key_us
-  std::uint8_t swing = kBoth;   ///< kBoth: none
+  std::uint8_t swing = kBoth;   ///< kLeft, kRight, or kBoth: no foot leaves the ground
   Phase phase = Phase::kIdle;
   std::uint8_t landed = kBoth;  ///< previous step's swing foot; kBoth: none
   float double_support_s = 0;   ///< from the step's start
@@ -77,7 +77,7 @@ struct Step {
   constexpr float duration_s() const { return static_cast<float>(duration_us()) * 1e-6F; }
   constexpr float key_s() const { return static_cast<float>(key_us) * 1e-6F; }
   constexpr int carrying() const { return swing == kBoth ? kBoth : 1 - swing; }
-  /// Both feet carry, the ZMP comes to rest.
+  /// Final and later steps: both feet carry, the ZMP comes to rest.
   constexpr bool ends_walk() const { return swing == kBoth && phase != Phase::kStart; }
   constexpr Foothold after(int side) const { return side == swing ? landing : foot[side]; }
 };

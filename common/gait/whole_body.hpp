@@ -7,7 +7,7 @@ namespace verp::gait {
 
 inline constexpr int kPoints = 1 + kFeet * kLegJoints;
 
-/// Trunk, arms and head, body frame.
+/// Trunk, arms and head as one mass in the body frame.
 struct Lump {
   float mass_kg = 0;
   Xyz com_body_m;
@@ -21,19 +21,19 @@ Lump lump_of(const Params& params, const float* angle_rad);
 /// Covers the angles that lump_of reads.
 std::uint32_t digest_load(const Params& params, const float* angle_rad);
 
-/// Walk frame.
+/// Body and feet, walk frame.
 struct Posture {
   Pose body;
   FootPose foot[kFeet];
 };
 
-/// Height and pitch from the tuning, heading midway between the feet's.
+/// Body above (x, y): height and pitch from the tuning, heading midway between the feet's.
 Posture posture_of(const Params& params, const GaitTuning& tuning, Xy body_m, const FootPose& left,
                    const FootPose& right);
 
 Pose sole_in_body(const Posture& posture, int side);
 
-/// Lump (index 0) and leg links, left then right; their centre.
+/// Mass points of lump (index 0) and leg links, left then right; their centre.
 struct Masses {
   Vec3 point_m[kPoints];
   Vec3 com_m;

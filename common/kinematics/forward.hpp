@@ -6,7 +6,7 @@
 /// Params::joint; results are in the frame of `body`.
 namespace verp::kinematics {
 
-/// In its parent link.
+/// Pose of the joint's link in its parent link.
 Pose joint_transform(const JointParams& joint, float angle_rad);
 
 /// The product with rot_x (1, 2, 0), rot_y (2, 0, 1) or rot_z (0, 1, 2).
@@ -29,7 +29,7 @@ inline void chain(const Pose& parent, const JointParams& joint, float angle_rad,
 
 Pose node_pose(const Params& params, const Pose& body, const float* angle_rad, int node);
 
-/// Nodes 0..joint_count.
+/// Poses of nodes 0..joint_count.
 void all_poses(const Params& params, const Pose& body, const float* angle_rad, Pose* node);
 
 Vec3 center_of_mass(const Params& params, const Pose& body, const float* angle_rad);

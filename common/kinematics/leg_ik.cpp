@@ -17,7 +17,7 @@ Pose foot_of_sole(const LegParams& leg, const Pose& sole) {
   return foot;
 }
 
-// Removes the factor `norm`. Angle 0 if it is too small.
+// Divides sine and cosine by `norm`. Angle 0 if it is too small.
 SinCos unit(float sin, float cos, float norm) {
   constexpr float kLeast = 1e-12F;
   return norm > kLeast ? SinCos{sin / norm, cos / norm} : SinCos{0.0F, 1.0F};

@@ -6,16 +6,16 @@
 
 namespace verp::kinematics {
 
-/// 0: the sole is exactly in place.
+/// Compromises of a solution. 0: the sole is exactly in place.
 enum LegFlag : std::uint8_t {
-  kOutOfReach = 1 << 0,    ///< same orientation and hip direction, straight leg
+  kOutOfReach = 1 << 0,    ///< nearest reachable: same orientation and hip direction, straight leg
   kJointLimited = 1 << 1,  ///< at least one joint at its limit
   kNotConverged = 1 << 2,  ///< Newton: residual above 0.1 mm or 1 mrad
 };
 
 struct LegAngles {
   float angle_rad[kLegJoints] = {};  ///< hip to ankle, in the limits
-  math::SinCos turn[kLegJoints];     ///< to 1e-6, for leg_chain
+  math::SinCos turn[kLegJoints];     ///< sines of these angles, to 1e-6, for leg_chain
   std::uint8_t flags = 0;            ///< LegFlag
 };
 
@@ -28,7 +28,7 @@ LegAngles solve_leg_closed_form(const Params& params, const LegParams& leg, cons
 LegAngles solve_leg_newton(const Params& params, const LegParams& leg, const Pose& sole,
                            const float* previous_rad);
 
-/// The knee bent enough to steer: 99.8 %.
+/// Longest hip-ankle distance that leaves the knee bent enough to steer: 99.8 %.
 inline float usable_reach_m(const LegParams& leg) {
   return 0.998F * (leg.thigh_m + leg.shank_m);
 }

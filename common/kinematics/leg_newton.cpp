@@ -4,7 +4,7 @@ namespace verp::kinematics {
 namespace {
 
 constexpr int kIterations = 4;            // two were enough on all legs tried
-constexpr float kMetresPerRadian = 0.1F;  // angle against length errors
+constexpr float kMetresPerRadian = 0.1F;  // weighs angle against length errors
 constexpr float kDamping = 1e-6F;         // m^2; bounds the step at a straight knee
 constexpr float kMaxStepRad = 0.3F;       // a larger step leaves the linear range
 constexpr float kPositionTolerance_m = 1e-4F;
@@ -44,7 +44,7 @@ bool newton_step(const Mat6& jacobian, const Residual& residual, Vec6& step_rad)
   return math::solve_spd(normal, right, step_rad);
 }
 
-// math::norm() of NaN is 0.
+// math::norm() of NaN is 0 and would look solved.
 bool is_pose(const Pose& sole) {
   return math::is_finite(sole.rotation.sum() + sole.position_m.sum());
 }

@@ -6,7 +6,7 @@
 namespace verp::kinematics {
 namespace {
 
-/// At zero angles, from the body's origin or ancestor joint `base`.
+/// A joint's position at zero angles, from the body's origin or ancestor joint `base`.
 Vec3 place(const Params& params, int joint, int base) {
   Vec3 sum_m{0, 0, 0};
   for (int j = joint; j != base; j = params.joint[j].parent - 1) {

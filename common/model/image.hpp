@@ -32,7 +32,7 @@ VERP_PACKED(ImageHeader);
 struct GoldenVector {
   std::uint32_t seed = 0;          ///< draws the joint angles
   std::uint32_t poses_digest = 0;  ///< of the poses of all nodes
-  std::uint32_t legs_digest = 0;   ///< of both legs' angles and flags
+  std::uint32_t legs_digest = 0;   ///< of both legs' angles and flags for the soles' poses
   Xyz com_m;                       ///< body frame
   Xyz sole_m[kFeet];               ///< body frame
   VERP_FIELDS(seed, poses_digest, legs_digest, com_m, sole_m)
@@ -54,14 +54,14 @@ enum class ImageFault : std::uint8_t {
   kNone = 0,
   kTruncated = 1,
   kNotAnImage = 2,
-  kOtherLayout = 3,  ///< another kImageVersion
-  kOtherCore = 4,    ///< another kCoreVersion
+  kOtherLayout = 3,  ///< written for another kImageVersion
+  kOtherCore = 4,    ///< golden results of another kCoreVersion
   kDamaged = 5,      ///< CRC mismatch
   kOutOfBounds = 6,  ///< an index outside its table
   kOutOfRange = 7,   ///< not finite or implausible; numbers_fit() names it
 };
 
-/// Equal only for equal bytes, up to 2^-32.
+/// Names the robot: equal only for equal bytes, up to 2^-32.
 std::uint32_t params_crc(const Params& params);
 
 /// Fills in the header.

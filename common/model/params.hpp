@@ -26,26 +26,26 @@ struct JointParams {
   char name[kNameLength] = {};
   std::uint8_t parent = 0;  ///< node whose link carries this joint
   AxisKind axis_kind = AxisKind::kGeneral;
-  std::uint8_t servo_id = 0;       ///< a follower has its driver's
+  std::uint8_t servo_id = 0;       ///< bus address; a follower has its driver's
   std::uint8_t servo_profile = 0;  ///< index into Params::servo
-  Xyz origin_parent_m;             ///< in the parent link's frame
+  Xyz origin_parent_m;             ///< joint position in the parent link's frame
   Xyz axis;                        ///< unit vector, right-hand rule
-  float mass_kg = 0;               ///< link that this joint moves
-  Xyz com_link_m;                  ///< link frame
+  float mass_kg = 0;               ///< of the link that this joint moves
+  Xyz com_link_m;                  ///< centre of mass in the link frame
   float lower_rad = 0;
   float upper_rad = 0;
-  float velocity_limit_rad_s = 0;  ///< at most the servo's no-load speed
+  float velocity_limit_rad_s = 0;  ///< limit by safety; at most the servo's no-load speed
   float counts_per_rad = 0;        ///< negative: servo mounted backwards
   float zero_count = 0;            ///< count at joint angle zero
   float compliance_rad_nm = 0;     ///< sag of the servo's position loop under load
-  /// Rotor and gears (Gearbox, host/robot/model/entity.hpp).
+  /// Inertia of rotor and gears at the joint (Gearbox, host/robot/model/entity.hpp).
   float armature_kg_m2 = 0;
-  float friction_n_m = 0;          ///< near standstill
+  float friction_n_m = 0;          ///< friction torque near standstill
   float load_friction = 0;         ///< share of the load torque added to it
   float friction_speed_rad_s = 1;  ///< half of it is left at this speed
-  /// In standing and walking. Leg joints are solved; Newton starts here.
+  /// Angle in standing and walking. Leg joints are solved; Newton starts here.
   float stand_rad = 0;
-  float sit_rad = 0;  ///< torque may be released here
+  float sit_rad = 0;  ///< crouch in which torque may be released
   VERP_FIELDS(name, parent, axis_kind, servo_id, servo_profile, origin_parent_m, axis, mass_kg,
               com_link_m, lower_rad, upper_rad, velocity_limit_rad_s, counts_per_rad, zero_count,
               compliance_rad_nm, armature_kg_m2, friction_n_m, load_friction, friction_speed_rad_s,
@@ -65,12 +65,12 @@ struct LegParams {
   std::uint8_t reserved = 0;
   float direction[kLegJoints] = {};  ///< +1 or -1
   float offset_rad[kLegJoints] = {};
-  Xyz hip_body_m;                                    ///< intersection of the hip axes
-  float thigh_m = 0;                                 ///< in the sagittal plane
-  float shank_m = 0;                                 ///< knee axis to ankle centre
-  Xyz sole_foot_m;                                   ///< sole frame from the ankle centre
-  float sole_foot[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< in the foot frame, row-major
-  float sole_front_m = 0;                            ///< sole's edges from its frame, all positive
+  Xyz hip_body_m;     ///< intersection of the hip axes
+  float thigh_m = 0;  ///< hip centre to knee axis, in the sagittal plane
+  float shank_m = 0;  ///< knee axis to ankle centre
+  Xyz sole_foot_m;    ///< sole frame's origin from the ankle centre
+  float sole_foot[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< sole axes in the foot frame, row-major
+  float sole_front_m = 0;  ///< sole's edges from its frame's origin, all positive
   float sole_back_m = 0;
   float sole_left_m = 0;
   float sole_right_m = 0;
@@ -98,14 +98,14 @@ struct ImuParams {
   float body_imu[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< IMU to body frame, row-major
   float gyro_rad_s_per_count = 0;
   float accel_m_s2_per_count = 0;
-  std::uint8_t device_id = 0;  ///< on the servo bus; 0: a chip on the board
+  std::uint8_t device_id = 0;  ///< address on the servo bus; 0: a chip on the board
   std::uint8_t reserved[3] = {};
   VERP_FIELDS(body_imu, gyro_rad_s_per_count, accel_m_s2_per_count, device_id, reserved)
 };
 VERP_PACKED(ImuParams);
 
 struct FootSensorParams {
-  std::uint8_t device_id[kFeet] = {};  ///< on the servo bus; 0: none
+  std::uint8_t device_id[kFeet] = {};  ///< address on the servo bus; 0: none
   std::uint8_t reserved[2] = {};
   float newton_per_count = 0;
   VERP_FIELDS(device_id, reserved, newton_per_count)
@@ -119,18 +119,18 @@ enum class BusProtocol : std::uint8_t {
 
 struct Params {
   char name[kNameLength] = {};
-  std::uint32_t period_us = 10000;  ///< 4000 to 20000
-  std::uint32_t baud = 2000000;     ///< on CAN the nominal bit rate
+  std::uint32_t period_us = 10000;  ///< control period, 4000 to 20000
+  std::uint32_t baud = 2000000;     ///< servo bus; on CAN the nominal bit rate
   std::uint8_t joint_count = 0;
   std::uint8_t head_pan = 0xFF;  ///< joint index, 0xFF: none
   std::uint8_t head_tilt = 0xFF;
-  std::uint8_t rise_torque_percent = 100;  ///< of full duty, during the rise
+  std::uint8_t rise_torque_percent = 100;  ///< of each servo's full duty, during the rise
   float body_mass_kg = 0;
   Xyz body_com_m;
   BusProtocol bus_protocol = BusProtocol::kDynamixel2;
-  /// Joints at the end without an own servo (model/coupling.hpp).
+  /// Number of joints at the end without an own servo (model/coupling.hpp).
   std::uint8_t followers = 0;
-  std::uint8_t arm[kFeet] = {0xFF, 0xFF};  ///< swings the arm fore and aft; 0xFF: none
+  std::uint8_t arm[kFeet] = {0xFF, 0xFF};  ///< joint that swings the arm fore and aft; 0xFF: none
   /// Angle of `arm` per metre of the left foot's lead that cancels the legs' spin about the
   /// vertical. 0 without an arm.
   float arm_rad_per_m[kFeet] = {};

@@ -17,7 +17,7 @@ struct Path {
   int length = 0;
 };
 
-/// Inclusive, through the nearest common ancestor.
+/// Nodes `from` to `to`, inclusive, through the nearest common ancestor.
 Path path(const Params& params, int from, int to);
 
 float total_mass(const Params& params);

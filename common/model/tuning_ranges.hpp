@@ -70,7 +70,7 @@ constexpr bool in_range(int id, float value) {
          value <= kTuningRanges[id].high;
 }
 
-/// Indexed by parameter id.
+/// A Tuning as an array, indexed by parameter id.
 inline float tuning_value(const Tuning& tuning, int id) {
   float value;
   __builtin_memcpy(&value, reinterpret_cast<const unsigned char*>(&tuning) + 4 * id, 4);

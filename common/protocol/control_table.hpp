@@ -92,7 +92,7 @@ inline constexpr std::uint32_t kBusWatchdogUnit_us = 20000;
 inline constexpr std::uint8_t kBusWatchdogMost = 127;
 inline constexpr std::uint8_t kBusWatchdogTripped = 0xFF;  ///< -1, read after a trip
 
-/// In Hardware Error Status (70) and Shutdown (63).
+/// Bits of Hardware Error Status (70) and Shutdown (63).
 enum HardwareError : std::uint8_t {
   kInputVoltageError = 1 << 0,
   kOverheatingError = 1 << 2,
@@ -101,7 +101,7 @@ enum HardwareError : std::uint8_t {
   kOverloadError = 1 << 5,
 };
 
-/// 0xFF for a rate that the servos lack.
+/// Value of Baud Rate (8); 0xFF for a rate that the servos lack.
 constexpr std::uint8_t baud_rate_code(std::uint32_t baud) {
   constexpr std::uint32_t kRates[] = {9600,    57600,   115200,  1000000,
                                       2000000, 3000000, 4000000, 4500000};

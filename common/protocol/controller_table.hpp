@@ -21,7 +21,7 @@ inline constexpr std::uint8_t kTableVersion = 1;
 enum class Type : std::uint8_t { kU8, kU16, kU32, kU64, kI8, kI16, kI32, kF32, kText };
 inline constexpr const char* kTypeNames[] = {"u8",  "u16", "u32", "u64", "i8",
                                              "i16", "i32", "f32", "text"};
-/// One element.
+/// Bytes of one element.
 constexpr std::uint8_t type_bytes(Type type) {
   constexpr std::uint8_t kBytes[] = {1, 2, 4, 8, 1, 2, 4, 4, 1};
   return kBytes[static_cast<std::size_t>(type)];
@@ -31,9 +31,9 @@ constexpr bool is_signed(Type type) {
 }
 
 enum class Access : std::uint8_t {
-  kRead,      ///< by the controller only
-  kWrite,     ///< at any time
-  kDisarmed,  ///< only while no servo holds torque
+  kRead,      ///< written only by the controller
+  kWrite,     ///< written at any time
+  kDisarmed,  ///< written only while no servo holds torque
 };
 inline constexpr const char* kAccessNames[] = {"R", "RW", "RW disarmed"};
 
@@ -42,9 +42,9 @@ struct Register {
   const char* name = "";
   Type type = Type::kU8;
   Access access = Access::kRead;
-  std::uint16_t count = 1;    ///< contiguous from `address`
+  std::uint16_t count = 1;    ///< elements, contiguous from `address`
   std::int32_t minimum = 0;   ///< of written values
-  std::uint32_t maximum = 0;  ///< int32 if `minimum` is negative
+  std::uint32_t maximum = 0;  ///< read as an int32 if `minimum` is negative
   const char* unit = "";
   const char* meaning = "";
 
@@ -236,7 +236,7 @@ inline constexpr Register kTable[] = {
     r(244, "link_noise", u32, "", "this link: bytes with noise or wrong parity"),
     r(248, "link_losses", u32, "", "this link: times it was lost"),
     r(252, "bus_noise", u32, "bytes", "servo bus: bytes that belonged to no whole packet"),
-    // In the order of Params.
+    // The joints, in the order of Params.
     r(256, "present_position", i32, "counts", "as last read from each servo", kMaxJoints),
     r(384, "goal_position", i32, "counts", "as last sent to each servo", kMaxJoints),
     r(512, "joint_id", u8, "", "bus id of each servo", kMaxJoints),
@@ -291,7 +291,7 @@ constexpr bool same_name(const char* a, const char* b) {
   return false;
 }
 
-/// nullptr if there is none.
+/// Returns nullptr if there is none.
 constexpr const Register* find(const char* name) {
   for (const Register& each : row::kTable) {
     if (same_name(each.name, name)) return &each;

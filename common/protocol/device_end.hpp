@@ -45,9 +45,9 @@ constexpr std::int64_t register_value(const std::uint8_t* bytes, unsigned size, 
 }
 
 struct WriteRule {
-  std::uint8_t size = 0;  ///< the register that begins there; 0: none
+  std::uint8_t size = 0;  ///< bytes of the register that begins there; 0: none
   bool writable = false;
-  std::int64_t minimum = 0;  ///< negative: a signed register
+  std::int64_t minimum = 0;  ///< a negative one makes the register signed
   std::int64_t maximum = 0;
 };
 

@@ -55,11 +55,11 @@ inline constexpr std::uint8_t kHeader[4] = {0xFF, 0xFF, 0xFD, 0x00};
 inline constexpr std::size_t kLengthAt = 5;
 inline constexpr std::size_t kHeaderBytes = 7;  ///< up to `length`
 inline constexpr std::size_t kCrcBytes = 2;
-inline constexpr std::size_t kInstructionBytes = 10;  ///< without parameters
-inline constexpr std::size_t kStatusBytes = 11;       ///< without data
-inline constexpr std::size_t kMaxPacket = 512;        ///< sent or accepted
-inline constexpr std::size_t kFastHeaderBytes = 8;    ///< before the first block
-inline constexpr std::size_t kFastBlockBytes = 4;     ///< error, id and CRC around the data
+inline constexpr std::size_t kInstructionBytes = 10;  ///< a packet without parameters
+inline constexpr std::size_t kStatusBytes = 11;       ///< a status packet without data
+inline constexpr std::size_t kMaxPacket = 512;        ///< longest packet sent or accepted
+inline constexpr std::size_t kFastHeaderBytes = 8;    ///< bytes before the first device block
+inline constexpr std::size_t kFastBlockBytes = 4;  ///< error, id and CRC around each device's data
 
 constexpr std::uint16_t get_u16(const std::uint8_t* bytes) {
   return static_cast<std::uint16_t>(bytes[0] | bytes[1] << 8);
@@ -108,20 +108,20 @@ std::size_t encode_read(std::uint8_t* buffer, std::size_t capacity, std::uint8_t
                         std::uint16_t address, std::uint16_t length);
 std::size_t encode_write(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
                          std::uint16_t address, const std::uint8_t* data, std::size_t size);
-/// Waits for kAction.
+/// A write that waits for kAction.
 std::size_t encode_reg_write(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
                              std::uint16_t address, const std::uint8_t* data, std::size_t size);
-/// kPing, kAction or kReboot.
+/// `instruction` is kPing, kAction or kReboot.
 std::size_t encode_plain(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
                          Instruction instruction);
 std::size_t encode_factory_reset(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
                                  Reset reset);
 std::size_t encode_clear_turns(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id);
-/// kSyncRead or kFastSyncRead.
+/// `instruction` is kSyncRead or kFastSyncRead.
 std::size_t encode_sync_read(std::uint8_t* buffer, std::size_t capacity, Instruction instruction,
                              std::uint16_t address, std::uint16_t length, const std::uint8_t* ids,
                              std::size_t count);
-/// Then id and data of each device, finish.
+/// Sync Write: this, id and data of each device, finish.
 void begin_sync_write(Encoder& encoder, std::uint16_t address, std::uint16_t length);
 /// kBulkRead, kFastBulkRead, kBulkWrite. Then an entry for each device (in a Bulk Write followed by
 /// its data), finish.
@@ -147,11 +147,11 @@ struct Packet {
   std::size_t size = 0;
 
   bool is_status() const { return instruction == Instruction::kStatus; }
-  /// Blocks of error, id, data, CRC.
+  /// Reply to a fast read: blocks of error, id, data, CRC.
   bool is_fast_reply() const { return is_status() && id == kBroadcast; }
 };
 
-/// In a fast reply.
+/// One device's data in a fast reply.
 struct FastBlock {
   std::uint8_t error = 0;
   std::uint8_t id = 0;
@@ -160,7 +160,7 @@ struct FastBlock {
 /// At byte `offset`; false if the reply is too short. The next one is kFastBlockBytes + length
 /// further.
 bool fast_block_at(const Packet& reply, std::size_t offset, std::size_t length, FastBlock& block);
-/// `length` data bytes each; false if there is none.
+/// Block `index` of `length` data bytes each; false if there is none.
 bool fast_block(const Packet& reply, std::size_t index, std::size_t length, FastBlock& block);
 
 /// Finds packets in a byte stream. Noise, cut packets and bad CRCs cost no other packet: the search
@@ -173,12 +173,12 @@ class Parser {
   /// True if earlier bytes hold another packet.
   bool next();
   const Packet& packet() const { return packet_; }
-  /// Keeps the counters.
+  /// The counters stay.
   void reset() { begin_ = size_ = done_ = need_ = 0; }
 
   std::uint32_t crc_errors() const { return crc_errors_; }
   std::uint32_t noise_bytes() const { return noise_bytes_; }
-  /// Bytes stored, searched, summed and moved; wraps.
+  /// Cost so far, in bytes stored, searched, summed and moved; wraps.
   std::uint32_t steps() const { return steps_; }
 
  private:
@@ -194,7 +194,7 @@ class Parser {
   std::size_t begin_ = 0;
   std::size_t size_ = 0;  ///< bytes in use
   std::size_t done_ = 0;  ///< packet last reported, dropped next
-  std::size_t need_ = 0;  ///< at most kMaxPacket
+  std::size_t need_ = 0;  ///< bytes to wait for; at most kMaxPacket
   std::uint32_t crc_errors_ = 0;
   std::uint32_t noise_bytes_ = 0;
   std::uint32_t steps_ = 0;

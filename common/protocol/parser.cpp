@@ -31,7 +31,7 @@ bool Parser::next() {
   }
 }
 
-/// As far as the bytes go.
+/// True if the bytes there match a header, as far as they go.
 bool Parser::may_begin_at(std::size_t offset) const {
   const std::uint8_t* from = buffer_ + begin_ + offset;
   for (std::size_t i = 0; i < sizeof kHeader && offset + i < size_; ++i) {

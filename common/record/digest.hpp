@@ -4,7 +4,7 @@
 
 #include "common/base/fields.hpp"
 
-/// Not cryptographic: do two runs have the same bits?
+/// Digests, not cryptographic: do two runs have the same bits?
 namespace verp::record {
 
 static_assert(std::endian::native == std::endian::little, "byte images are little-endian");
@@ -16,7 +16,7 @@ class Digest32 {
   constexpr explicit Digest32(std::uint32_t seed) : value_(seed) {}
   constexpr void add(std::uint32_t word) { value_ = (std::rotl(value_, 5) ^ word) * 0x9E3779B1u; }
 
-  /// In memory order.
+  /// Adds the struct in memory order.
   template <class T>
   void add_struct(const T& data) {
     static_assert(packed_size<T>() == sizeof(T) && sizeof(T) % 4 == 0);

@@ -7,13 +7,13 @@
 /// Per tick in a trace: names the first stage that differs in a replay.
 namespace verp {
 
-/// In order.
+/// The stages of step(), in order.
 enum class Stage : std::uint8_t { kAdmit, kEstimate, kPlan, kBalance, kKinematics, kLimit, kGate };
 inline constexpr int kStages = 7;
 inline constexpr const char* kStageNames[kStages] = {"admit",      "estimate", "plan", "balance",
                                                      "kinematics", "limit",    "gate"};
 
-/// State and output of each stage; `chain`: also all earlier ticks.
+/// Digests of each stage's state and output; `chain` covers all earlier ticks too.
 struct TickDigest {
   std::uint64_t chain = 0;
   std::uint32_t stage[kStages] = {};

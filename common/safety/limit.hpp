@@ -2,7 +2,7 @@
 #include "common/model/params.hpp"
 #include "common/safety/machine.hpp"
 
-/// Joint limits, joint speeds, mode.
+/// Final limits on every goal: joint limits, joint speeds, mode.
 namespace verp::safety {
 
 /// No torque if a joint is further beyond its limits: this bounds the first jump. Less than the
@@ -11,7 +11,7 @@ namespace verp::safety {
 inline constexpr float kBeyond_rad = 0.05F;
 
 struct LimitState {
-  float goal_rad[kMaxJoints] = {};  ///< last sent
+  float goal_rad[kMaxJoints] = {};  ///< last goals sent
   VERP_FIELDS(goal_rad)
 };
 VERP_PACKED(LimitState);
@@ -19,19 +19,19 @@ VERP_PACKED(LimitState);
 struct LimitIn {
   Mode mode = Mode::kRelaxed;
   std::int32_t in_mode_us = 0;
-  std::uint16_t way_ms = 0;                      ///< LimitOut's, while rising or sitting
-  const float* wanted_rad = nullptr;             ///< joint_count, of the gait
+  std::uint16_t way_ms = 0;           ///< from the previous LimitOut, while rising or sitting
+  const float* wanted_rad = nullptr;  ///< joint_count goals of the gait
   const std::int32_t* position_count = nullptr;  ///< last reported
   const SafetyTuning* tuning = nullptr;
 };
 
 struct LimitOut {
-  bool slowed = false;       ///< standing or walking
-  bool beyond = false;       ///< torque off, see joint_beyond()
-  std::uint16_t way_ms = 0;  ///< computed in the first tick
+  bool slowed = false;       ///< a speed limit took effect, standing or walking
+  bool beyond = false;       ///< torque is off and joint_beyond() names a joint
+  std::uint16_t way_ms = 0;  ///< duration of the way, computed in the first tick
 };
 
-/// By more than kBeyond_rad; kMaxJoints: none.
+/// First joint beyond its limits by more than kBeyond_rad; kMaxJoints: none.
 int joint_beyond(const Params& params, const std::int32_t* position_count);
 
 /// Rising and sitting last rise_s and sit_s, or longer for a joint's speed limit.

@@ -42,7 +42,7 @@ constexpr Row kTable[] = {
     // A stopped action first returns to the stand.
     {bit(Mode::kStanding), kAskAction | kCalibrated, kOperatorQuiet | kPowerBad, Mode::kActing},
     {bit(Mode::kActing), kTimeUp, 0, Mode::kStanding},
-    // Last: an earlier row hides a fall for one tick only.
+    // A fall comes last: an earlier row hides it for one tick only.
     {kMayFall, kFallSeen, kStale, Mode::kFalling},
     {bit(Mode::kFalling), kTimeUp | kFell, 0, Mode::kFallen},
     {bit(Mode::kFalling), kTimeUp, 0, Mode::kHolding},

@@ -9,7 +9,7 @@ namespace verp::safety {
 
 enum class Mode : std::uint8_t {
   kRelaxed,  ///< torque off, goals follow the joints
-  kRising,   ///< to the stand
+  kRising,   ///< from the pose found to the stand
   kStanding,
   kWalking,
   kHolding,  ///< a device went silent: goals frozen
@@ -17,8 +17,8 @@ enum class Mode : std::uint8_t {
   kFallen,   ///< limp until a relax request
   kStopped,  ///< e-stop: limp until released and relaxed
   kActing,
-  kFalling,    ///< into a pose that bears the fall
-  kGettingUp,  ///< by an action
+  kFalling,    ///< certain to fall: into a pose that bears it
+  kGettingUp,  ///< from the floor to the stand, by an action
 };
 inline constexpr int kModes = 11;
 inline constexpr const char* kModeNames[kModes] = {"relaxed", "rising",  "standing",  "walking",
@@ -27,24 +27,24 @@ inline constexpr const char* kModeNames[kModes] = {"relaxed", "rising",  "standi
 
 enum Condition : std::uint32_t {
   kAskRelax = 1 << 0,
-  kAskStand = 1 << 1,  ///< or to walk
+  kAskStand = 1 << 1,  ///< the operator asks to stand or walk
   kAskWalk = 1 << 2,
-  kServosKnown = 1 << 3,  ///< all reported recently
-  kTimeUp = 1 << 4,       ///< rise, sitting, fall or action
-  kGaitOver = 1 << 5,     ///< on both feet
+  kServosKnown = 1 << 3,  ///< every servo has reported recently
+  kTimeUp = 1 << 4,       ///< rise, sitting, fall or action is over
+  kGaitOver = 1 << 5,     ///< the gait stands on both feet
   kCalibrated = 1 << 6,   ///< gyro bias known
   kFell = 1 << 7,
   kEmergency = 1 << 8,
-  kStale = 1 << 9,           ///< servo or IMU, for stale_hold_s
-  kLost = 1 << 10,           ///< for stale_release_s
-  kOperatorQuiet = 1 << 11,  ///< for command_hold_s
-  kOperatorGone = 1 << 12,   ///< for command_release_s
-  kPowerBad = 1 << 13,       ///< kPowerFaults, now or latched
-  kJointBeyond = 1 << 14,    ///< limp, joint over kBeyond_rad
-  kAskAction = 1 << 15,      ///< not yet played
-  kFallSeen = 1 << 16,       ///< and has a pose for it
-  kAskGetUp = 1 << 17,       ///< lies still, action for this side
-  kPushed = 1 << 18,         ///< beyond what ankles balance
+  kStale = 1 << 9,           ///< servo or IMU silent for stale_hold_s
+  kLost = 1 << 10,           ///< the same for stale_release_s
+  kOperatorQuiet = 1 << 11,  ///< no operator frame for command_hold_s
+  kOperatorGone = 1 << 12,   ///< no operator frame for command_release_s
+  kPowerBad = 1 << 13,       ///< kPowerFaults, now or still latched
+  kJointBeyond = 1 << 14,    ///< limp, and a joint is over kBeyond_rad beyond its limits
+  kAskAction = 1 << 15,      ///< the operator asks for an action not yet played
+  kFallSeen = 1 << 16,       ///< certain to fall, and has a pose for it
+  kAskGetUp = 1 << 17,       ///< lies still, and has an action for this side
+  kPushed = 1 << 18,         ///< pushed beyond what ankles balance: has to step
 };
 
 /// Latched until the operator relaxes the robot. The upper half only reports.
@@ -57,11 +57,11 @@ enum Fault : std::uint32_t {
   kFaultTemperature = 1 << 5,
   kFaultVoltage = 1 << 6,
   kFaultServoError = 1 << 7,
-  kFaultJointBeyond = 1 << 8,    ///< stand refused
-  kNoteOverrun = 1 << 16,        ///< a tick was late
+  kFaultJointBeyond = 1 << 8,    ///< stand refused: a joint is beyond its limits
+  kNoteOverrun = 1 << 16,        ///< a tick ended after its deadline
   kNoteParameter = 1 << 17,      ///< a parameter write was out of range
-  kNoteStrideLimited = 1 << 18,  ///< velocity needs longer steps
-  kNotePlanShortened = 1 << 19,  ///< reach, ZMP near the sole's edge, or soles collide
+  kNoteStrideLimited = 1 << 18,  ///< the velocity needs longer steps than allowed
+  kNotePlanShortened = 1 << 19,  ///< steps shortened: reach, ZMP near the edge, or soles collide
   kNotePlanRefused = 1 << 20,    ///< no step keeps the ZMP in the sole
   kNoteLegLimited = 1 << 21,
   kNoteSpeedLimited = 1 << 22,
@@ -72,22 +72,22 @@ inline constexpr std::uint32_t kPowerFaults = kFaultTemperature | kFaultVoltage 
 
 struct MachineState {
   std::uint32_t faults = 0;     ///< Fault bits
-  std::int32_t in_mode_us = 0;  ///< saturating
+  std::int32_t in_mode_us = 0;  ///< time in this mode, saturating
   Mode mode = Mode::kRelaxed;
-  std::uint8_t falling_ms = 0;  ///< beyond recovery, up to 255
-  std::uint16_t way_ms = 0;     ///< last rise or sitting
+  std::uint8_t falling_ms = 0;  ///< time beyond recovery, up to 255
+  std::uint16_t way_ms = 0;     ///< duration of the last rise or sitting
   VERP_FIELDS(faults, in_mode_us, mode, falling_ms, way_ms)
 };
 VERP_PACKED(MachineState);
 
 struct Row {
-  std::uint32_t from;     ///< mask of modes
+  std::uint32_t from;     ///< bit mask of modes
   std::uint32_t all_of;   ///< conditions
   std::uint32_t none_of;  ///< conditions
   Mode to;
 };
 
-/// The first match decides; else the mode stays.
+/// The first matching row decides; otherwise the mode stays.
 extern const Row kTable[];
 extern const int kRows;
 

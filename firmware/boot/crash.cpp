@@ -6,7 +6,7 @@ namespace verp::boot {
 
 struct Kept {
   std::uint32_t mark;
-  std::uint32_t check;  ///< RAM is random after power-up
+  std::uint32_t check;  ///< over mark and record: RAM is random after power-up
   CrashRecord record;
 };
 static_assert(sizeof(Kept) <= 64, "room in sections.ld");
@@ -19,7 +19,7 @@ extern "C" verp::boot::Kept verp_kept;
 namespace verp::boot {
 namespace {
 
-constexpr std::uint32_t kFresh = 0xC0A5DEADu;  ///< not yet taken
+constexpr std::uint32_t kFresh = 0xC0A5DEADu;  ///< a record not yet taken
 constexpr std::uint32_t kTaken = 0x7A4E0000u;
 constexpr std::size_t kWords = sizeof(CrashRecord) / 4;
 
@@ -35,7 +35,7 @@ std::uint32_t check_of(const Kept& of) {
 bool is_whole() {
   return verp_kept.check == check_of(verp_kept);
 }
-/// Before a reset.
+/// Completes the memory writes before a reset.
 void wait_for_memory() {
 #ifdef __riscv
   __asm__ volatile("fence" ::: "memory");

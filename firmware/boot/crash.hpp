@@ -12,16 +12,16 @@ struct CrashRecord {
   std::uint32_t cause = 0;    ///< CFSR
   std::uint32_t address = 0;  ///< BFAR or MMFAR, if valid by the cause
   std::uint32_t stack_overflow = 0;
-  std::uint32_t tick = 0;     ///< note_tick()'s
+  std::uint32_t tick = 0;     ///< last argument of note_tick()
   std::uint32_t crashes = 0;  ///< in a row, since forget_crashes()
 };
 
-/// Once a tick, for the crash record.
+/// Call once a tick, for the crash record.
 void note_tick(std::uint32_t tick);
 void keep_crash(const FaultReport& report);
 /// Once after a start. False: no crash, or power was lost. Returns a record once.
 bool take_crash(CrashRecord& record);
-/// This run is healthy.
+/// Resets the crash count: this run is healthy.
 void forget_crashes();
 
 }  // namespace verp::boot

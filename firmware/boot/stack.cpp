@@ -11,7 +11,7 @@ std::uintptr_t stack_limit() {
   return reinterpret_cast<std::uintptr_t>(verp_stack_limit);
 }
 
-// In each round: the compiler may push registers late.
+// Read in each round: the compiler may push registers late.
 __attribute__((always_inline)) static inline std::uintptr_t stack_pointer() {
   std::uintptr_t sp;
 #ifdef __riscv

@@ -11,10 +11,10 @@ std::uintptr_t stack_limit();
 /// memory protection unit; the stack then ends with RAM.
 bool guard_stack();
 
-/// Below the caller's frame; depth counts from the result.
+/// Refills the stack below the caller's frame; depth counts from the result.
 std::uintptr_t paint_stack();
 
-/// Bytes, since last painted.
+/// Deepest use below `from`, bytes, since it was last painted.
 std::size_t stack_used_below(std::uintptr_t from);
 
 }  // namespace verp::boot

@@ -37,12 +37,12 @@ class OwnLaw {
   }
 
   static constexpr int kNone = -1;
-  /// In the last tick.
+  /// The first joint whose goal was refused in the last tick, and that goal.
   int refused() const { return refused_; }
   std::int32_t refused_count() const { return refused_count_; }
 
  private:
-  /// As the core's own goals use against sag.
+  /// Margin beyond the range: as much as the core's own goals use against sag.
   static constexpr float kSlack_rad = 0.1F;
 
   static bool is_sound(const JointParams& joint, int index, const Outputs& outputs) {
@@ -56,7 +56,7 @@ class OwnLaw {
   std::int32_t refused_count_ = 0;
 };
 
-/// In counts. OwnLaw refuses a NaN's.
+/// A goal in counts. OwnLaw refuses that of a NaN.
 inline std::int32_t goal_of(const JointParams& joint, float rad) {
   return rad == rad ? model::count_of(joint, rad) : std::numeric_limits<std::int32_t>::min();
 }

@@ -128,7 +128,7 @@ class FlashStore {
     }
     return true;
   }
-  /// A key's newest record.
+  /// Makes the record at `offset` the value of its key.
   void note(const RecordHeader& header, std::size_t offset) {
     const std::size_t i = find(header.key);
     if (header.size == 0) {
@@ -216,7 +216,7 @@ class FlashStore {
     return failed();
   }
 
-  /// After kMostFailures it drops the new value.
+  /// Counts a failure; after kMostFailures it drops the new value.
   hal::WorkState failed() {
     if (++failures_ < kMostFailures) return hal::WorkState::kWorking;
     pending_ = false;
@@ -296,9 +296,9 @@ class FlashStore {
   bool pending_ = false;
   bool moving_ = false;
   bool lent_ = false;
-  std::size_t written_ = 0;    ///< of the pending record
+  std::size_t written_ = 0;    ///< bytes of the pending record
   std::size_t moved_ = 0;      ///< entries
-  std::size_t copied_ = 0;     ///< of the next entry
+  std::size_t copied_ = 0;     ///< bytes of the next entry
   std::size_t move_tail_ = 0;  ///< in the other page
   Entry entry_[kMaxKeys] = {};
   std::uint32_t new_offset_[kMaxKeys] = {};

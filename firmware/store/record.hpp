@@ -12,11 +12,11 @@ namespace verp::store {
 
 inline constexpr std::size_t kSlot = 8;  ///< largest programming unit, bytes
 
-/// Correct: the page is valid; of two, the higher sequence wins.
+/// A page with a correct header is valid; of two, the higher sequence wins.
 struct PageHeader {
   std::uint32_t magic = kMagic;
-  std::uint32_t sequence = 0;  ///< one more with each new page
-  std::uint32_t crc32 = 0;     ///< magic and sequence
+  std::uint32_t sequence = 0;  ///< increases by one with each new page
+  std::uint32_t crc32 = 0;     ///< of magic and sequence
   std::uint32_t crc32_inverse = 0;
   VERP_FIELDS(magic, sequence, crc32, crc32_inverse)
   static constexpr std::uint32_t kMagic = 0x53505256;  ///< "VRPS"
@@ -39,7 +39,7 @@ inline bool is_valid(const PageHeader& header) {
 struct RecordHeader {
   std::uint16_t key = 0;
   std::uint16_t size = 0;   ///< bytes; 0 removes the key
-  std::uint32_t crc32 = 0;  ///< key, size and value
+  std::uint32_t crc32 = 0;  ///< of key, size and value
   VERP_FIELDS(key, size, crc32)
 };
 VERP_PACKED(RecordHeader);
@@ -48,7 +48,7 @@ static_assert(sizeof(RecordHeader) == kSlot && sizeof(PageHeader) == 2 * kSlot);
 constexpr std::size_t slots_bytes(std::size_t bytes) {
   return (bytes + kSlot - 1) / kSlot * kSlot;
 }
-/// Header and padding included.
+/// Page bytes of a value, with header and padding.
 constexpr std::size_t record_bytes(std::size_t size) {
   return sizeof(RecordHeader) + slots_bytes(size);
 }
@@ -63,7 +63,7 @@ inline bool is_all(const std::uint8_t* slot, std::uint8_t byte) {
   return true;
 }
 
-/// By slots.
+/// A page, accessed by slots.
 template <hal::FlashPages Flash>
 class Page {
  public:
@@ -121,13 +121,13 @@ class Page {
     __builtin_memcpy(slots, &header, sizeof header);
     return program(0, slots) && program(kSlot, slots + kSlot);
   }
-  /// Also where it reads as erased.
+  /// Invalidates the header, also where it reads as erased.
   void spoil_header() const {
     make_void(kSlot);
     make_void(0);
   }
 
-  /// A complete record of at most `max_value` bytes.
+  /// True if a complete record of at most `max_value` bytes begins at `offset`.
   bool record_at(std::size_t offset, std::size_t max_value, RecordHeader& header) const {
     read(offset, &header, sizeof header);
     if (header.key == 0 || header.size > max_value ||

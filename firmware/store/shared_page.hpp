@@ -14,13 +14,13 @@
 /// cuts, now or at the next start. Before that, home is untouched.
 namespace verp::store {
 
-/// memory(page): its address for the processor.
+/// memory(page) is the page's address for the processor.
 template <class Flash>
 concept MappedPages = hal::FlashPages<Flash> && requires(const Flash& flash, std::size_t page) {
   { flash.memory(page) } -> std::same_as<const std::uint8_t*>;
 };
 
-/// Bytes that count.
+/// The bytes of a page that count.
 struct Layout {
   std::uint32_t first_bytes = 0;
   std::uint32_t second = 0;  ///< offset of the second image
@@ -32,11 +32,11 @@ struct Layout {
   }
 };
 
-/// In front of the waiting contents, behind a log header (record.hpp).
+/// A note in front of the waiting contents, behind a log header (record.hpp).
 struct WaitingNote {
   std::uint32_t magic = kMagic;
   Layout layout;
-  std::uint32_t crc32 = 0;  ///< magic and layout
+  std::uint32_t crc32 = 0;  ///< of magic and layout
   std::uint32_t crc32_inverse = 0;
   VERP_FIELDS(magic, layout, crc32, crc32_inverse)
   static constexpr std::uint32_t kMagic = 0x57505256;  ///< "VRPW"
@@ -96,7 +96,7 @@ class WaitingRoom {
   WaitingRoom(Home& home, std::size_t second, std::size_t second_room, Other& other, Log& log)
       : home_(home), other_(other), log_(log), second_(second), second_room_(second_room) {}
 
-  // app::ActionPlace.
+  // The place of a new second image (app::ActionPlace).
   std::size_t room() const {
     const std::size_t most = other_.page_bytes(page_) - kBehindNote - second_;
     return second_room_ < most ? second_room_ : most;
@@ -150,7 +150,7 @@ class WaitingRoom {
  private:
   enum class PageState : std::uint8_t {
     kUsed,
-    kBlank,  ///< verified, not written
+    kBlank,  ///< erased and verified, not written
     kBad,
   };
   bool erase() {

@@ -13,7 +13,7 @@
 /// In brackets: 29-bit identifiers; FD with more than 16 bytes. Stuffing ends at the double line.
 namespace verp::canopen {
 
-/// None, mean of random bits, maximum.
+/// Stuff bits: none, mean of random bits, maximum.
 enum class Stuffing : std::uint8_t { kNone, kExpected, kWorst };
 
 /// The phases of an FD frame that switches its rate.
@@ -58,7 +58,7 @@ constexpr std::uint32_t stuff_bits(std::uint32_t bits, Stuffing stuffing) {
   return 0;
 }
 
-/// With the intermission.
+/// A data frame with the intermission.
 constexpr FrameBits classic_bits(std::uint8_t size, Stuffing stuffing, bool extended = false) {
   const std::uint32_t stuffed = (extended ? 39u : 19u) + 8u * size + 15u;
   return {stuffed + stuff_bits(stuffed, stuffing) + kFrameEndBits + kIntermissionBits, 0};
@@ -86,7 +86,7 @@ constexpr FrameBits frame_bits(const Frame& frame, Stuffing stuffing) {
   return classic_bits(frame.remote ? std::uint8_t{0} : frame.size, stuffing, frame.extended);
 }
 
-/// With its stuff bits. FD as sent by an error-active node.
+/// A frame with its own stuff bits. FD as sent by an error-active node.
 FrameBits exact_bits(const Frame& frame);
 
 /// Polynomial 4599h, from start of frame to data.
@@ -97,13 +97,13 @@ struct BitRates {
   std::uint32_t nominal = 1'000'000;
   std::uint32_t data = 1'000'000;
 };
-/// Rounded up.
+/// Duration, rounded up.
 constexpr std::uint64_t wire_time_ns(const FrameBits& bits, const BitRates& rates) {
   constexpr std::uint64_t kSecond = 1'000'000'000;
   return (bits.nominal * kSecond + rates.nominal - 1) / rates.nominal +
          (bits.data * kSecond + rates.data - 1) / rates.data;
 }
-/// Thousandths of a bus with `bits` each `period_us`, rounded up.
+/// Busy share of a bus with `bits` each `period_us`, in thousandths, rounded up.
 constexpr std::uint32_t load_permille(const FrameBits& bits, const BitRates& rates,
                                       std::uint32_t period_us) {
   return static_cast<std::uint32_t>((wire_time_ns(bits, rates) + period_us - 1) / period_us);

@@ -79,7 +79,7 @@ std::uint8_t Drive::event(Trigger trigger, std::int16_t quick_stop_option) {
 std::uint8_t Drive::connection_lost(AbortConnection option, std::int16_t quick_stop_option) {
   switch (option) {
     case AbortConnection::kFault:
-      // The next reset clears it.
+      // Leaves no cause, so the next reset clears it.
       return apply(Trigger::kFault, quick_stop_option);
     case AbortConnection::kDisableVoltage:
       return apply(Trigger::kDisableVoltage, quick_stop_option);
@@ -96,7 +96,7 @@ void EnableSequence::begin(std::uint64_t now_us) {
   since_us_ = now_us;
 }
 
-// A reset is an edge. False after too many.
+// A reset is an edge: the bit must be 0 between two. False after too many.
 bool EnableSequence::reset_fault(std::uint64_t now_us) {
   if (word_ == kWordFaultReset) {
     if (now_us >= reset_us_ + kResetUs) word_ = kWordDisableVoltage;
@@ -130,7 +130,7 @@ EnableSequence::Result EnableSequence::update(std::uint16_t statusword, std::uin
       break;
     case State::kNotReady:
     case State::kFaultReactionActive:
-    case State::kQuickStopActive:  // leaves it with every option code
+    case State::kQuickStopActive:  // leaves this state with every option code
       word_ = kWordDisableVoltage;
       break;
   }

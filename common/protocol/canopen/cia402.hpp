@@ -25,7 +25,7 @@ inline constexpr std::uint16_t kBitQuickStop = 1 << 2;  ///< 0 stops
 inline constexpr std::uint16_t kBitEnableOperation = 1 << 3;
 inline constexpr std::uint16_t kBitFaultReset = 1 << 7;  ///< effective on its rising edge
 
-// From a master.
+// Controlwords that a master sends.
 inline constexpr std::uint16_t kWordDisableVoltage = 0x0000;
 inline constexpr std::uint16_t kWordQuickStop = 0x0002;
 inline constexpr std::uint16_t kWordShutdown = 0x0006;
@@ -38,10 +38,10 @@ inline constexpr std::uint16_t kVoltageEnabled = 1 << 4;
 inline constexpr std::uint16_t kWarning = 1 << 7;
 inline constexpr std::uint16_t kRemote = 1 << 9;  ///< the drive obeys the controlword
 inline constexpr std::uint16_t kInternalLimit = 1 << 11;
-inline constexpr std::uint16_t kFollowsCommand = 1 << 12;  ///< cyclic modes
+inline constexpr std::uint16_t kFollowsCommand = 1 << 12;  ///< cyclic modes: the target is used
 inline constexpr std::uint16_t kFollowingError = 1 << 13;  ///< cyclic position mode
 
-/// Bits 0 to 3, 5, 6.
+/// The statusword's state bits: 0 to 3, 5, 6.
 constexpr std::uint16_t state_bits(State state) {
   constexpr std::uint16_t kBits[kStates] = {0x00, 0x40, 0x21, 0x23, 0x27, 0x07, 0x0F, 0x08};
   return kBits[static_cast<unsigned>(state)];
@@ -67,7 +67,7 @@ constexpr State state_of(std::uint16_t statusword) {
   }
 }
 
-/// A command or an internal event.
+/// A controlword's command or an internal event.
 enum class Trigger : std::uint8_t {
   kShutdown,
   kSwitchOn,         ///< or "disable operation"
@@ -76,7 +76,7 @@ enum class Trigger : std::uint8_t {
   kQuickStop,
   kFaultReset,
   kNone,         ///< no command
-  kInitialised,  ///< events from here
+  kInitialised,  ///< this and the following are events
   kQuickStopDone,
   kFault,
   kFaultReactionDone,
@@ -85,7 +85,7 @@ enum class Trigger : std::uint8_t {
 /// A fault reset is an edge and has priority.
 constexpr Trigger command_of(std::uint16_t controlword, std::uint16_t previous) {
   if ((controlword & ~previous & kBitFaultReset) != 0) return Trigger::kFaultReset;
-  if ((controlword & kBitFaultReset) != 0) return Trigger::kNone;  // other commands have a 0
+  if ((controlword & kBitFaultReset) != 0) return Trigger::kNone;  // other commands have a 0 there
   if ((controlword & kBitEnableVoltage) == 0) return Trigger::kDisableVoltage;
   if ((controlword & kBitQuickStop) == 0) return Trigger::kQuickStop;
   if ((controlword & kBitSwitchOn) == 0) return Trigger::kShutdown;
@@ -99,7 +99,7 @@ struct Transition {
 /// `stays_in_quick_stop`: quick stop option code 5 to 8, which waits in kQuickStopActive.
 Transition transition(State state, Trigger trigger, bool stays_in_quick_stop);
 
-/// Object 605Ah.
+/// Quick stop option code, object 605Ah.
 constexpr bool stays_in_quick_stop(std::int16_t option) {
   return option >= 5 && option <= 8;
 }
@@ -121,7 +121,7 @@ class Drive {
     return state_ == State::kOperationEnabled || state_ == State::kQuickStopActive ||
            state_ == State::kFaultReactionActive;
   }
-  /// `bits`: the other ones.
+  /// `bits`: those other than the state's.
   std::uint16_t statusword(std::uint16_t bits) const {
     return static_cast<std::uint16_t>((bits & ~0x6F) | state_bits(state_));
   }
@@ -132,7 +132,7 @@ class Drive {
   /// kInitialised, kQuickStopDone, kFault or kFaultReactionDone. A fault cannot be reset before
   /// clear_fault().
   std::uint8_t event(Trigger trigger, std::int16_t quick_stop_option);
-  /// The fault's cause is gone.
+  /// Call when the fault's cause is gone.
   void clear_fault() { fault_present_ = false; }
   std::uint8_t connection_lost(AbortConnection option, std::int16_t quick_stop_option);
 
@@ -149,8 +149,8 @@ class EnableSequence {
   enum class Result : std::uint8_t {
     kBusy,
     kEnabled,
-    kStuck,   ///< no change in time
-    kFaulty,  ///< not gone after kMaxResets
+    kStuck,   ///< a state did not change in time
+    kFaulty,  ///< the fault outlasted kMaxResets resets
   };
   static constexpr std::uint64_t kStateTimeoutUs = 1'000'000;
   static constexpr std::uint64_t kResetUs = 200'000;  ///< between resets

@@ -66,12 +66,12 @@ enum class Service : std::uint8_t {
 
 struct Connection {
   Service service = Service::kOther;
-  std::uint8_t node = 0;    ///< 0 without one
-  std::uint8_t number = 0;  ///< PDO, 1 to 4
+  std::uint8_t node = 0;    ///< 0 for services without one
+  std::uint8_t number = 0;  ///< of a PDO, 1 to 4
   constexpr bool operator==(const Connection&) const = default;
 };
 
-/// Default configuration, 11 bits.
+/// The service of an 11-bit identifier in the default configuration.
 constexpr Connection connection_of(std::uint32_t id) {
   if (id == kNmtId) return {Service::kNmt};
   if (id == kSyncId) return {Service::kSync};
@@ -90,7 +90,7 @@ constexpr Connection connection_of(std::uint32_t id) {
   return {};
 }
 
-/// Closed to configurable services (SYNC, EMCY, PDO ...): CiA 301's list.
+/// Identifiers closed to configurable services (SYNC, EMCY, PDO ...): CiA 301's list.
 constexpr bool is_restricted(std::uint32_t id) {
   return id <= 0x07F || (id >= 0x101 && id <= 0x180) || (id >= 0x581 && id <= 0x5FF) ||
          (id >= 0x601 && id <= 0x67F) || (id >= 0x6E0 && id <= 0x6FF) || id >= 0x701;

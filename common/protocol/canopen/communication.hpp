@@ -14,7 +14,7 @@ namespace verp::canopen {
 struct Identity {
   std::uint32_t device_type = 0;  ///< 1000h: 00020192h is a CiA 402 servo drive
   const char* name = "";          ///< 1008h
-  std::uint32_t vendor = 0;       ///< 1018h, four numbers
+  std::uint32_t vendor = 0;       ///< 1018h: vendor, product, revision, serial number
   std::uint32_t product = 0;
   std::uint32_t revision = 0;
   std::uint32_t serial = 0;
@@ -43,7 +43,7 @@ struct DeviceSize {
 };
 inline constexpr std::size_t kErrorHistory = 4;
 
-/// 1010h:1 and 1011h:1. Defaults take effect at the next reset.
+/// Orders by 1010h:1 and 1011h:1. Defaults take effect at the next reset.
 enum class StoreOrder : std::uint8_t { kNone, kStore, kRestore };
 inline constexpr std::uint32_t kSaveSignature = 0x65766173;  ///< "save"
 inline constexpr std::uint32_t kLoadSignature = 0x64616F6C;  ///< "load"
@@ -126,13 +126,13 @@ class CommunicationObjects {
     return application_.write_done(at, size);
   }
 
-  /// Clears the order.
+  /// Returns and clears the last order.
   StoreOrder take_store_order() {
     const StoreOrder order = order_;
     order_ = StoreOrder::kNone;
     return order;
   }
-  /// As 1010h stores it.
+  /// Restores from `stored` what 1010h stores.
   void restore(const CommunicationObjects& stored) {
     for (std::size_t i = 0; i < kSize.rpdos; ++i) rpdos[i] = stored.rpdos[i];
     for (std::size_t i = 0; i < kSize.tpdos; ++i) tpdos[i] = stored.tpdos[i];
@@ -245,7 +245,7 @@ class CommunicationObjects {
     number = {static_cast<std::uint8_t>(at.subindex == 0 ? 1 : 4), false, values[at.subindex]};
     return Abort::kNone;
   }
-  /// Or null. 200h indices each: RPDO communication, mapping, TPDO communication, mapping.
+  /// Null: none. 200h indices each: RPDO communication, mapping, TPDO communication, mapping.
   const Record* record(std::uint16_t index) const {
     if (index < 0x1400 || index >= 0x1C00) return nullptr;
     const std::size_t number = index & 0x1FFu;

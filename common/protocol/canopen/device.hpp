@@ -31,7 +31,7 @@ class Device {
         nmt_(node),
         servers_(objects_, node) {}
 
-  /// To set defaults.
+  /// The communication objects, to set defaults.
   Objects& objects() { return objects_; }
   NmtState state() const { return nmt_.state(); }
 
@@ -110,14 +110,14 @@ class Device {
     hold_error(code, error_register);
     tell(code);
   }
-  /// Without an EMCY: one was sent already.
+  /// Sets an error without an EMCY: one was sent already.
   void hold_error(ErrorCode code, std::uint8_t error_register) {
     application_code_ = code;
     application_errors_ =
         code == ErrorCode::kNoError ? error_register : error_register | kErrorGeneric;
     show_errors();
   }
-  /// While 1001h is set: the application's before the communication's.
+  /// The error while 1001h is set: the application's before the communication's.
   ErrorCode standing_error() const {
     if (application_errors_ != 0) return application_code_;
     if ((standing_ & kMasterSilent) != 0) return ErrorCode::kHeartbeatLost;
@@ -235,7 +235,7 @@ class Device {
     }
     return false;
   }
-  /// Never within the inhibit time.
+  /// An event or the event timer, but never within the inhibit time.
   static bool event_due(const PdoRecord<kSize.entries>& record, const Sending& each,
                         std::uint64_t now_us) {
     const std::uint64_t timer_us = std::uint64_t{record.event_timer_ms()} * 1000;
@@ -255,7 +255,7 @@ class Device {
   Emergency queue_[kErrorHistory + 1];
   std::size_t emergencies_ = 0;
   std::uint8_t standing_ = 0;            ///< Cause bits
-  std::uint8_t application_errors_ = 0;  ///< its part of 1001h
+  std::uint8_t application_errors_ = 0;  ///< the application's part of 1001h
   ErrorCode application_code_ = ErrorCode::kNoError;
   ErrorCode pdo_code_ = ErrorCode::kNoError;  ///< last PDO of a wrong length
 };

@@ -5,7 +5,7 @@
 
 namespace verp::canopen {
 
-/// CiA 301's table.
+/// SDO abort codes, CiA 301's table.
 enum class Abort : std::uint32_t {
   kNone = 0,
   kToggle = 0x05030000,
@@ -41,7 +41,7 @@ enum class Abort : std::uint32_t {
   kNoData = 0x08000024,
 };
 
-/// In English.
+/// English name; "unknown abort code" if not in the table.
 const char* abort_text(Abort abort);
 
 struct Address {
@@ -53,8 +53,8 @@ struct Address {
 struct Entry {
   bool readable = false;
   bool writable = false;
-  std::uint32_t size = 0;      ///< that a read returns now
-  std::uint32_t min_size = 0;  ///< that a write may have
+  std::uint32_t size = 0;      ///< bytes that a read returns now
+  std::uint32_t min_size = 0;  ///< bytes that a write may have
   std::uint32_t max_size = 0;
 };
 

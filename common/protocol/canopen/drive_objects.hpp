@@ -9,10 +9,10 @@
 /// increments per second, thousandths of the rated torque (6076h).
 namespace verp::canopen::cia402 {
 
-/// 6060h.
+/// Modes of operation (6060h) in use.
 inline constexpr std::int8_t kModeNone = 0;
 inline constexpr std::int8_t kModeCyclicPosition = 8;
-/// 6502h: bit n - 1 for mode n.
+/// Supported drive modes (6502h): bit n - 1 for mode n.
 inline constexpr std::uint32_t kSupportedCyclicPosition = 1u << (kModeCyclicPosition - 1);
 
 namespace object {
@@ -59,7 +59,7 @@ struct DriveObjects {
   std::uint32_t dc_link_mv = 0;
   std::uint32_t rated_current_ma = 0;
   std::uint32_t rated_torque_mn_m = 0;
-  std::uint32_t encoder_increments = 0;  ///< per encoder_turns of the joint
+  std::uint32_t encoder_increments = 0;  ///< per encoder_turns turns of the joint
   std::uint32_t encoder_turns = 1;
   std::uint16_t controlword = 0;
   std::uint16_t statusword = 0;
@@ -85,7 +85,7 @@ struct ObjectRow {
   bool is_signed;
   ObjectAccess access;
   ObjectMapping mapping;
-  std::uint16_t place;  ///< in DriveObjects
+  std::uint16_t place;  ///< offset of the value in DriveObjects
 };
 
 extern const ObjectRow kDriveRows[];
@@ -100,16 +100,16 @@ Abort find_object(Address at, Entry& entry);
 Abort read_object(const DriveObjects& objects, Address at, std::uint8_t* buffer);
 /// Refuses an unsupported mode, a period of 0, unknown option codes.
 Abort write_object(DriveObjects& objects, Address at, const std::uint8_t* data);
-/// kNone: a PDO may map that length.
+/// kNone if a PDO may map the object with that length.
 Abort check_mappable(Address at, std::uint8_t bits, bool receive);
 
 /// 60C2h: value times ten to the exponent seconds. 0 if invalid or over a minute.
 std::uint32_t interpolation_period_us(std::uint8_t value, std::int8_t exponent);
 
-/// Distance of target and actual position (6065h, 6066h).
+/// Monitors the distance of target and actual position (6065h, 6066h).
 class FollowingMonitor {
  public:
-  /// Each cycle while following. True after too long outside the window.
+  /// Call each cycle while following. True after too long outside the window.
   bool update(const DriveObjects& objects, std::uint64_t now_us);
   void reset() { outside_ = false; }
 

@@ -6,7 +6,7 @@
 #include "common/protocol/canopen/dictionary.hpp"
 #include "common/protocol/canopen/frame.hpp"
 
-/// CiA 301; the drives' codes are CiA 402's.
+/// Emergency messages: CiA 301; the drives' codes are CiA 402's.
 namespace verp::canopen {
 
 enum class ErrorCode : std::uint16_t {
@@ -27,7 +27,7 @@ enum class ErrorCode : std::uint16_t {
   kFollowingError = 0x8611,
 };
 
-/// Object 1001h.
+/// Bits of the error register, object 1001h.
 inline constexpr std::uint8_t kErrorGeneric = 1;
 inline constexpr std::uint8_t kErrorVoltage = 4;
 inline constexpr std::uint8_t kErrorTemperature = 8;
@@ -77,7 +77,7 @@ class ErrorHistory {
     value = subindex == 0 ? count_ : errors_[subindex - 1];
     return Abort::kNone;
   }
-  /// Subindex 0 only, with 0: clears all.
+  /// Only subindex 0 is writable, with 0: clears all.
   constexpr Abort write(std::uint8_t subindex, std::uint32_t value) {
     if (subindex > kEntries) return Abort::kNoSubindex;
     if (subindex != 0) return Abort::kReadOnly;

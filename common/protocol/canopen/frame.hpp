@@ -3,7 +3,7 @@
 
 #include "common/base/can_frame.hpp"
 
-/// CANopen: little-endian, classic data frames.
+/// CAN frames in CANopen: little-endian, classic data frames.
 namespace verp::canopen {
 
 using Frame = CanFrame;
@@ -14,12 +14,12 @@ constexpr std::uint64_t get_le(const std::uint8_t* from, unsigned bytes) {
   for (unsigned i = 0; i < bytes; ++i) value |= std::uint64_t{from[i]} << (8 * i);
   return value;
 }
-/// The low `bytes`, 1 to 8.
+/// Writes the low `bytes` bytes of `value`, 1 to 8.
 constexpr void put_le(std::uint8_t* to, std::uint64_t value, unsigned bytes) {
   for (unsigned i = 0; i < bytes; ++i) to[i] = static_cast<std::uint8_t>(value >> (8 * i));
 }
 
-/// `size` (at most 8) zero bytes.
+/// A classic data frame of `size` (at most 8) zero bytes.
 constexpr Frame classic_frame(std::uint32_t id, std::uint8_t size) {
   Frame frame;
   frame.id = id;

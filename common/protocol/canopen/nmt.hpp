@@ -9,7 +9,7 @@
 /// Network management and heartbeat, both sides (CiA 301). Bus time in microseconds.
 namespace verp::canopen {
 
-/// As in a heartbeat.
+/// Values as in a heartbeat.
 enum class NmtState : std::uint8_t {
   kInitialising = 0,  ///< the boot-up message
   kStopped = 4,
@@ -55,7 +55,7 @@ class NmtSlave {
   constexpr void initialised() {
     if (state_ == NmtState::kInitialising) state_ = NmtState::kPreOperational;
   }
-  /// Leaves operational (1029h).
+  /// Communication error: leaves operational (1029h).
   constexpr NmtEvent fall_back(ErrorBehaviour behaviour) {
     if (state_ != NmtState::kOperational || behaviour == ErrorBehaviour::kStay) {
       return NmtEvent::kNone;
@@ -105,7 +105,7 @@ constexpr bool decode_heartbeat(const Frame& frame, std::uint8_t& node, NmtState
   const Connection connection = connection_of(frame.id);
   if (connection.service != Service::kHeartbeat) return false;
   node = connection.node;
-  state = static_cast<NmtState>(frame.data[0] & 0x7F);  // the high bit is node guarding's
+  state = static_cast<NmtState>(frame.data[0] & 0x7F);  // the high bit is node guarding's toggle
   return true;
 }
 
@@ -203,7 +203,7 @@ class HeartbeatConsumer {
     return LifeEvent::kNone;
   }
 
-  /// Each loss once. Call until false.
+  /// Reports each loss once. Call until false.
   constexpr bool next_lost(std::uint64_t now_us, std::uint8_t& subindex) {
     for (std::size_t i = 0; i < kNodes; ++i) {
       Watched& each = entries_[i];

@@ -9,7 +9,7 @@
 /// CiA 301. Objects follow in mapping order without gaps, least significant bit first.
 namespace verp::canopen {
 
-/// 1600h or 1A00h: index high, subindex, length in bits.
+/// Entry of 1600h or 1A00h: index high, subindex, length in bits.
 struct Mapped {
   Address at;
   std::uint8_t bits = 0;
@@ -33,7 +33,7 @@ inline constexpr Mapped kDummyU8{{0x0005, 0}, 8};
 inline constexpr Mapped kDummyU16{{0x0006, 0}, 16};
 inline constexpr Mapped kDummyU32{{0x0007, 0}, 32};
 
-/// 8 for a classic frame's bytes, 64 for FD.
+/// 8 entries for a classic frame's bytes, 64 for FD.
 template <std::size_t kEntries = 8>
 struct PdoMapping {
   std::uint8_t count = 0;
@@ -98,7 +98,7 @@ constexpr void pack_pdo(const PdoMapping<kEntries>& mapping, Frame& frame, Get&&
 enum class PdoLength : std::uint8_t {
   kRight,
   kTooShort,  ///< not processed: EMCY 8210h is due
-  kTooLong,   ///< rest ignored: EMCY 8220h is due
+  kTooLong,   ///< processed without the rest: EMCY 8220h is due
 };
 
 /// `put(at, bits, value)` gets all but dummies.

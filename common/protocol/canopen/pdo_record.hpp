@@ -10,7 +10,7 @@ namespace verp::canopen {
 
 enum class Direction : std::uint8_t { kReceive, kTransmit };
 
-/// 1 to 240: every n-th SYNC.
+/// Transmission types. 1 to 240: with every n-th SYNC.
 inline constexpr std::uint8_t kAcyclicSync = 0;  ///< with the next SYNC after a change
 inline constexpr std::uint8_t kMaxCyclicSync = 240;
 inline constexpr std::uint8_t kEventManufacturer = 254;
@@ -19,7 +19,7 @@ constexpr bool is_synchronous(std::uint8_t type) {
   return type <= kMaxCyclicSync;
 }
 
-inline constexpr std::uint32_t kPdoInvalid = 0x80000000;  ///< bit 31: off
+inline constexpr std::uint32_t kPdoInvalid = 0x80000000;  ///< bit 31 of a COB-ID: PDO off
 inline constexpr std::uint32_t kPdoNoRemote = 0x40000000;
 inline constexpr std::uint32_t kPdoExtended = 0x20000000;
 
@@ -29,13 +29,13 @@ template <std::size_t kEntries = 8>
 class PdoRecord {
  public:
   constexpr PdoRecord() = default;
-  /// On from the start.
+  /// Makes a PDO that is on.
   constexpr PdoRecord(Direction direction, std::uint32_t id, std::uint8_t type,
                       const PdoMapping<kEntries>& mapping)
       : direction_(direction), cob_id_(id | kPdoNoRemote), type_(type), mapping_(mapping) {}
 
   constexpr bool on() const { return (cob_id_ & kPdoInvalid) == 0; }
-  /// Modulo 256: each restarts the SYNC count.
+  /// Times switched on, modulo 256: each restarts the SYNC count.
   constexpr std::uint8_t times_on() const { return times_on_; }
   constexpr std::uint16_t id() const { return static_cast<std::uint16_t>(cob_id_ & 0x7FF); }
   constexpr std::uint8_t type() const { return type_; }
@@ -127,7 +127,7 @@ class PdoRecord {
     if ((value & kPdoExtended) != 0 || (value & 0x1FFFF800) != 0) return Abort::kValueRange;
     const bool turned_on = (value & kPdoInvalid) == 0;
     if (turned_on && is_restricted(value & 0x7FF)) return Abort::kValueRange;
-    // Changes only while off.
+    // The identifier changes only while off.
     if (turned_on && on() && (value & 0x7FF) != id()) return Abort::kValueRange;
     if (turned_on && !on()) times_on_ = static_cast<std::uint8_t>(times_on_ + 1);
     cob_id_ = value;
@@ -170,7 +170,7 @@ class PdoRecord {
 /// every n-th: groups of drives share the SYNCs.
 class SyncSchedule {
  public:
-  /// Node operational, or record written.
+  /// Call when the node became operational or the record was written.
   constexpr void restart() {
     left_ = 0;
     started_ = false;

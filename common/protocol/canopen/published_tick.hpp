@@ -18,28 +18,28 @@ namespace verp::canopen::published {
 inline constexpr unsigned kDigestPdo = 2;
 inline constexpr unsigned kRecordPdo = 3;
 inline constexpr unsigned kPartPdo = 4;
-/// In every tick.
+/// Frames in every tick.
 inline constexpr int kFrames = 2;
 inline constexpr std::uint8_t kFrameBytes = 8;
 
-// Low byte of Inputs::flags, and
+// Flags: Inputs::flags' low byte, and
 inline constexpr std::uint16_t kInputsMask = 0x00FF;
-inline constexpr std::uint16_t kImuInParts = 1 << 8;  ///< IMU not from the bus
+inline constexpr std::uint16_t kImuInParts = 1 << 8;  ///< IMU counts are not from the bus
 inline constexpr int kPartsShift = 12;                ///< number of parts, from here
 /// In a tick. With more, none are sent, and the listener must ask for them.
 inline constexpr int kMostParts = 6;
 inline constexpr unsigned kTooManyParts = 15;
 
 inline constexpr std::size_t kPartBytes = 6;
-/// Gyro and accelerometer.
+/// Parts of the IMU's counts: gyro and accelerometer.
 inline constexpr int kImuParts = 2;
 static_assert(sizeof(Inputs::gyro_count) + sizeof(Inputs::accel_count) == kImuParts * kPartBytes);
-/// A Command, a parameter write, the mailbox.
+/// Most parts of orders: a Command, a parameter write, the mailbox.
 inline constexpr int kOrderParts = 4;
 static_assert(sizeof(Command) == 2 * kPartBytes && kImuParts + kOrderParts == kMostParts);
 static_assert(sizeof(Inputs) % 2 == 0 && sizeof(Inputs) / 2 <= 256);
 
-/// Half the offset into Inputs, size, bytes.
+/// A part: half the offset into Inputs, size, bytes.
 struct Part {
   std::uint8_t place = 0;
   std::uint8_t size = 0;

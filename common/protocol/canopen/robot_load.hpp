@@ -15,10 +15,10 @@ struct LoadFormat {
   bool fd = false;  ///< FD frames with more drives each
 };
 
-/// Usual, or with new controlwords and strengths for all drives.
+/// A usual tick, or one with new controlwords and strengths for all drives.
 enum class TickKind : std::uint8_t { kSteady, kChange };
 
-/// As many drives as 64 bytes hold.
+/// `kind` with as many drives as an FD frame's 64 bytes hold.
 constexpr Shared widened(Shared kind) {
   kind.width = static_cast<std::uint8_t>(kMaxCanFdData / kind.bytes_each());
   return kind;
@@ -49,7 +49,7 @@ class TickLoad {
   constexpr FrameBits published(bool own_imu) const {
     return of(published::kFrameBytes) * (published::kFrames + (own_imu ? published::kImuParts : 0));
   }
-  /// With new orders.
+  /// Additional bits of a tick with new orders.
   constexpr FrameBits published_order() const {
     return of(published::kFrameBytes) * published::kOrderParts;
   }
@@ -89,7 +89,7 @@ constexpr bool has_room(const Params& params, bool fd, const BitRates& rates,
   return load_permille(load.bits(TickKind::kSteady), rates, period_us) <= kMostLoadPermille &&
          load_permille(load.bits(TickKind::kChange), rates, period_us) <= kMostChangePermille;
 }
-/// In joint order. Calls `fits` with fewer and fewer.
+/// Drives that fit, in joint order. Calls `fits` with fewer and fewer.
 template <class Fits>
 int drives_that_fit(Params part, const Fits& fits) {
   part.joint_count = part.servo_count();
@@ -115,7 +115,7 @@ constexpr bool has_room_to_publish(const Params& params, bool own_imu) {
          share(TickKind::kChange, true) <= kMostChangePermille;
 }
 
-/// A steady tick on a classic bus, worst stuffing.
+/// Duration of a steady tick on a classic bus, worst stuffing.
 constexpr std::uint32_t tick_us(const Params& params) {
   const FrameBits bits = TickLoad(params, {}).bits(TickKind::kSteady);
   return static_cast<std::uint32_t>((wire_time_ns(bits, {params.baud, params.baud}) + 999) / 1000);

@@ -16,10 +16,10 @@
 /// strengths of several drives share a frame: each drive maps its part, and dummies for the others.
 namespace verp::canopen::plan {
 
-/// Sends the heartbeat that drives watch.
+/// The controller's node, which sends the heartbeat that drives watch.
 inline constexpr std::uint8_t kControllerNode = 127;
 
-/// Low half of a drive's 1000h. A sensor's is 0.
+/// Profile number in the low half of a drive's 1000h. A sensor's is 0.
 inline constexpr std::uint16_t kDriveProfile = 402;
 /// 1018h:2: a drive's ServoProfile::model_number (0 there: any), a sensor's dxl::kModelImu or
 /// dxl::kModelFoot.
@@ -39,11 +39,11 @@ inline constexpr Address kAccel[3] = {{0x2011, 1}, {0x2011, 2}, {0x2011, 3}};  /
 inline constexpr Address kFoot[kFootSensors] = {
     {0x2020, 1}, {0x2020, 2}, {0x2020, 3}, {0x2020, 4}};  ///< foot sensors: u16
 
-/// kTelemetry.
+/// Content of kTelemetry.
 struct Telemetry {
   std::uint16_t voltage_tenth_v = 0;
   std::uint8_t temperature_c = 0;
-  std::uint8_t errors = 0;  ///< dxl::HardwareError
+  std::uint8_t errors = 0;  ///< bits of dxl::HardwareError
 
   static constexpr Telemetry from(std::uint32_t value) {
     return {static_cast<std::uint16_t>(value), static_cast<std::uint8_t>(value >> 16),
@@ -55,13 +55,13 @@ struct Telemetry {
   constexpr bool operator==(const Telemetry&) const = default;
 };
 
-/// Between two drives' velocity or torque.
+/// Ticks between asking one drive for velocity or torque.
 inline constexpr std::uint8_t kEffortTicks = 4;
 
 /// An SJA1000 stores 64 bytes; a classic frame of eight takes eleven.
 inline constexpr int kAnswersToOneSync = 5;
 
-/// IMU (gyro TPDO 1, accelerometer TPDO 2) and feet.
+/// Frames of IMU (gyro TPDO 1, accelerometer TPDO 2) and feet.
 constexpr int sensor_answers(const Params& params) {
   int frames = params.imu.device_id != 0 ? 2 : 0;
   for (const std::uint8_t id : params.feet.device_id) frames += id != 0 ? 1 : 0;
@@ -75,7 +75,7 @@ constexpr std::uint8_t sync_groups(const Params& params) {
   if (in_last + sensor_answers(params) > kAnswersToOneSync) ++groups;
   return static_cast<std::uint8_t>(groups < 2 ? 2 : groups);
 }
-/// A drive's start value; a sensor's is sync_groups().
+/// SYNC start value of a drive's TPDO; a sensor's is sync_groups().
 constexpr std::uint8_t group_of_joint(int joint) {
   return static_cast<std::uint8_t>(joint / kAnswersToOneSync + 1);
 }
@@ -93,14 +93,14 @@ constexpr PdoMapping<> drive_answer() {
 }
 inline constexpr std::uint8_t kDriveAnswerBytes = 6;
 static_assert(drive_answer().bytes() == kDriveAnswerBytes);
-/// TPDO 1 and 2.
+/// TPDO 1 and 2 of an IMU.
 constexpr PdoMapping<> imu_answer(const Address (&axes)[3]) {
   PdoMapping<> mapping;
   for (const Address& axis : axes) mapping.add(mapped(axis, 16));
   return mapping;
 }
 inline constexpr std::uint8_t kImuAnswerBytes = 6;
-/// TPDO 1.
+/// TPDO 1 of a foot.
 constexpr PdoMapping<> foot_answer() {
   PdoMapping<> mapping;
   for (const Address& sensor : kFoot) mapping.add(mapped(sensor, 16));
@@ -110,7 +110,7 @@ inline constexpr std::uint8_t kFootAnswerBytes = 8;
 
 /// Several drives' data in one frame, event-driven (type 255): effective on arrival.
 struct Shared {
-  std::uint8_t rpdo = 1;   ///< 1 to 3
+  std::uint8_t rpdo = 1;   ///< PDO 1 to 3
   std::uint8_t width = 2;  ///< drives in one frame
   Mapped own;
   Mapped dummy;
@@ -132,11 +132,11 @@ constexpr int members_of(const Shared& kind, const Params& params, int frame) {
   const int left = params.servo_count() - first_of(kind, frame);
   return left < kind.width ? left : kind.width;
 }
-/// The frame's first drive's.
+/// RPDO identifier of the frame's first drive.
 constexpr std::uint16_t shared_id(const Shared& kind, const Params& params, int frame) {
   return rpdo_id(kind.rpdo, params.joint[first_of(kind, frame)].servo_id);
 }
-/// For `joint`'s drive, in frame joint / width.
+/// The RPDO of `joint`'s drive, in frame joint / width.
 constexpr PdoMapping<> shared_mapping(const Shared& kind, const Params& params, int joint) {
   const int frame = joint / kind.width;
   PdoMapping<> mapping;
@@ -157,13 +157,13 @@ inline std::uint16_t patience_ms(const Params& params) {
   return static_cast<std::uint16_t>(time_ms < 1 ? 1 : time_ms > kMost_ms ? kMost_ms : time_ms);
 }
 inline constexpr std::int16_t kQuickStopAndHold = 6;
-/// All but one may be lost.
+/// All but one of these heartbeats may be lost.
 inline constexpr std::uint16_t kHeartbeatsInPatience = 5;
 inline std::uint16_t heartbeat_ms(const Params& params) {
   return static_cast<std::uint16_t>(patience_ms(params) / kHeartbeatsInPatience);
 }
 
-/// The controller's, besides the default one for anyone.
+/// SDO channels of the controller, besides the default one for anyone.
 inline constexpr unsigned kWatcherSdo = 1;  ///< 1201h: follows the ticks
 inline constexpr unsigned kToolSdo = 2;     ///< 1202h: `verp bus`
 inline constexpr unsigned kControllerSdos = 2;
@@ -180,7 +180,7 @@ constexpr bool is_of_controllers_sdo(std::uint32_t id) {
   return false;
 }
 
-/// A controller's, or a tool's that asks nodes.
+/// True for frames of a controller, or of a tool that asks nodes.
 constexpr bool is_of_master(const Frame& frame) {
   if (!is_canopen(frame)) return false;
   const Connection from = connection_of(frame.id);
@@ -199,7 +199,7 @@ constexpr bool is_of_master(const Frame& frame) {
       return false;
   }
 }
-/// Slightly more than the controller's heartbeat period.
+/// Silence that means no controller: slightly more than its heartbeat period.
 inline std::uint32_t quiet_us(const Params& params) {
   return 1000u * heartbeat_ms(params) + 50'000;
 }

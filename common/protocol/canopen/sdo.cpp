@@ -7,7 +7,7 @@ struct NibbleTable {
   std::uint16_t of[16];
 };
 
-// Four leading bits under the polynomial 1021h.
+// Remainder of four leading bits under the polynomial 1021h.
 constexpr NibbleTable nibble_table() {
   NibbleTable table{};
   for (unsigned nibble = 0; nibble < 16; ++nibble) {

@@ -11,8 +11,8 @@ namespace verp::canopen::sdo {
 
 inline constexpr std::uint8_t kFrameBytes = 8;
 inline constexpr std::uint8_t kSegmentBytes = 7;
-inline constexpr std::uint8_t kMaxBlock = 127;        ///< in a block
-inline constexpr std::uint8_t kMaxIdleBlocks = 8;     ///< in a row without progress
+inline constexpr std::uint8_t kMaxBlock = 127;        ///< segments in a block
+inline constexpr std::uint8_t kMaxIdleBlocks = 8;     ///< consecutive blocks without progress
 inline constexpr std::uint32_t kTimeoutUs = 500'000;  ///< bus time; masters often wait 0.3-1 s
 
 /// Client command specifiers; the server's differ.
@@ -43,7 +43,7 @@ inline constexpr std::uint8_t kSizeGiven = 0x01;
 inline constexpr std::uint8_t kLastOfBlocks = 0x80;
 inline constexpr std::uint8_t kBlockCrc = 0x04;
 inline constexpr std::uint8_t kBlockSizeGiven = 0x02;
-/// Block transfers only.
+/// Sub-commands of a block transfer.
 inline constexpr std::uint8_t kSubMask = 0x03;
 inline constexpr std::uint8_t kBlockInitiate = 0;
 inline constexpr std::uint8_t kBlockEnd = 1;
@@ -75,7 +75,7 @@ constexpr Frame bare(std::uint32_t id, std::uint8_t byte0) {
   frame.data[0] = byte0;
   return frame;
 }
-/// `number`: bytes 4 to 7.
+/// `number` goes into bytes 4 to 7.
 constexpr Frame addressed(std::uint32_t id, std::uint8_t byte0, Address at,
                           std::uint32_t number = 0) {
   Frame frame = bare(id, byte0);

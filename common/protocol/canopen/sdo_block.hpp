@@ -25,7 +25,7 @@ class BlockSender {
     frame = bare(
         id, static_cast<std::uint8_t>(sequence_ | (left <= kSegmentBytes ? kLastOfBlocks : 0)));
     const Abort refused = read(offset, frame.data + 1, bytes);
-    if (refused == Abort::kNone && offset == summed_) {  // not for repeated ones
+    if (refused == Abort::kNone && offset == summed_) {  // repeated ones are in the CRC
       crc_ = crc16(frame.data + 1, bytes, crc_);
       summed_ += bytes;
     }
@@ -44,9 +44,9 @@ class BlockSender {
     sequence_ = 0;
     return Abort::kNone;
   }
-  /// All is confirmed.
+  /// True if everything is confirmed.
   bool done() const { return done_; }
-  /// In the last segment.
+  /// Unused bytes of the last segment.
   unsigned unused() const {
     if (size_ == 0) return kSegmentBytes;
     return (kSegmentBytes - size_ % kSegmentBytes) % kSegmentBytes;
@@ -59,11 +59,11 @@ class BlockSender {
     return sequence_ > 0 && base_ + std::uint32_t{sequence_} * kSegmentBytes >= size_;
   }
   std::uint32_t size_ = 0;
-  std::uint32_t base_ = 0;    ///< this block's first byte
+  std::uint32_t base_ = 0;    ///< offset of this block's first byte
   std::uint32_t summed_ = 0;  ///< bytes in the CRC
   std::uint16_t crc_ = 0;
   std::uint8_t block_ = 0;
-  std::uint8_t sequence_ = 0;  ///< last sent
+  std::uint8_t sequence_ = 0;  ///< last segment sent
   std::uint8_t idle_ = 0;
   bool done_ = false;
 };
@@ -75,8 +75,8 @@ class BlockReceiver {
   enum class Take : std::uint8_t {
     kStray,  ///< out of order
     kMore,
-    kRespond,  ///< the sender waits
-    kFailed,   ///< refused, see failure()
+    kRespond,  ///< the sender waits for respond()
+    kFailed,   ///< the store refused, see failure()
   };
 
   constexpr BlockReceiver() = default;
@@ -99,7 +99,7 @@ class BlockReceiver {
     return ends_block ? Take::kRespond : Take::kMore;
   }
 
-  /// Sequence number; starts the next block.
+  /// The response's sequence number; starts the next block.
   std::uint8_t respond() {
     const std::uint8_t sequence = sequence_;
     if (!complete_) sequence_ = 0;
@@ -107,10 +107,10 @@ class BlockReceiver {
   }
   bool complete() const { return complete_; }
   std::uint8_t block() const { return block_; }
-  /// Total segments: grows only with progress.
+  /// Segments taken in total: grows only with progress.
   std::uint32_t taken() const { return taken_; }
 
-  /// `unused` bytes of the last segment.
+  /// `unused` bytes of the last segment do not count.
   template <class Store>
   Abort finish(unsigned unused, Store&& store) {
     return flush(kSegmentBytes - unused, store) ? Abort::kNone : failure_;
@@ -131,7 +131,7 @@ class BlockReceiver {
   bool held_ = false;
   bool complete_ = false;
   std::uint8_t block_ = 0;
-  std::uint8_t sequence_ = 0;  ///< last in order
+  std::uint8_t sequence_ = 0;  ///< last segment in order
   std::uint16_t crc_ = 0;
   std::uint32_t taken_ = 0;
   Abort failure_ = Abort::kNone;
@@ -146,7 +146,7 @@ class Patience {
     reminded_ = false;
   }
   bool over(std::uint64_t now_us) const { return now_us >= since_us_ + kTimeoutUs; }
-  /// Once per silence.
+  /// True once per silence.
   bool remind(std::uint64_t now_us) {
     if (reminded_ || now_us < since_us_ + kTimeoutUs / 2) return false;
     reminded_ = true;

@@ -110,7 +110,7 @@ void SdoClient::receive(const Frame& frame, std::uint64_t now_us) {
 bool SdoClient::take_abort(const Frame& frame) {
   if (frame.data[0] != sdo::kAbort) return false;
   const Address at = sdo::address_of(frame);
-  // Another address is an earlier transfer's.
+  // Another address is an earlier transfer's; without a transfer a server sends none.
   if (!(at == at_) && !(at == Address{})) return true;
   reason_ = static_cast<Abort>(get_le(frame.data + 4, 4));
   if (reason_ == Abort::kNone) reason_ = Abort::kGeneral;

@@ -40,7 +40,7 @@ class SdoClient {
   bool next(Frame& frame, std::uint64_t now_us);
 
   State state() const { return state_; }
-  /// Last abort, by either side.
+  /// Reason of the last abort, by either side.
   Abort reason() const { return reason_; }
   /// For a finished upload.
   std::uint32_t size() const { return size_; }
@@ -84,15 +84,15 @@ class SdoClient {
   Phase phase_ = Phase::kBeginUpload;
   Abort reason_ = Abort::kNone;
   bool toggle_ = false;
-  bool last_ = false;       ///< segment
+  bool last_ = false;       ///< the present segment is the last
   bool crc_ = false;        ///< both sides have the block CRC
-  bool announced_ = false;  ///< by the server
-  bool sending_ = false;    ///< frame_ waits
+  bool announced_ = false;  ///< the server announced the size
+  bool sending_ = false;    ///< frame_ has to be sent
   Address at_;
   const std::uint8_t* data_ = nullptr;
   std::uint8_t* buffer_ = nullptr;
   std::uint32_t capacity_ = 0;
-  std::uint32_t size_ = 0;  ///< download's; uploaded so far
+  std::uint32_t size_ = 0;  ///< of a download; uploaded so far
   std::uint32_t announced_size_ = 0;
   std::uint32_t offset_ = 0;
   sdo::Patience patience_;

@@ -17,12 +17,12 @@ class OpenObject {
 
   Address at() const { return at_; }
   void close() { at_ = {}; }
-  /// Upload, or downloaded so far.
+  /// Size of an upload, or bytes downloaded so far.
   std::uint32_t size() const { return size_; }
-  /// Expedited download without a size.
+  /// Size of an expedited download that does not give it.
   std::uint32_t implied_size() const { return entry_.max_size < 4 ? entry_.max_size : 4; }
 
-  /// Small objects at once.
+  /// Reads a small object at once.
   Abort open_read(Address at) {
     if (const Abort refused = find(at); refused != Abort::kNone) return refused;
     if (!entry_.readable) return Abort::kWriteOnly;

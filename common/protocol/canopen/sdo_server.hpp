@@ -59,7 +59,7 @@ class SdoServer {
   }
 
   bool idle() const { return phase_ == Phase::kIdle; }
-  /// The node was reset or stopped.
+  /// Call when the node was reset or stopped.
   void reset() {
     forget();
     replying_ = false;
@@ -73,7 +73,7 @@ class SdoServer {
     kUpload,         ///< a segment request
     kBlockSegments,  ///< segments
     kBlockEnd,       ///< the block's end
-    kStartUpload,    ///< upload's start
+    kStartUpload,    ///< the upload's start
     kSendBlock,      ///< sends, or awaits a response
     kEndUpload,      ///< the last answer
   };

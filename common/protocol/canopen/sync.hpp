@@ -5,7 +5,7 @@
 #include "common/protocol/canopen/dictionary.hpp"
 #include "common/protocol/canopen/frame.hpp"
 
-/// CiA 301, objects 1005h and 1019h.
+/// SYNC with its optional counter (CiA 301, objects 1005h and 1019h).
 namespace verp::canopen {
 
 inline constexpr std::uint8_t kMaxSyncCounter = 240;
@@ -24,8 +24,8 @@ constexpr Frame sync_frame(std::uint8_t counter) {
 
 enum class SyncSeen : std::uint8_t {
   kNo,
-  kSync,         ///< of 1019h's length
-  kWrongLength,  ///< valid, EMCY 8240h is due
+  kSync,         ///< a SYNC of the length in 1019h
+  kWrongLength,  ///< of another length: valid, EMCY 8240h is due
 };
 
 /// `counter` 0: none.

@@ -9,7 +9,7 @@ constexpr std::uintptr_t kBfar = 0xE000ED38;   // B3.2.18
 constexpr std::uintptr_t kMmfar = 0xE000ED34;  // B3.2.17
 constexpr std::uint32_t kBfarValid = 1u << 15;
 constexpr std::uint32_t kMmfarValid = 1u << 7;
-constexpr std::uint32_t kStackLimit = 1u << 20;  // STKOF of ARMv8-M
+constexpr std::uint32_t kStackLimit = 1u << 20;  // STKOF of ARMv8-M; 0 before
 
 std::uint32_t read_register(std::uintptr_t address) {
   return *reinterpret_cast<const volatile std::uint32_t*>(address);
@@ -37,7 +37,7 @@ extern "C" __attribute__((weak, naked)) void verp_systick() {
   __asm__ volatile("b verp_fault_entry");
 }
 
-/// The stack may be broken, so it restarts from the top.
+/// All faults enter here. The stack may be broken, so it restarts from the top.
 extern "C" __attribute__((naked)) void verp_fault_entry() {
   __asm__ volatile(
       "mrs r0, msp\n"

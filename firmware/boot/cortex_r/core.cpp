@@ -11,7 +11,7 @@
 extern "C" {
 extern std::uint32_t verp_stack_guard[];
 extern std::uint32_t verp_code_begin[];
-extern std::uint32_t verp_code_bytes[];  ///< the address
+extern std::uint32_t verp_code_bytes[];  ///< the address is the value
 }
 
 /// Exception vectors: eight loads, then eight words, position-independent. The first is the core's
@@ -76,7 +76,7 @@ extern "C" __attribute__((naked, used)) void verp_fault_entry() {
 namespace verp::boot {
 namespace {
 
-/// To address 0 (tightly coupled memory).
+/// Copies the vectors to address 0 (tightly coupled memory).
 void place_vectors() {
   __asm__ volatile(
       "ldr r0, =verp_entry\n"

@@ -11,7 +11,7 @@
 extern "C" {
 extern std::uint32_t verp_stack_guard[];
 extern std::uint32_t verp_code_begin[];
-extern std::uint32_t verp_code_bytes[];  ///< the address
+extern std::uint32_t verp_code_bytes[];  ///< the address is the value
 }
 
 /// At the lowest code address. The C library's errno needs `tp`.
