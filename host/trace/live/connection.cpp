@@ -15,12 +15,11 @@ namespace verp::live {
 namespace {
 
 constexpr std::size_t kMostHead = 8192;
-constexpr std::uint64_t kMostMessage = 64 * 1024;  // of a viewer's message: a subscription list
-// A viewer that reads nothing is not read either, because the answers to its messages would pile
-// up.
+constexpr std::uint64_t kMostMessage = 64 * 1024;  // a viewer's subscription list
+// A viewer that reads nothing is not read either, because answers to it would pile up.
 constexpr std::size_t kMostUntaken = 64 * 1024;
-constexpr std::size_t kAtOnce = 64 * 1024;  // bytes read before others have their turn
-constexpr std::size_t kMessage = 64;        // wslay's overhead per queued message
+constexpr std::size_t kAtOnce = 64 * 1024;  // before others have their turn
+constexpr std::size_t kMessage = 64;        // wslay's, per queued message
 
 bool would_block() {
   return errno == EAGAIN || errno == EWOULDBLOCK;
@@ -120,7 +119,7 @@ void Connection::write() {
   look_for_end();
 }
 
-/// Cuts the connection if both sides have closed it, or wslay gave up.
+/// Both sides have closed it, or wslay gave up.
 void Connection::look_for_end() {
   if (::wslay_event_want_read(frames_.get()) == 0 && ::wslay_event_want_write(frames_.get()) == 0)
     cut();

@@ -10,16 +10,16 @@
 
 namespace verp::live {
 
-/// The server's end of a WebSocket; owns the socket. Never blocks: the owner polls socket() for
-/// events(), then calls ready(). wslay does the framing, this class the handshake and the I/O.
+/// The server's end of a WebSocket; it owns the socket. Never blocks: the owner polls socket() for
+/// events() and calls ready(). wslay frames; this class does handshake and I/O.
 class Connection {
  public:
   using Clock = std::chrono::steady_clock;
   enum class Stage { kGreeting, kRefused, kOpen, kGone };
-  /// Receives a complete message, text or binary.
+  /// Complete, text or binary.
   using OnMessage = std::function<void(bool is_text, std::string_view message)>;
 
-  /// `origins`: further allowed Origins; must outlive the connection.
+  /// `origins`: further allowed ones; they outlive the connection.
   Connection(int socket, OnMessage on_message, std::span<const std::string> origins = {});
   ~Connection();
   Connection(const Connection&) = delete;
@@ -30,17 +30,16 @@ class Connection {
   short events() const;
   void ready(short events);
 
-  /// Queues a message; write() sends what the socket accepts. False: the connection is closing.
+  /// write() sends it as the socket accepts it. False: the connection is closing.
   bool send(bool is_text, std::string_view message);
   void write();
-  /// Unsent bytes, plus an overhead per message.
+  /// Unsent, with an overhead per message.
   std::size_t backlog() const;
-  /// Queues the close frame, once; no message can follow. Queued messages would be lost, so wait
-  /// until backlog() is 0.
+  /// Queues the close frame, once. Wait until backlog() is 0, or queued messages are lost.
   void close(std::uint16_t code, std::string_view reason);
   void cut() { stage_ = Stage::kGone; }
 
-  /// Time of the connection, or of the last bytes that the socket accepted.
+  /// When it connected, or the socket last accepted bytes.
   Clock::time_point moved() const { return moved_; }
 
  private:
@@ -50,7 +49,7 @@ class Connection {
   void greet();
   void open();
   void read_frames();
-  ssize_t receive(std::uint8_t* to, std::size_t size);  ///< like recv(); 0: the peer has closed
+  ssize_t receive(std::uint8_t* to, std::size_t size);  ///< 0: the peer has closed
   ssize_t take(const std::uint8_t* from, std::size_t size);
   void look_for_end();
 
@@ -58,9 +57,9 @@ class Connection {
   OnMessage on_message_;
   std::span<const std::string> origins_;
   Stage stage_ = Stage::kGreeting;
-  std::string in_, out_;  ///< handshake; once open, in_ holds the bytes that came with it
+  std::string in_, out_;  ///< handshake; once open, in_ holds later bytes
   std::unique_ptr<wslay_event_context, FreeContext> frames_;
-  std::size_t budget_ = 0;  ///< bytes that may still be read in this turn
+  std::size_t budget_ = 0;  ///< left to read in this turn
   bool closing_ = false;
   Clock::time_point moved_ = Clock::now();
 };

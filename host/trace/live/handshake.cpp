@@ -15,7 +15,7 @@ namespace verp::live {
 namespace {
 
 constexpr std::string_view kEnd = "\r\n\r\n";
-// Both names mean the same messages; Foxglove's newer libraries use the second.
+// Equal messages; Foxglove's newer libraries use the second name.
 constexpr std::array<std::string_view, 2> kProtocols = {"foxglove.websocket.v1", "foxglove.sdk.v1"};
 constexpr std::string_view kServerKey = "258EAFA5-E914-47DA-95CA-C5AB0DC85B11";  // RFC 6455, 1.3
 
@@ -41,7 +41,7 @@ std::vector<std::string_view> split(std::string_view text, std::string_view sepa
   return parts;
 }
 
-/// All values of a header, in lower case; comma-separated lists are split.
+/// In lower case; lists are split at commas.
 std::vector<std::string_view> values(std::string_view head, std::string_view name) {
   std::vector<std::string_view> found;
   for (const std::string_view line : split(head, "\r\n")) {
@@ -83,12 +83,12 @@ std::string accept_key(std::string_view key) {
   return files::base64({reinterpret_cast<const char*>(digest.data()), digest.size()});
 }
 
-/// The host of "http://host:port"; empty: the origin is not a web page.
+/// The host of "http://host:port"; empty: no web page.
 std::string_view web_host(std::string_view origin) {
   for (const std::string_view scheme : {"http://", "https://"}) {
     if (!origin.starts_with(scheme)) continue;
     const std::string_view host = origin.substr(scheme.size());
-    // An IPv6 address has colons itself, within brackets.
+    // An IPv6 address has colons within brackets.
     const std::string_view name = host.starts_with("[::1]:") || host == "[::1]"
                                       ? host.substr(0, 5)
                                       : host.substr(0, host.rfind(':'));
@@ -101,7 +101,7 @@ std::string_view web_host(std::string_view origin) {
 
 bool is_welcome(std::string_view origin, std::span<const std::string> more) {
   const std::string told = lower(origin);
-  // Any page can get the origin null, through a sandboxed frame.
+  // Any page can get it by a sandboxed frame.
   if (told == "null") return false;
   const std::string_view host = web_host(told);
   if (host.empty() || host == "localhost" || host == "127.0.0.1" || host == "[::1]") return true;

@@ -5,23 +5,22 @@
 
 namespace verp::live {
 
-/// The answer to an HTTP request for a WebSocket.
+/// The answer to a request for a WebSocket.
 struct HandshakeAnswer {
   bool accepted = false;
   std::string text;
 };
 
-/// Length of a request's head, with its empty line; npos: incomplete.
+/// With its empty line; npos: incomplete.
 std::size_t head_length(std::string_view bytes);
 
-/// Answers a complete head (RFC 6455, section 4.2). Total: any bytes get an answer. Accepts clients
-/// that speak a Foxglove protocol and whose Origin passes is_welcome(); a refusal explains what
-/// this port is. `origins`: further allowed Origins.
+/// A complete head (RFC 6455, section 4.2). Total: any bytes get an answer. Accepts clients with a
+/// Foxglove protocol and an Origin that passes is_welcome(); a refusal explains this port.
 HandshakeAnswer answer_handshake(std::string_view head, std::span<const std::string> origins = {});
 
-/// Whether a page of that origin ("https://app.foxglove.dev") may connect: one of this PC, of
-/// Foxglove, or in `more`. Otherwise any web page open on this PC could read the robot's stream.
-/// Desktop programs send no origin or their own scheme, and may connect.
+/// May a page of that origin ("https://app.foxglove.dev") connect? This PC's, Foxglove's and those
+/// in `more` may. Otherwise any web page open on this PC could read the stream. Desktop programs
+/// send no origin or their own scheme.
 bool is_welcome(std::string_view origin, std::span<const std::string> more);
 
 }  // namespace verp::live

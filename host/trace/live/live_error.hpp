@@ -3,7 +3,7 @@
 
 namespace verp::live {
 
-/// The stream cannot be offered. what() is one line: the port, the problem, the remedy.
+/// what() is one line: port, problem, remedy.
 class LiveError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -13,13 +13,13 @@ using Json = nlohmann::ordered_json;
 using record::mcap::Bytes;
 
 constexpr std::uint8_t kMessageData = 1, kTime = 2;
-constexpr std::size_t kShown = 60;  // characters of a viewer's text quoted in an answer
+constexpr std::size_t kShown = 60;  // characters quoted in an answer
 
 std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Throws nlohmann's exceptions unless it is a 32-bit number.
+/// Throws nlohmann's exceptions unless it has 32 bits.
 std::uint32_t id_of(const Json& json) {
   const auto id = json.get<std::uint64_t>();
   if (!json.is_number_unsigned() || id > UINT32_MAX)

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-/// The server's side of Foxglove's WebSocket protocol, as bytes:
+/// Foxglove's WebSocket protocol, server's side:
 /// https://github.com/foxglove/ws-protocol/blob/main/docs/spec.md
 namespace verp::live {
 
@@ -19,7 +19,7 @@ enum class Level { kInfo = 0, kWarning = 1, kError = 2 };
 /// Text messages, in JSON.
 std::string server_info(std::string_view name);
 std::string advertise(const std::vector<Channel>& channels);
-/// A status with an `id` replaces the last one with that id.
+/// It replaces the last one with that `id`.
 std::string status(Level level, std::string_view message, std::string_view id = {});
 
 /// Binary messages.
@@ -27,13 +27,12 @@ std::string message_data(std::uint32_t subscription, std::uint64_t time_ns, std:
 std::string time(std::uint64_t time_ns);
 
 struct Request {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>>
-      subscribe;                           ///< pairs of subscription and channel
-  std::vector<std::uint32_t> unsubscribe;  ///< subscriptions
-  std::string refused;                     ///< why the request is invalid; empty: it is valid
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> subscribe;  ///< subscription and channel
+  std::vector<std::uint32_t> unsubscribe;                          ///< subscriptions
+  std::string refused;                                             ///< fault; empty: valid
 };
 
-/// Parses a viewer's text message. Total: invalid input sets `refused`.
+/// Total: invalid input sets `refused`.
 Request parse_request(std::string_view text);
 
 }  // namespace verp::live

@@ -20,8 +20,7 @@ void RobotStream::channel(std::uint16_t id, const record::mcap::Channel& channel
   }
   const bool is_of_all = streamed.team && streamed.team->is_of_all();
   const auto known = is_of_all ? server_.find_channel(topic) : std::nullopt;
-  if (known && topic == record::kObjectsTopic)
-    return;  // another robot's stream already sends the world's objects
+  if (known && topic == record::kObjectsTopic) return;  // another robot's stream sends them
   streamed.id = known ? *known
                       : server_.add_channel({.id = 0,
                                              .topic = topic,

@@ -10,12 +10,11 @@
 
 namespace verp::live {
 
-/// Streams one robot's trace: the same channels and messages, except those for `verp replay`, whose
-/// encoding is our own.
+/// Streams a robot's trace, except the channels for `verp replay`, whose encoding is our own.
 class RobotStream : public record::mcap::Listener {
  public:
-  /// The server must outlive the stream. `robot`: its name among several (record::TeamChannel);
-  /// empty: a single robot, streamed as in its trace.
+  /// The server outlives the stream. `robot`: its name among several (record::TeamChannel); empty:
+  /// a single robot.
   explicit RobotStream(Server& server, std::string robot = {})
       : server_(server), robot_(std::move(robot)) {}
 

@@ -23,9 +23,9 @@ using Clock = Connection::Clock;
 using std::chrono::milliseconds;
 
 constexpr std::size_t kMostViewers = 16;
-constexpr std::size_t kAhead = 64 * 1024;  // queued in a connection beyond its socket
-constexpr milliseconds kSettled{300};      // a viewer subscribes no more after this pause
-constexpr milliseconds kGreeting{10'000};  // time for a client's handshake
+constexpr std::size_t kAhead = 64 * 1024;  // queued beyond the socket
+constexpr milliseconds kSettled{300};      // then a viewer subscribes no more
+constexpr milliseconds kGreeting{10'000};  // for a client's handshake
 constexpr std::string_view kFull =
     "HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
 
@@ -35,7 +35,7 @@ int listen_on(std::uint16_t& port) {
   sockaddr_in place{};
   place.sin_family = AF_INET;
   place.sin_port = htons(port);
-  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);  // only this PC may read a robot's data
+  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);  // only this PC may read
   socklen_t size = sizeof(place);
   auto* address = reinterpret_cast<sockaddr*>(&place);
   ::setsockopt(listener, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
@@ -49,7 +49,7 @@ int listen_on(std::uint16_t& port) {
   return listener;
 }
 
-/// A thread that receives no signals.
+/// The thread receives no signals.
 template <class Function>
 std::thread quiet_thread(Function function) {
   sigset_t all, before;
@@ -171,7 +171,7 @@ void Server::serve() {
   }
 }
 
-/// Waits until there is work, then serves the sockets that are ready.
+/// Waits for work, then serves ready sockets.
 void Server::wait(milliseconds most) {
   polled_.assign({{bell_, POLLIN, 0}, {rests_ ? -1 : listener_, POLLIN, 0}});
   for (const auto& viewer : viewers_)
@@ -231,7 +231,7 @@ void Server::hear(Viewer& viewer, bool is_text, std::string_view message) {
   subscribed_.notify_all();
 }
 
-/// Fills the connection's queue. True: more waits, and the socket would accept it.
+/// Fills the queue. True: more waits, and the socket would accept it.
 bool Server::pump(Viewer& viewer) {
   Connection& connection = viewer.connection;
   if (connection.stage() != Connection::Stage::kOpen) return false;

@@ -22,43 +22,40 @@ namespace verp::live {
 
 struct ServerOptions {
   std::string name = "VERP";
-  std::vector<std::string> origins = {};           ///< further Origins whose pages may connect
-  std::size_t most_bytes = 16 * 1024 * 1024;       ///< largest queue of one viewer
-  std::chrono::milliseconds patience{2000};        ///< at the end, for a viewer that reads nothing
-  std::chrono::milliseconds patience_all{10'000};  ///< at the end, for all viewers
+  std::vector<std::string> origins = {};           ///< further ones that may connect
+  std::size_t most_bytes = 16 * 1024 * 1024;       ///< of one viewer's queue
+  std::chrono::milliseconds patience{2000};        ///< at the end, for a silent viewer
+  std::chrono::milliseconds patience_all{10'000};  ///< for all viewers
 };
 
 struct Counts {
   std::uint64_t viewers = 0, sent = 0, dropped = 0;
 };
 
-/// Streams messages to viewers on this PC by Foxglove's WebSocket protocol, from its own thread. A
-/// sender never waits for a viewer, and viewers cannot affect it. A new subscriber first gets the
-/// channel's last message, so that descriptions sent once reach it too. Any thread may call any
-/// function.
+/// Streams to viewers on this PC by Foxglove's WebSocket protocol, from its own thread. A sender
+/// never waits, and viewers cannot affect it. A new subscriber first gets the channel's last
+/// message, so that descriptions reach it. Any thread may call it.
 class Server {
  public:
-  /// Listens on 127.0.0.1:port; 0: any free port. Throws LiveError if the port is unavailable.
+  /// On 127.0.0.1:port; 0: any free port. Throws LiveError if it is not available.
   explicit Server(std::uint16_t port, ServerOptions options = {});
   ~Server();  ///< finish()
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
   std::uint16_t port() const { return port_; }
-  /// Returns the channel's number; ignores its `id`.
+  /// Ignores the channel's `id`.
   std::uint32_t add_channel(Channel channel);
   std::optional<std::uint32_t> find_channel(std::string_view topic) const;
   void send(std::uint32_t channel, std::uint64_t time_ns, std::string_view data);
 
-  /// Gives the server's thread the real-time `priority` (SCHED_FIFO), which must be below the
-  /// sender's. Otherwise programs could preempt it while it holds, for microseconds, a lock that
-  /// senders need. False: the system denies it.
+  /// Gives the server's thread SCHED_FIFO `priority`, below the sender's. Otherwise it could be
+  /// preempted while it holds, for microseconds, a lock that senders need. False: denied.
   bool run_before_others(int priority);
-  /// Waits until a viewer has subscribed and then paused for 0.3 s, or `given_up` returns true.
-  /// Viewers that subscribe channel by channel would miss messages otherwise. `given_up` must not
-  /// call the server.
+  /// Until a viewer subscribed and then paused for 0.3 s, or `given_up`, which must not call the
+  /// server. A viewer that subscribes channel by channel would miss messages otherwise.
   void wait_for_viewer(const std::function<bool()>& given_up);
-  /// Sends the queued messages while viewers read them, then closes. Later messages are not sent.
+  /// Sends queued messages while viewers read them, then closes. Later ones are not sent.
   void finish();
   Counts counts() const;
 
@@ -72,9 +69,9 @@ class Server {
               },
               server.options_.origins),
           subscriber(server.options_.most_bytes) {}
-    Connection connection;  ///< used by the server's thread only
+    Connection connection;  ///< server's thread only
     Subscriber subscriber;  ///< guarded by the lock
-    bool greeted = false;   ///< the channels were announced to it
+    bool greeted = false;   ///< it knows the channels
   };
   struct KnownChannel {
     Channel channel;
@@ -94,13 +91,13 @@ class Server {
   const ServerOptions options_;
   int listener_ = -1, bell_ = -1;
   std::uint16_t port_ = 0;
-  bool rests_ = false;  ///< no descriptor was left for a client
+  bool rests_ = false;  ///< no descriptor for a client
   std::vector<pollfd> polled_;
   std::atomic<bool> rung_ = false, finishing_ = false;
 
   mutable std::mutex lock_;
   std::condition_variable subscribed_;
-  Connection::Clock::time_point changed_{};  ///< last time a channel was added or subscribed to
+  Connection::Clock::time_point changed_{};  ///< last new channel or subscription
   std::vector<KnownChannel> channels_;
   std::vector<std::unique_ptr<Viewer>> viewers_;
   std::uint64_t now_ns_ = 0;

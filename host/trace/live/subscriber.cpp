@@ -44,7 +44,7 @@ void Subscriber::put(Waiting waiting) {
   bytes_ += cost(waiting);
   waiting_.push_back(std::move(waiting));
   while (bytes_ > most_bytes_) pop();
-  // Reports the first loss at once, then each doubling.
+  // The first loss at once, then each doubling.
   if (dropped_ > 0 && dropped_ >= 2 * told_) tell_dropped();
 }
 

@@ -8,7 +8,7 @@
 
 namespace verp::live {
 
-/// A message, shared by all its viewers.
+/// Shared by all its viewers.
 struct Stamped {
   std::uint64_t time_ns = 0;
   std::shared_ptr<const std::string> data;
@@ -19,32 +19,32 @@ struct Frame {
   std::string bytes;
 };
 
-/// One viewer's subscriptions and bounded queue. A slow viewer loses the oldest messages, so that
-/// it sees the present, and gets their number.
+/// A viewer's subscriptions and bounded queue. A slow viewer loses the oldest messages and gets
+/// their number.
 class Subscriber {
  public:
   explicit Subscriber(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
-  /// False: the subscription, or one to that channel, exists.
+  /// False: subscription or channel is taken.
   bool subscribe(std::uint32_t subscription, std::uint32_t channel);
-  /// Drops its queued messages. False: there is no such subscription.
+  /// Drops its queued messages; false: no such subscription.
   bool unsubscribe(std::uint32_t subscription);
   bool wants_something() const { return !channels_.empty(); }
 
-  /// Queues a protocol text. Texts are sent first and never dropped.
+  /// Protocol texts go first and are never dropped.
   void say(std::string text) { texts_.push_back(std::move(text)); }
-  /// Queues a message if the viewer has subscribed to its channel; returns whether it has.
+  /// Returns whether the viewer has subscribed.
   bool offer(std::uint32_t channel, const Stamped& message);
   void offer_time(std::uint64_t time_ns);
 
   std::optional<Frame> next();
   bool is_empty() const { return texts_.empty() && waiting_.empty(); }
-  /// Reports the number of lost messages, unless it was reported already.
+  /// The number of lost messages, once.
   void tell_dropped();
 
   std::uint64_t sent() const { return sent_; }
   std::uint64_t dropped() const { return dropped_; }
-  /// Counts the queued messages as lost, too.
+  /// They count as lost.
   void drop_all();
 
  private:

@@ -5,11 +5,10 @@
 #include <string_view>
 #include <utility>
 
-/// CDR, the encoding of ROS 2 messages. Private to this folder.
+/// CDR, the encoding of ROS 2; private to this folder.
 namespace verp::record::ros {
 
-/// Writes CDR, little-endian: each number is aligned to its size, counted from the end of the
-/// 4-byte encapsulation header.
+/// Little-endian; a number is aligned to its size, from the end of the 4-byte encapsulation header.
 class Cdr {
  public:
   template <class Number>
@@ -34,7 +33,7 @@ class Cdr {
     for (const double value : values) put(value);
     return *this;
   }
-  /// Appends the bytes without a length.
+  /// Without a length.
   Cdr& bytes(std::string_view values) {
     data_.append(values);
     return *this;
@@ -45,7 +44,7 @@ class Cdr {
   std::string data_{"\0\1\0\0", 4};  // CDR_LE
 };
 
-/// Reads little-endian CDR. A read beyond the end gives zeros and clears `good`.
+/// Beyond the end, a read gives zeros and clears `good`.
 class CdrReader {
  public:
   explicit CdrReader(std::string_view data) : data_(data) {}

@@ -4,15 +4,15 @@
 #include <string>
 #include <string_view>
 
-/// Compressed chunks of MCAP files, as the MCAP specification defines them.
+/// Compressed chunks, as MCAP defines them.
 namespace verp::record::mcap {
 
 inline constexpr std::string_view kZstdName = "zstd";
 
-/// One zstd frame; empty if that is not shorter.
+/// One zstd frame, or empty if not shorter.
 std::string packed(std::string_view bytes);
 
-/// Unpacks a frame to `size` bytes. nullopt: damaged, another size, or not zstd.
+/// nullopt: damaged, another size, or not zstd.
 std::optional<std::string> unpacked(std::string_view compression, std::string_view frame,
                                     std::uint64_t size);
 

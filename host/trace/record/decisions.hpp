@@ -6,16 +6,15 @@
 
 namespace verp::record {
 
-/// Recomputes the controller's outputs for each tick of a trace. Stops at the first tick where this
-/// program decides differently from the recording one, as another revision may.
+/// The controller's outputs for each tick of a trace. It stops where this program decides
+/// differently from the recording one.
 class Decisions {
  public:
-  /// The trace must outlive this object.
   explicit Decisions(const Trace& trace)
       : trace_(trace), actions_(trace.library()), state_(trace.start()) {}
-  /// Null: unknown. Call it for every tick, in order.
+  /// Null: unknown. Call for every tick, in order.
   const Outputs* at(const TickRecord& record);
-  /// After the last tick passed to at().
+  /// After the last at().
   const State& state() const { return state_; }
 
  private:

@@ -9,7 +9,7 @@ Three three(const Vec3& v) {
   return {static_cast<double>(v.x()), static_cast<double>(v.y()), static_cast<double>(v.z())};
 }
 
-/// Quaternion of Rz(yaw) Ry(pitch) Rx(roll).
+/// The rotation Rz(yaw) Ry(pitch) Rx(roll).
 std::array<double, 4> quaternion_xyzw(double roll_rad, double pitch_rad, double yaw_rad) {
   const double cr = std::cos(roll_rad / 2), sr = std::sin(roll_rad / 2);
   const double cp = std::cos(pitch_rad / 2), sp = std::sin(pitch_rad / 2);

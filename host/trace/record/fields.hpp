@@ -11,20 +11,19 @@
 
 #include "common/base/fields.hpp"
 
-/// Names and text for any struct with a VERP_FIELDS list. Print, diff and describe use the digest's
-/// list, so every hashed field is visible here.
+/// Names and text of any VERP_FIELDS struct. This is the digest's list: every hashed field is
+/// visible.
 namespace verp::record {
 
-/// A scalar that differs between two structs; `path` reads like the source, e.g.
-/// "gait.step[1].x_m".
+/// A differing scalar; `path` reads like the source: "gait.step[1].x_m".
 struct FieldDifference {
   std::string path;
   std::string left;
   std::string right;
 };
 
-/// Decimal and bits of a scalar: "0.1 (0x3dcccccd)", "-12 (0xfff4)". Floats have the fewest digits
-/// that identify them.
+/// "0.1 (0x3dcccccd)", "-12 (0xfff4)": decimal and bits. Floats have the fewest digits that
+/// identify them.
 template <class Scalar>
 std::string scalar_text(Scalar value) {
   if constexpr (std::is_same_v<Scalar, float>) {
@@ -70,8 +69,7 @@ constexpr const char* scalar_type_name() {
   }
 }
 
-/// Calls leaf(path, scalar) for every scalar in `value`, in field order. `path` is one reused
-/// buffer; copy it to keep it.
+/// Calls leaf(path, scalar) in field order. `path` is a reused buffer: copy it.
 template <class T, class Leaf>
 void for_each_named_leaf(T& value, std::string& path, Leaf&& leaf) {
   using Plain = std::remove_const_t<T>;
@@ -94,14 +92,13 @@ void for_each_named_leaf(T& value, std::string& path, Leaf&& leaf) {
   }
 }
 
-/// The first `limit` scalars whose bits differ, in field order. Bitwise, like the digest: 0 and -0
-/// differ, equal NaNs don't.
+/// At most `limit`, in field order. Bitwise, like the digest: 0 and -0 differ, equal NaNs don't.
 template <class T>
 std::vector<FieldDifference> diff_fields(const T& left, const T& right, std::size_t limit = 64) {
   std::vector<FieldDifference> differences;
   if (std::memcmp(&left, &right, sizeof(T)) == 0) return differences;
   const auto* right_bytes = reinterpret_cast<const unsigned char*>(&right);
-  std::size_t offset = 0;  // VERP_PACKED: field order is memory order
+  std::size_t offset = 0;  // field order is memory order
   std::string path;
   for_each_named_leaf(left, path, [&](const std::string& name, const auto& scalar) {
     auto other = scalar;
@@ -113,7 +110,7 @@ std::vector<FieldDifference> diff_fields(const T& left, const T& right, std::siz
   return differences;
 }
 
-/// "path value" for every scalar, decimal.
+/// Decimal, for every scalar.
 template <class T>
 std::vector<std::pair<std::string, std::string>> print_fields(const T& value) {
   std::vector<std::pair<std::string, std::string>> rows;
@@ -157,9 +154,8 @@ void describe(const T& value, std::size_t& offset, std::string& path, std::strin
 }
 }  // namespace detail
 
-/// The byte layout as text, one line per scalar or array of scalars: "byte-offset type path". It is
-/// the schema of a trace's channels: two builds can exchange images of T if and only if their
-/// descriptions are equal.
+/// One line per scalar or array: "byte-offset type path". It is a trace channel's schema: two
+/// builds can exchange T if and only if it is equal.
 template <class T>
 std::string describe_layout(const char* name) {
   const T value{};

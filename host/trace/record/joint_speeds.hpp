@@ -7,17 +7,16 @@
 
 namespace verp::record {
 
-/// Joint speeds from each joint's last two readings, because servos are not asked for speed. 0
-/// until there are two.
+/// From each joint's last two readings, because servos are not asked. 0 before.
 class JointSpeeds {
  public:
   explicit JointSpeeds(const Params& params) : params_(params) {}
-  /// In the order of Params; valid until the next call.
+  /// Valid until the next call.
   std::span<const double> after(const Inputs& inputs);
 
  private:
   Params params_;
-  std::uint32_t known_ = 0;  ///< bit j: joint j was read
+  std::uint32_t known_ = 0;  ///< was read
   std::array<std::uint32_t, kMaxJoints> tick_{};
   std::array<std::int32_t, kMaxJoints> count_{};
   std::array<double, kMaxJoints> rad_s_{};

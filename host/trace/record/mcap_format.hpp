@@ -4,8 +4,7 @@
 #include <string>
 #include <string_view>
 
-/// MCAP, the container format of traces: https://mcap.dev/spec (version 0). Opcodes and helpers of
-/// writer and reader.
+/// MCAP, the container of traces: https://mcap.dev/spec (version 0).
 namespace verp::record::mcap {
 
 inline constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
@@ -42,11 +41,10 @@ struct Channel {
   std::string_view topic, encoding;
 };
 
-/// CRC-32 as in zip and zlib (reflected 0x04C11DB7). For pieces, in order: value = crc32(piece,
-/// value).
+/// As in zip and zlib (reflected 0x04C11DB7). For pieces: value = crc32(piece, value).
 std::uint32_t crc32(std::string_view bytes, std::uint32_t value = 0);
 
-/// Appends little-endian numbers, length-prefixed strings and maps to a byte string.
+/// Little-endian numbers, length-prefixed strings and maps.
 class Bytes {
  public:
   template <class Integer>

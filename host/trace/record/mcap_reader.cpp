@@ -7,7 +7,7 @@
 namespace verp::record::mcap {
 namespace {
 
-/// Reads little-endian values. Beyond the end, values are zero and good() is false.
+/// Little-endian; beyond the end, values are zero and good() is false.
 class Cursor {
  public:
   explicit Cursor(std::string_view bytes) : bytes_(bytes) {}
@@ -127,7 +127,7 @@ class Parser {
         return footer(in, content, start);
       default:
         if (opcode > Opcode::kDataEnd || opcode == Opcode{0}) fail(start, "unknown record type");
-        return;  // indexes and statistics repeat the data section; CRCs cover them
+        return;  // they repeat the data section; CRCs cover them
     }
     if (!in.good() || !in.at_end()) fail(start, "edited or damaged: a record's fields overrun it");
   }
@@ -234,7 +234,7 @@ class Parser {
     fail(at_, cut ? "the file ends inside its last 8 bytes" : "bytes follow the footer", cut);
   }
 
-  /// Number of messages in an incomplete chunk, including the one that is cut.
+  /// With the one that is cut.
   static std::uint64_t count_lost(std::string_view begun) {
     Cursor in(begun);
     in.take(8 + 8 + 8 + 4);

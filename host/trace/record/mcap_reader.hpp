@@ -16,23 +16,23 @@ struct Message {
   std::uint32_t sequence = 0;
   std::uint64_t time_ns = 0;
   std::string_view data;
-  std::uint64_t offset = 0;  ///< of the record, or of its compressed chunk
+  std::uint64_t offset = 0;  ///< record's, or its compressed chunk's
 };
 struct Attachment {
   std::string_view media_type, data;
   std::uint64_t offset = 0;
 };
 
-/// The first place where a file is not what its writer wrote.
+/// The first place that is not as written.
 struct Flaw {
   std::uint64_t offset = 0;
   std::string what;
-  bool truncated = false;  ///< true: the bytes before the offset are intact and the end is missing
-  std::uint64_t lost_messages = 0;  ///< messages of the incomplete chunk, as far as known
+  bool truncated = false;           ///< the end is missing; the rest is intact
+  std::uint64_t lost_messages = 0;  ///< in the incomplete chunk, as far as known
 };
 
-/// All that is readable before the first flaw. Views point into the bytes given to parse() and into
-/// `unpacked`, so a File cannot be copied.
+/// All before the first flaw. Views point into parse()'s bytes and `unpacked`, so it cannot be
+/// copied.
 struct File {
   File() = default;
   File(File&&) = default;
@@ -44,7 +44,7 @@ struct File {
   std::vector<Message> messages;
   std::map<std::string, StringMap> metadata;
   std::map<std::string, Attachment> attachments;
-  std::deque<std::string> unpacked;  ///< contents of the compressed chunks
+  std::deque<std::string> unpacked;  ///< compressed chunks
   std::optional<Flaw> flaw;
 
   const Channel* find_channel(std::string_view topic, std::uint16_t& id) const;
@@ -52,8 +52,7 @@ struct File {
 
 /// Total: any bytes give a File, with a flaw unless they are an intact file of our Writer. Covers
 /// every byte: CRCs of chunks and attachments locate damage, those of data section and summary
-/// detect it. Our writer always writes CRCs and compresses only by zstd, so anything else is a
-/// flaw.
+/// detect it. Our writer always writes CRCs and compresses only by zstd: anything else is a flaw.
 File parse(std::string_view bytes);
 
 }  // namespace verp::record::mcap

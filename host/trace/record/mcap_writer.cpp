@@ -16,8 +16,7 @@
 namespace verp::record::mcap {
 
 namespace {
-/// Opens a new file of a unique name: process id for other programs, counter for writers of this
-/// one.
+/// Unique name: process id, and a counter in it.
 std::FILE* open_part(const std::filesystem::path& path, std::filesystem::path& part) {
   for (int attempt = 0; attempt < 1000; ++attempt) {
     part = path;
@@ -25,14 +24,14 @@ std::FILE* open_part(const std::filesystem::path& path, std::filesystem::path& p
     const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0 && errno != EEXIST) return nullptr;
     if (descriptor < 0) continue;
-    // For writer_of(). The lock ends with the process, even after a crash.
+    // For writer_of(); the lock ends with the process.
     ::flock(descriptor, LOCK_EX | LOCK_NB);
     return ::fdopen(descriptor, "wb");
   }
   return nullptr;
 }
 
-/// Whether the file is something other than a trace, such as a robot's file or a report.
+/// No trace, but for example a robot's file.
 bool holds_something_else(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::string start(kMagic.size(), '\0');
@@ -40,7 +39,7 @@ bool holds_something_else(const std::filesystem::path& path) {
   start.resize(static_cast<std::size_t>(in.gcount()));
   return !start.empty() && start != kMagic;
 }
-/// Whether a process has it open by open_part().
+/// By open_part(), in any process.
 bool is_written(const std::filesystem::path& part) {
   const int descriptor = ::open(part.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return false;
@@ -72,7 +71,7 @@ Writer::Writer(std::filesystem::path path, std::string_view profile, std::string
   if (std::filesystem::is_directory(path_)) {
     throw TraceError(path_, "is a folder", "name a file, such as run.mcap");
   }
-  // Closing would replace a device or pipe of this name by the finished trace.
+  // The finished trace would replace a device or pipe.
   if (std::filesystem::exists(path_) && !std::filesystem::is_regular_file(path_)) {
     throw TraceError(path_, "is not a regular file", "name another file, such as run.mcap");
   }
@@ -93,7 +92,7 @@ Writer::~Writer() {
   if (file_ == nullptr) return;
   try {
     flush();
-  } catch (const TraceError&) {  // a destructor cannot report it; flushed chunks remain
+  } catch (const TraceError&) {  // flushed chunks remain
   }
   std::fclose(file_);
 }
@@ -262,7 +261,7 @@ void Writer::write_summary() {
   const std::uint64_t summary_start = position_;
   const std::uint64_t offset_start = position_ + summary.data.size();
   summary.raw(offsets.data);
-  // The CRC covers the summary and the footer up to itself.
+  // Over summary and footer up to itself.
   summary.u8(static_cast<std::uint8_t>(Opcode::kFooter)).u64(kFooterSize);
   summary.u64(summary_start).u64(offset_start);
   summary.u32(crc32(summary.data));

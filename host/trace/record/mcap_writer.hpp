@@ -13,8 +13,7 @@ namespace verp::record::mcap {
 
 enum class Compression : std::uint8_t { kNone, kZstd };
 
-/// Receives all that a Writer is given, at once (host/trace/live). Views are valid during the call
-/// only.
+/// Gets all of a Writer's data at once (host/trace/live). Views are valid during the call.
 class Listener {
  public:
   virtual ~Listener() = default;
@@ -23,20 +22,19 @@ class Listener {
   virtual void message(std::uint16_t channel, std::uint64_t time_ns, std::string_view data) = 0;
 };
 
-/// The process that is writing a file of that name, or 0.
+/// 0: no process writes it.
 int writer_of(const std::filesystem::path& path);
 
-/// Writes one MCAP file, append-only: chunks with CRC and message indexes, summary and footer. A
-/// crash loses only the open chunk. The file grows as `part_path()` and gets its name in close(),
-/// so writers of one path never mix and readers never find a partial file. Every member throws
-/// TraceError on a disk error.
+/// An append-only MCAP file: chunks with CRC and message indexes, summary and footer. A crash loses
+/// only the open chunk. It grows as `part_path()` and is renamed in close(): writers of one path
+/// never mix, and readers find no partial file. Members throw TraceError on a disk error.
 class Writer {
  public:
-  /// kZstd compresses each chunk that becomes shorter. With an empty path there is no file, and all
-  /// data goes to the listener, which must outlive the writer.
+  /// kZstd compresses chunks that become shorter. Without `path` all goes to the listener, which
+  /// outlives the writer.
   Writer(std::filesystem::path path, std::string_view profile, std::string_view library,
          Compression compression = Compression::kNone, Listener* listener = nullptr);
-  ~Writer();  ///< without close(): flushes the open chunk and leaves the part file without summary
+  ~Writer();  ///< without close(): flushes, and leaves the part file without summary
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
@@ -46,14 +44,14 @@ class Writer {
   void add_message(std::uint16_t channel, std::uint64_t time_ns, std::string_view data);
   void add_metadata(std::string_view name, const StringMap& entries);
   void add_attachment(std::string_view name, std::string_view media_type, std::string_view data);
-  /// Ends the open chunk and passes it to the operating system.
+  /// Passes the open chunk to the operating system.
   void flush();
-  /// Writes summary and footer and renames the file. Add nothing afterwards.
+  /// Summary, footer, final name. Nothing may follow.
   void close();
-  /// Removes the part file. Add nothing afterwards.
+  /// Removes the part file; nothing may follow.
   void discard();
 
-  std::size_t open_bytes() const { return chunk_.size(); }  ///< size of the open chunk
+  std::size_t open_bytes() const { return chunk_.size(); }
   const std::filesystem::path& path() const { return path_; }
   const std::filesystem::path& part_path() const { return part_; }
 
@@ -66,13 +64,13 @@ class Writer {
     std::string record;
     std::uint32_t sequence = 0;
     std::vector<Entry> entries;  ///< of the open chunk
-    bool announced = false;      ///< schema and channel records are in some chunk
+    bool announced = false;      ///< schema and channel are in some chunk
     std::uint16_t schema = 0;
   };
 
   void put(std::string_view bytes);
   void end_chunk();
-  Bytes write_message_indexes();  ///< of the open chunk; returns channel -> offset
+  Bytes write_message_indexes();  ///< open chunk's; channel -> offset
   void write_summary();
   void group(Bytes& summary, Bytes& offsets, Opcode opcode, std::string_view records) const;
 
@@ -87,7 +85,7 @@ class Writer {
   std::uint64_t chunk_start_ns_ = 0, chunk_end_ns_ = 0;
   std::uint64_t start_ns_ = 0, end_ns_ = 0, messages_ = 0;
   std::uint32_t chunks_ = 0, attachments_ = 0, metadata_ = 0;
-  std::vector<std::string> schemas_;  ///< records; id is index + 1
+  std::vector<std::string> schemas_;  ///< id is index + 1
   std::vector<bool> schema_announced_;
   std::vector<OpenChannel> channels_;  ///< id is index
   Bytes chunk_index_, attachment_index_, metadata_index_;

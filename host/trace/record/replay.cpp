@@ -53,8 +53,7 @@ void place(Divergence& divergence, const Trace& trace, std::size_t index) {
   divergence.tick = divergence.fields_tick = trace.ticks[index].inputs.tick;
 }
 
-/// Re-runs a trace with its own robot and this program's core while the digests match the recorded
-/// ones.
+/// With the trace's robot and this program's core, while digests match.
 class Reference {
  public:
   explicit Reference(const Trace& trace) : trace_(trace), state_(trace.start()) {}
@@ -74,8 +73,7 @@ class Reference {
   bool valid_ = true;
 };
 
-/// Names fields from the first State kept at or after the divergence, and continues the replay up
-/// to it.
+/// From the first State kept at or after the divergence; replays up to it.
 void name_from_keyframe(Divergence& divergence, const Trace& trace, const Params& params,
                         const StepFunction& core, State state) {
   const Keyframe* keyframe = keyframe_from(trace, divergence.index);
@@ -141,8 +139,8 @@ std::optional<Divergence> diff_lengths(const Trace& left, const Trace& right) {
   return found;
 }
 
-/// For equal inputs with different digests, which means that another build made one of the traces.
-/// Names the field from both re-runs, or from the first kept States that differ.
+/// Equal inputs, different digests: another build made one trace. Names the field from both
+/// re-runs, or from kept States.
 void name_from_both(Divergence& divergence, const Trace& left, const Trace& right,
                     const Reference& left_run, const Reference& right_run) {
   if (left_run.valid() && right_run.valid()) {

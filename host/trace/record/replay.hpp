@@ -12,22 +12,21 @@ namespace verp::record {
 
 using StepFunction = std::function<void(const Params&, State&, const Inputs&, Outputs&)>;
 
-/// The first tick whose bits differ between two runs, and the field.
+/// First tick and field whose bits differ.
 struct Divergence {
   std::size_t index = 0;   ///< into Trace::ticks
   std::uint32_t tick = 0;  ///< Inputs::tick there
-  std::string stage;       ///< of kStageNames; otherwise "inputs", "params" or "chain"
+  std::string stage;       ///< of kStageNames, or "inputs", "params", "chain"
   std::string left_digest, right_digest;
-  /// The first differing fields; empty if no State was kept at or after the divergence.
+  /// Empty: no State was kept at or after it.
   std::vector<FieldDifference> fields;
-  std::uint32_t fields_tick = 0;  ///< tick of `fields`: this one, or that of the next kept State
+  std::uint32_t fields_tick = 0;  ///< this tick, or the next kept State's
 };
 
-/// The first stage whose digests differ, or only the chain; nullopt: equal. Leaves tick and fields
-/// unset.
+/// First differing stage, or only the chain; nullopt: equal. Leaves tick and fields unset.
 std::optional<Divergence> compare_digests(const TickDigest& left, const TickDigest& right);
 
-/// Differences of two States, without the digests, which only follow.
+/// Without digests, which only follow.
 std::vector<FieldDifference> diff_states(const State& left, State right);
 
 struct ReplayResult {
@@ -37,17 +36,15 @@ struct ReplayResult {
   std::optional<Divergence> divergence;
 };
 
-/// Runs the controller over the recorded inputs and compares every stage of every tick. `other`
-/// replaces the trace's robot, `core` this program's step(). The trace's own robot then runs along,
-/// to name the field at the divergent tick.
+/// Compares every stage of every tick. `other` replaces the robot, `core` this program's step().
+/// The trace's own robot runs along to name the field.
 ReplayResult replay(const Trace& trace, const Params* other = nullptr,
                     const StepFunction& core = nullptr);
 
-/// The first difference of two traces: robots, inputs by field, then controller stages. If one
-/// trace is a prefix of the other: stage "length".
+/// Robots, inputs by field, then stages. A prefix of the other trace: stage "length".
 std::optional<Divergence> diff(const Trace& left, const Trace& right);
 
-/// One line: tick, time, stage, field and both values. `left` and `right` label the values.
+/// Tick, time, stage, field and both values. `left`, `right`: their labels.
 std::string text(const Divergence& divergence, const Params& params, const char* left,
                  const char* right);
 

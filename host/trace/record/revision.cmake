@@ -7,7 +7,7 @@
 set(revision unknown)
 find_program(git git NO_CACHE)
 if(git AND EXISTS ${SOURCE}/.git)
-  # No locks, because a commit may be running. No tags, so that one revision has one name.
+  # No locks: a commit may be running. No tags: one revision has one name.
   execute_process(
     COMMAND ${git} -C ${SOURCE} --no-optional-locks describe --always --dirty --abbrev=40 --exclude *
     OUTPUT_VARIABLE described OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)

@@ -5,7 +5,7 @@
 namespace verp::record::ros {
 namespace {
 
-/// Size of a number type in bytes; 0: not a number.
+/// 0: not a number.
 std::size_t size_of(std::string_view type) {
   static const std::map<std::string_view, std::size_t> kSizes = {
       {"bool", 1},   {"byte", 1},    {"char", 1},   {"int8", 1},   {"uint8", 1},
@@ -47,7 +47,7 @@ Definition::Definition(std::string_view schema) : schema_(schema) {
   }
 }
 
-/// Parses "float64[9] covariance"; nullopt: a separator, comment or constant.
+/// "float64[9] covariance"; nullopt: separator, comment or constant.
 std::optional<Definition::Field> Definition::field_of(std::string_view line) {
   line = line.substr(0, line.find('#'));
   const std::size_t space = line.find(' ');
@@ -83,7 +83,7 @@ bool Definition::copy(const Fields& fields, CdrReader& in, Cdr& out,
   for (const Field& field : fields) {
     const std::size_t count = field.list ? in.get<std::uint32_t>() : field.count.value_or(1);
     if (field.list) out.put(static_cast<std::uint32_t>(count));
-    if (size_of(field.type) == 1) {  // fast path for a picture's bytes
+    if (size_of(field.type) == 1) {  // fast path for pictures
       out.bytes(in.bytes(count));
     } else {
       for (std::size_t i = 0; i < count && in.good; ++i) {

@@ -7,22 +7,22 @@
 
 #include "host/trace/record/cdr.hpp"
 
-/// Renames frames in ROS 2 messages of any type, by the type's definition. Private to this folder.
+/// Renames frames in any ROS 2 message, by its type's definition; private to this folder.
 namespace verp::record::ros {
 
-/// The fields of a message type, in byte order.
+/// A type's fields, in byte order.
 class Definition {
  public:
-  /// Parses a "ros2msg" schema of MCAP: the type, then its dependencies.
+  /// "ros2msg" schema: the type, then its dependencies.
   explicit Definition(std::string_view schema);
-  /// The message with `prefix` before every frame except "world"; nullopt: not of this type.
+  /// `prefix` before every frame but "world"; nullopt: not of this type.
   std::optional<std::string> with_frames(std::string_view message, std::string_view prefix) const;
 
  private:
   struct Field {
     std::string_view type, name;
-    bool list = false;                 ///< a list of any length, or
-    std::optional<std::size_t> count;  ///< an array of this length
+    bool list = false;                 ///< any length, or
+    std::optional<std::size_t> count;  ///< this length
   };
   using Fields = std::vector<Field>;
 
@@ -36,7 +36,7 @@ class Definition {
   std::map<std::string_view, Fields> types_;
 };
 
-/// A URDF with `prefix` before every link name, to match the frames.
+/// Link names then match the frames.
 std::string urdf_with_links(std::string urdf, std::string_view prefix);
 
 }  // namespace verp::record::ros

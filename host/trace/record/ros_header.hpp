@@ -1,7 +1,6 @@
 #pragma once
 
-/// Definition of the header in a message schema. A macro, because only literals can be joined at
-/// compile time. Private to this folder.
+/// Header of a message schema. A macro: only literals join at compile time. Private to this folder.
 #define VERP_ROS_HEADER                                                                \
   "================================================================================\n" \
   "MSG: std_msgs/Header\n"                                                             \

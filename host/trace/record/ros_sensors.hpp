@@ -7,7 +7,7 @@
 
 #include "host/trace/record/ros_messages.hpp"
 
-/// Force-torque, contact and truth sensors as ROS 2 messages in CDR.
+/// ROS 2 messages in CDR.
 namespace verp::record::ros {
 
 extern const MessageType kWrenchStamped;  ///< geometry_msgs/msg/WrenchStamped
@@ -21,13 +21,13 @@ struct Wrench {
 };
 std::string wrench(const Wrench& wrench, std::string_view frame, std::uint64_t time_ns);
 
-/// A contact point of a link, world frame.
+/// A contact point in the world frame.
 struct ContactPoint {
   std::string other;
   Three position_m{}, force_n{};  ///< force on the link
 };
-/// A contact per touching object; the points of each object are consecutive. Normals and depths are
-/// not measured, and left empty.
+/// One contact per object, whose points are consecutive. Normals and depths are not measured:
+/// empty.
 std::string contacts(std::string_view link, const std::vector<ContactPoint>& points,
                      std::uint64_t time_ns);
 
@@ -39,8 +39,7 @@ struct Motion {
 };
 std::string odometry(const Motion& motion, std::string_view frame, std::uint64_t time_ns,
                      std::string_view parent = "world");
-/// The controller's estimate of its body pose, in the frame "odom" (common/balance/estimator.hpp).
-/// Its variances are unknown.
+/// Estimated body pose, frame "odom" (common/balance/estimator.hpp). Variances are unknown.
 std::string estimated_odometry(const Params& params, const Inputs& inputs, const State& state,
                                std::uint64_t time_ns);
 

@@ -12,8 +12,7 @@ namespace ros {
 class Definition;
 }
 
-/// One robot's channel among several robots': topics become /ROBOT/topic and frames ROBOT/frame,
-/// except "world".
+/// One of several robots: topics /ROBOT/topic, frames ROBOT/frame, except "world".
 class TeamChannel {
  public:
   TeamChannel(std::string_view robot, std::string_view topic, const mcap::Schema& schema);
@@ -21,15 +20,15 @@ class TeamChannel {
   ~TeamChannel();
 
   const std::string& topic() const { return topic_; }
-  /// All robots share the topic; their frames tell the robots apart.
+  /// A shared topic; its frames tell robots apart.
   bool is_of_all() const { return is_of_all_; }
-  /// Renames a message's frames. nullopt: it is not of the channel's type.
+  /// nullopt: not of the channel's type.
   std::optional<std::string> message(std::string_view data) const;
 
  private:
   std::string topic_, prefix_;
   bool is_of_all_, is_description_;
-  std::unique_ptr<ros::Definition> definition_;  ///< null: no frames to rename
+  std::unique_ptr<ros::Definition> definition_;  ///< null: no frames
 };
 
 }  // namespace verp::record

@@ -6,13 +6,13 @@
 
 namespace verp::record {
 
-/// First and last index in Trace::ticks, both included.
+/// Indices in Trace::ticks, both included.
 struct TickRange {
   std::size_t first = 0, last = 0;
 };
 
-/// The ticks of a time interval on the clock of `verp trace export`: tick times period. nullopt:
-/// from the start, or to the end. Throws TraceError if there is none.
+/// On `verp trace export`'s clock: tick times period. nullopt: the start, or the end. Throws
+/// TraceError without a tick.
 TickRange ticks_between(const Trace& trace, std::optional<double> from_s,
                         std::optional<double> to_s);
 

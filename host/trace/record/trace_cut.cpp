@@ -12,7 +12,7 @@ namespace verp::record {
 namespace {
 
 constexpr std::uint64_t kCutChunkTicks = 125;
-constexpr std::string_view kStaticTopic = "/tf_static";  ///< camera poses, valid for the whole run
+constexpr std::string_view kStaticTopic = "/tf_static";  ///< camera poses of the whole run
 
 class Copy {
  public:
@@ -30,7 +30,7 @@ class Copy {
     for (const mcap::Message& message : from_.messages) {
       if (message.channel == tick_) count_tick();
       if (!is_wanted(message)) continue;
-      // Messages before the first tick belong to the whole run, such as the robot's description.
+      // Earlier messages belong to the whole run.
       to_.add_message(channels_.at(message.channel), std::max(message.time_ns, first_ns_),
                       message.data);
     }
@@ -56,8 +56,7 @@ class Copy {
     if (seen_++ > ticks_.first && (seen_ - 1 - ticks_.first) % kCutChunkTicks == 0) to_.flush();
   }
 
-  /// Our messages are selected by file position, as they follow their tick. Others are selected by
-  /// time, because a camera's message comes late, when it is drawn.
+  /// Ours follow their tick in the file. Others count by time: a camera's message comes late.
   bool is_wanted(const mcap::Message& message) const {
     const mcap::Channel& channel = from_.channels.at(message.channel);
     if (seen_ == 0 || channel.topic == kStaticTopic) return true;
@@ -83,7 +82,7 @@ void add_heads(const Trace& trace, const mcap::File& from, const Cut& cut,
   metadata["cut"] = fmt::format("ticks {} to {}, {:.3f} s to {:.3f} s", cut.first_tick,
                                 cut.last_tick, cut.first_s, cut.last_s);
   to.add_metadata(kMetadataName, metadata);
-  // The "result" metadata is left out: it describes the whole run.
+  // "result" describes the whole run, so it is left out.
   for (const auto& [name, attachment] : from.attachments) {
     if (name == kStateAttachment || name == kStateLayoutAttachment) continue;
     to.add_attachment(name, attachment.media_type, attachment.data);

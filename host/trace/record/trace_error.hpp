@@ -6,8 +6,7 @@
 
 namespace verp::record {
 
-/// A trace cannot be read or written. what() is one line: file, byte offset if known, problem,
-/// remedy.
+/// what() is one line: file, byte offset if known, problem, remedy.
 class TraceError : public std::runtime_error {
  public:
   TraceError(const std::filesystem::path& file, std::uint64_t offset, const std::string& problem,

@@ -25,7 +25,7 @@ class Source {
     return file_.find_channel(kObjectsTopic, id) != nullptr;
   }
 
-  /// `common`: the robots' shared channels, by topic.
+  /// `common`: shared channels, by topic.
   void add_to(mcap::Writer& to, std::map<std::string, std::uint16_t>& common, bool objects) {
     to.add_metadata(std::string(kMetadataName) + "/" + named_.robot,
                     file_.metadata.at(kMetadataName));
@@ -46,7 +46,7 @@ class Source {
     }
   }
 
-  /// False: the merged file does not have this message.
+  /// False: left out.
   bool write(const mcap::Message& message, mcap::Writer& to) const {
     const auto channel = channels_.find(message.channel);
     if (channel == channels_.end()) return false;

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 template <class T>
 const std::string& layout_of(const char* name) {
-  static const std::string text = describe_layout<T>(name);  // computed once: 30 kB for Params
+  static const std::string text = describe_layout<T>(name);  // once: 30 kB for Params
   return text;
 }
 
@@ -27,7 +27,7 @@ std::string writer_of(const mcap::StringMap& metadata) {
   return revision == metadata.end() ? "another revision" : "revision " + revision->second;
 }
 
-/// Builds a Trace from a parsed file; every error names a byte.
+/// Errors name a byte.
 class Loader {
  public:
   Loader(const fs::path& path, const mcap::File& file) : path_(path), file_(file) {
@@ -125,7 +125,7 @@ class Loader {
     std::memcpy(&trace_.before.emplace(), found->second.data.data(), sizeof(State));
   }
 
-  /// Finds the channels and returns whether the trace's State has our layout; its TickRecord must.
+  /// Returns whether State has our layout; TickRecord must.
   bool find_channels(std::uint16_t& tick_id, std::uint16_t& state_id) const {
     const mcap::Channel* tick = file_.find_channel(kTickTopic, tick_id);
     if (tick == nullptr) {
@@ -178,7 +178,7 @@ class Loader {
     trace_.changes.push_back({trace_.ticks.back().inputs.tick, *what});
   }
 
-  /// Replay never reads poses, so invalid ones are ignored.
+  /// Replay never reads poses: invalid ones are ignored.
   void add_body(const mcap::Message& message) {
     const std::optional<ros::BodyPose> pose = ros::body_pose(message.data);
     if (pose && !trace_.ticks.empty()) trace_.bodies.push_back({trace_.ticks.size() - 1, *pose});
@@ -243,8 +243,7 @@ void refuse_flaw(const fs::path& path, const mcap::File& file) {
 }
 
 std::string core_of(const Trace& trace) {
-  // A recovered trace has two versions: that of its digests, and that of the program that rewrote
-  // it.
+  // A recovered trace has its digests' version and its rewriter's.
   for (const char* key : {"recorded_core_version", "core_version"}) {
     const auto found = trace.metadata.find(key);
     if (found != trace.metadata.end()) return found->second == "unknown" ? "" : found->second;

@@ -10,7 +10,7 @@
 namespace verp::record {
 namespace {
 
-constexpr std::uint64_t kTransformTicks = 4;  // 25 per second at 100 Hz: smooth, and small files
+constexpr std::uint64_t kTransformTicks = 4;  // 25 per second at 100 Hz
 
 template <class T>
 std::string_view image(const T& value) {
@@ -36,7 +36,7 @@ TraceWriter::TraceWriter(const std::filesystem::path& file, const Params& params
   try {
     begin(run);
   } catch (const TraceError&) {
-    writer_.discard();  // the file has no trace yet
+    writer_.discard();  // there is no trace yet
     throw;
   }
 }

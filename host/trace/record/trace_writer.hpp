@@ -14,57 +14,54 @@
 namespace verp::record {
 
 struct TraceOptions {
-  bool every_state =
-      false;        ///< keeps every State, so that a divergence names its field at its own tick
-  bool ros = true;  ///< adds channels for viewers (host/guide/traces.md)
-  std::uint64_t chunk_ticks = 125;  ///< most ticks that a crash can lose
-  /// A chunk also ends at this size: a chunk's end is part of a tick, and that of a second with
-  /// pictures took longer than a tick.
+  bool every_state = false;         ///< every State: a divergence names its field at its tick
+  bool ros = true;                  ///< channels for viewers (host/guide/traces.md)
+  std::uint64_t chunk_ticks = 125;  ///< most that a crash can lose
+  /// A chunk also ends at this size: ending one with a second's pictures took longer than a tick.
   std::size_t chunk_bytes = 1u << 17;
-  std::vector<std::uint32_t> actions{};  ///< image of the controller's action library
-  bool compress = false;                 ///< by zstd, to about a fifth
-  std::optional<State>
-      before{};  ///< State before the first tick, if the run's beginning was cut off
+  std::vector<std::uint32_t> actions{};  ///< the controller's action library
+  bool compress = false;                 ///< zstd, to about a fifth
+  std::optional<State> before{};         ///< before the first tick of a cut run
   mcap::Listener* listener = nullptr;
 };
 
-/// Attaches the State from which a replay starts.
+/// Attaches the State that a replay starts from.
 void add_state(mcap::Writer& writer, const State& before);
 
 /// Writes a run as it happens. Throws TraceError if the file cannot be written.
 class TraceWriter {
  public:
-  /// `run` adds to build_info() in the metadata: robot, seed, command line, ... With an empty
-  /// `file` there is only the listener.
+  /// `run` joins build_info(): robot, seed, command line, ... Without `file` there is only the
+  /// listener.
   TraceWriter(const std::filesystem::path& file, const Params& params, const mcap::StringMap& run,
               TraceOptions options = {});
-  /// Without close(): keeps the part file if it contains a tick.
+  /// Without close(): keeps a part file that has a tick.
   ~TraceWriter();
   TraceWriter(const TraceWriter&) = delete;
   TraceWriter& operator=(const TraceWriter&) = delete;
 
-  /// One tick: inputs with digests, State after it, outputs. A twin adds the body's true pose
-  /// (null: no /tf) and each joint's effort, for which servos are not asked.
+  /// Inputs with digests, then State and outputs. A twin adds the body's true pose (null: no /tf)
+  /// and joint efforts, for which servos are not asked.
   void append(const TickRecord& record, const State& state, const Outputs& outputs,
               const ros::BodyPose* body = nullptr, std::span<const double> effort_n_m = {});
-  /// One tick of a copied run. `kept`: the State that its trace kept, or null.
+  /// From a copied run. `kept`: its trace's State, or null.
   void append(const TickRecord& record, const State* kept);
-  /// A scan that the controller does not see, measured up to that tick, on /SENSOR. The message has
-  /// the tick's time, its header the measurement's. Does nothing without TraceOptions::ros.
+  /// A scan for viewers, measured up to that tick, on /SENSOR. Message: the tick's time; header:
+  /// the measurement's. Needs TraceOptions::ros.
   void append(const std::string& sensor, std::uint32_t tick, const ros::LaserScan& scan);
-  /// A message for viewers on `topic`, which has one type. time_ns is on the ticks' clock and may
-  /// be older than earlier messages. Does nothing without TraceOptions::ros.
+  /// For viewers on `topic`, of one type. time_ns is on the ticks' clock and may go back. Needs
+  /// TraceOptions::ros.
   void append(const std::string& topic, const ros::MessageType& type, std::uint64_t time_ns,
               std::string_view message);
-  /// Poses of the movable objects in the twin's world after that tick; kept as often as the body.
+  /// After that tick; as often as the body.
   void append(std::uint32_t tick, std::span<const ros::ObjectPose> objects);
-  /// A person's change to the twin after that tick.
+  /// A user's change after that tick.
   void note(std::uint32_t tick, const std::string& what);
-  /// Adds `result` as metadata, ends the file and renames it.
+  /// `result` becomes metadata; the file gets its name.
   void close(const mcap::StringMap& result = {});
 
   void discard() { writer_.discard(); }
-  /// Ticks that the operating system has, and that a crash cannot lose.
+  /// The operating system has them: a crash cannot lose them.
   std::uint64_t safe_ticks() const { return safe_ticks_; }
 
   const std::filesystem::path& part_path() const { return writer_.part_path(); }
@@ -72,7 +69,7 @@ class TraceWriter {
 
  private:
   void begin(const mcap::StringMap& run);
-  /// The controller's result of a tick; null in a copied run.
+  /// Results of a tick; null in a copied run.
   struct Made {
     const State* state = nullptr;
     const Outputs* outputs = nullptr;

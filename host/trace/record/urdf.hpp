@@ -5,8 +5,8 @@
 
 namespace verp::record {
 
-/// The robot as URDF for viewers: a link `body`, and a link per joint with the joint's name, masses
-/// and limits. Each link is drawn as sticks to the joints on it.
+/// For viewers: a link `body`, and one per joint with its name, mass and limits, drawn as sticks to
+/// its joints.
 std::string urdf(const Params& params);
 
 }  // namespace verp::record
