@@ -1,5 +1,5 @@
-# Errors with GCC and clang, but GCC 12's -Wrestrict reports false overlaps in std::string's operator+ (GCC bug 105651,
-# fixed in GCC 13). In unity builds it takes types in unnamed namespaces for a header's.
+# Warnings are errors, with GCC and clang. Exceptions: GCC 12's -Wrestrict reports false overlaps in std::string's
+# operator+ (GCC bug 105651, fixed in GCC 13). In unity builds it takes types in unnamed namespaces for a header's.
 add_library(verp_warnings INTERFACE)
 target_compile_options(verp_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Werror

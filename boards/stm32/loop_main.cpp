@@ -44,8 +44,8 @@ constexpr std::uint32_t kWatchdog_us = 100'000;
 
 /// Ticks after which a run counts as healthy.
 constexpr std::uint32_t kSettledTicks = 1000;
-/// Before the period's end, a real-time loop stops serving the operator: one SysTick millisecond,
-/// if the compare interrupt is late, and a slice of bytes.
+/// A real-time loop stops serving the operator so long before the period ends: one SysTick
+/// millisecond, if the compare interrupt is late, and a slice of bytes.
 constexpr std::uint64_t kServingEnds_us = 2'000;
 /// The longest reply and Reboot's take half of it at 1 Mbaud.
 constexpr std::uint64_t kLastWords_us = 40'000;
@@ -220,8 +220,8 @@ lockstep::Verdict run_in_lockstep(Board& board, const Params& params) {
   return verdict;
 }
 
-/// Until power-off; returns if servos are missing, or after an emergency stop cut their power.
-/// `held_us`: how long devices between port and servos may delay bytes.
+/// Drives servos until power-off; returns if servos are missing, or after an emergency stop cut
+/// their power. `held_us`: how long devices between port and servos may delay bytes.
 void run_in_real_time(Board& board, Servos& servos, const Params& params, std::uint32_t held_us) {
   bool ticking = false;
   RealTimeOn<Node::LoopPort, Timer, UntilTicks> way(board.node.port(), timer, {board, ticking},

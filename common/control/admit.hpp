@@ -23,7 +23,7 @@ inline constexpr std::uint8_t kNeverHeard = 255;
 
 /// Ages count all control periods, also those without a tick.
 struct AdmitState {
-  std::uint8_t servo_age[kMaxJoints] = {};  ///< up to 255
+  std::uint8_t servo_age[kMaxJoints] = {};  ///< since the servo last reported, up to 255
   std::uint32_t tick = 0;                   ///< Inputs::tick of the last tick
   std::uint32_t operator_age = 0;           ///< since the last order
   /// Bit j: readings in a row of servo j with heat or an error. Gray code (high, low): 00, 01, 11,

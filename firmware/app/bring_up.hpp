@@ -31,8 +31,8 @@ class BringUp {
   static constexpr int kAttempts = 3;
   static constexpr std::size_t kMostBytes = 36;
 
-  // Before any request, and again if a device does not answer: one missing servo must not leave the
-  // others stiff. Sent three times: the write has no reply.
+  // Releases torque before any request, and again if a device does not answer: one missing servo
+  // must not leave the others stiff. Sent three times: the write has no reply.
   void release_all() {
     for (int times = 0; times < 3; ++times) {
       dxl::Encoder encoder(master_.frame(), master_.capacity());

@@ -11,7 +11,6 @@
 
 namespace verp::app {
 
-///
 /// Servos whose torque may differ from the command. A servo that was silent for long may have lost
 /// power: it returns limp, with factory gains and no profile, and torque would throw it at its
 /// goal. Until its state is known it is sent only torque off, and its position does not count, so

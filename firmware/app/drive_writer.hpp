@@ -30,9 +30,9 @@ class DriveWriter : public JointStrength {
     return ((told_ & (enabled_ | (patience_ == 0 ? ~0u : 0u))) >> joint & 1) != 0;
   }
 
-  /// Goals from the first tick that wants torque; torque from the third at the earliest, for all
-  /// drives together once all are switched on. `doubted` drives get no more torque than they have;
-  /// `limp` ones have none.
+  /// Sends goals from the first tick that wants torque; torque from the third at the earliest, for
+  /// all drives together once all are switched on. `doubted` drives get no more torque than they
+  /// have; `limp` ones have none.
   void send(CanMaster<Bus>& master, const Outputs& outputs, std::uint32_t doubted,
             std::uint32_t limp) {
     const std::uint32_t wanted = outputs.torque_enable & all_joints(params_);

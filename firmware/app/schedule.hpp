@@ -78,9 +78,9 @@ inline constexpr std::uint16_t kAlertBytes = 7;
 /// Servos resolved in one tick (DoubtedServos).
 inline constexpr int kResolvedAtOnce = 4;
 
-/// The longest tick in which every device answers: reads, one alert read, goals. Also either
-/// torque, strength and a Bus Watchdog clear and set for all servos, or these for one servo plus a
-/// few queried or set up again.
+/// Bytes of the longest tick in which every device answers: reads, one alert read, goals. Also
+/// either torque, strength and a Bus Watchdog clear and set for all servos, or these for one servo
+/// plus a few queried or set up again.
 constexpr std::size_t schedule_bytes(const Params& params) {
   const std::size_t joints = params.servo_count();
   const std::size_t positions =

@@ -19,9 +19,9 @@ class ServoWriter : public JointStrength {
  public:
   using JointStrength::JointStrength;
 
-  /// Strength and goals in kRepeats ticks, torque in the last of these: whichever frame is lost, no
-  /// servo gets torque with old goals, a wrong strength or a tripped Bus Watchdog. `turn`: the
-  /// joint whose state is repeated; `doubted` servos are sent only torque off.
+  /// Sends strength and goals in kRepeats ticks, torque in the last of these: whichever frame is
+  /// lost, no servo gets torque with old goals, a wrong strength or a tripped Bus Watchdog. `turn`:
+  /// the joint whose state is repeated; `doubted` servos are sent only torque off.
   void send(BusMaster<Bus>& master, const Outputs& outputs, int turn, std::uint32_t doubted) {
     if (params_.servo_count() == 0) return;
     const std::uint32_t wanted = outputs.torque_enable & all_joints(params_);

@@ -68,8 +68,9 @@ bool read_note(const Flash& flash, std::size_t page, WaitingNote& note) {
          note.layout.fits(flash.page_bytes(page) - kBehindNote);
 }
 
-/// From a page of `other` to page 0 of `home`. Takes seconds, in which the processor may stall.
-/// True if anything waited: home has changed. The reader's CRC detects a memory failure.
+/// Copies waiting contents from a page of `other` to page 0 of `home`. Takes seconds, in which the
+/// processor may stall. True if anything waited: home has changed. The reader's CRC detects a
+/// memory failure.
 template <hal::FlashPages Home, MappedPages Other, class Idle>
 bool finish_waiting(Home& home, Other& other, Idle&& idle) {
   for (std::size_t page = 0; page < 2; ++page) {

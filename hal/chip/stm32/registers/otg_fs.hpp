@@ -5,8 +5,8 @@
 /// core than the F405: 6 endpoints each way, other GCCFG bits, and disconnected (SDIS) after reset.
 namespace verp::hal::stm32::otg_fs {
 
-/// Each way with 0, and the FIFO words that they share: one part for all received data, one for
-/// each IN endpoint (RM0090 34.1, RM0385 37.4).
+/// Endpoints each way, 0 included, and the FIFO words that they share: one part for all received
+/// data, one for each IN endpoint (RM0090 34.1, RM0385 37.4).
 constexpr unsigned endpoints(Family family) {
   return family == Family::kF405 ? 4 : 6;
 }
