@@ -2,7 +2,6 @@
 #include "firmware/boot/boot.hpp"
 #include "hal/chip/semihosting/semihosting.hpp"
 
-/// The emulator exits with the image's status.
 namespace {
 
 constexpr int kFaultStatus = 70;  // EX_SOFTWARE of BSD's sysexits.h; differs from a failed run

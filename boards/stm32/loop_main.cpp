@@ -42,7 +42,6 @@ constexpr std::uint64_t kTwinSilent_us = 5'000'000;
 /// Ticks of 5 to 20 ms; shorter would fire when a lost reply delays the loop.
 constexpr std::uint32_t kWatchdog_us = 100'000;
 
-/// Ticks after which a run counts as healthy.
 constexpr std::uint32_t kSettledTicks = 1000;
 /// A real-time loop stops serving the operator so long before the period ends: one SysTick
 /// millisecond, if the compare interrupt is late, and a slice of bytes.
@@ -101,7 +100,6 @@ struct Board {
     for (;;) idle();
   }
 
-  /// True: there was something to do.
   bool serve() {
     if (fault == StartFault::kOperatorPort) return false;
     const bool wanted = operator_device.reboot_asked() || kept.has_news();

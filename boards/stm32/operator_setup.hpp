@@ -4,7 +4,6 @@
 #include "firmware/app/operator_registers.hpp"
 #include "firmware/boot/crash.hpp"
 
-/// The result of this start for the operator's registers.
 namespace verp::board {
 
 /// Takes the crash record: call once.

@@ -43,7 +43,6 @@ struct CanPort {
   unsigned first_interrupt = 0;  ///< transmission; both FIFOs and errors follow
 };
 
-/// USB full speed: a serial port for the PC.
 struct UsbPort {
   Pin minus;
   Pin plus;

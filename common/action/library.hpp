@@ -43,7 +43,6 @@ inline constexpr char kGetUpRight[kNameLength] = "get_up_right";
 /// A frame that returns to the stand: `next`, `otherwise` or `exit`.
 inline constexpr std::uint16_t kToStand = 0xFFFF;
 
-/// Condition for leaving a frame.
 enum class Condition : std::uint8_t {
   kNone,
   kUpright,

@@ -56,7 +56,6 @@ Goal goal_of(const Frame& frame, int joint, const PlayerIn& in) {
           1e-3F * static_cast<float>(frame.speed_mrad_s[joint])};
 }
 
-// Done share of the motion.
 float share_of(const PlayerState& state, std::int32_t whole_us) {
   if (whole_us <= 0) return 1.0F;
   return math::clamp(static_cast<float>(state.time_us) / static_cast<float>(whole_us), 0.0F, 1.0F);
@@ -106,7 +105,6 @@ PlayerOut look(const Params& params, const Library& library, const PlayerState& 
   return out;
 }
 
-// Starts a motion from the present angles and rates.
 void set_out(const Params& params, const Library& library, const PlayerIn& in, PlayerState& state) {
   float rate_rad_s[kMaxJoints] = {};
   const PlayerOut here = look(params, library, state, in, rate_rad_s);

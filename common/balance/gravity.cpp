@@ -48,7 +48,6 @@ float taken_nm(const BalanceTuning& tuning, const JointParams& joint, float load
 void add_sag(const Params& params, const BalanceTuning& tuning, const LegParams& leg,
              const kinematics::LegChain& chain, const LegLoad& load, const LegMotion& motion,
              float* leg_rad) {
-  // Force and moment beyond the joint, summed upwards.
   Vec3 force_n = load.push_n;
   Vec3 moment_nm = math::cross(load.ground_m, load.push_n);
   const float hip_m = chain.link[0].position_m.z();

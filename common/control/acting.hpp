@@ -2,7 +2,6 @@
 #include "common/action/library.hpp"
 #include "common/control/stages.hpp"
 
-/// Actions in the tick.
 namespace verp::control {
 
 /// Asks for an action; drops a walk request meanwhile: the walk ends first.

@@ -70,7 +70,6 @@ void read_imu(const Params& params, const Inputs& inputs, int lost, std::uint32_
   out.accel_body_m_s2 = in_body(params.imu, inputs.accel_count, params.imu.accel_m_s2_per_count);
 }
 
-// Returns the oldest servo's age.
 std::uint8_t count_ages(const Params& params, std::uint32_t fresh, std::uint32_t periods,
                         AdmitState& state) {
   const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << params.joint_count) - 1U);

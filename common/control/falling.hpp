@@ -3,7 +3,6 @@
 #include "common/balance/attitude.hpp"
 #include "common/control/state.hpp"
 
-/// Detection before impact, and getting up.
 namespace verp::control {
 
 /// An inverted pendulum of 0.25 m takes 0.4 s from detection (a third of a radian) to the ground;

@@ -86,7 +86,6 @@ void rest_joints(const Params& params, const State& state, const AdmitOut& admit
   for (int j = 0; j < params.joint_count; ++j) wanted.plain_rad[j] = wanted.angle_rad[j];
 }
 
-// The plan with feet aimed by the learnt landings.
 gait::Posture aim_feet(const Params& params, State& state, const Inputs& inputs,
                        const gait::GaitOut& plan) {
   gait::Posture aimed = plan.posture;

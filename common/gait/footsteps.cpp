@@ -143,7 +143,6 @@ float clearance_m(const Params& params, const GaitTuning& tuning) {
   return math::min(kSoleClearance_m, standing_m);
 }
 
-// How much further out the swing foot must land.
 float short_of_m(const Params& params, const GaitTuning& tuning, const Step& step, float yaw_rad) {
   const Foothold left = step.after(kLeft), right = step.after(kRight);
   const float wanted_m = clearance_m(params, tuning);
@@ -188,7 +187,6 @@ void land_beside(const Params& params, const GaitTuning& tuning, Stride& stride,
   state.notes |= kTurnShortened;
 }
 
-// True if the feet are as before a walk.
 bool side_by_side(const GaitTuning& tuning, const Step& last) {
   const Foothold left = last.after(kLeft), right = last.after(kRight);
   const float apart_m = dot(left.at_m - right.at_m, leftward_of(left));
@@ -199,7 +197,6 @@ bool still(const Stride& stride) {
   return stride.by_m.x == 0.0F && stride.by_m.y == 0.0F && stride.turn_rad == 0.0F;
 }
 
-// Both feet carry throughout.
 Step standing_step(const GaitTuning& tuning, const Step& last, Phase phase) {
   Step step;
   set_times(tuning, tuning.start_s, step);

@@ -32,7 +32,6 @@ Moment moment_before(const GaitState& state, std::int32_t delay_us) {
   return {&state.previous, earlier_us > oldest_us ? earlier_us : oldest_us, state.previous_key};
 }
 
-// A moment between two fixed key points.
 struct Place {
   std::uint8_t index;
   float fraction;
@@ -75,7 +74,6 @@ void set_dcm_ends(const Params& params, const Tuning& tuning, const VelocityIn& 
   }
 }
 
-// Key points laid before a hurried walk begins.
 constexpr int kHurry = 2;
 
 // In a hurried start the ZMP throws the resting pendulum to the DCM at the step's end: further out

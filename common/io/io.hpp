@@ -12,7 +12,6 @@ inline constexpr int kFeet = 2;        ///< index 0 is left, 1 is right, everywh
 inline constexpr int kFootSensors =
     4;  ///< front-left, front-right, back-left, back-right of each sole
 
-/// Bits of Inputs::flags.
 enum InputFlag : std::uint16_t {
   kImuFresh = 1 << 0,        ///< gyro and accel read this tick
   kFeetFresh = 1 << 1,       ///< all foot sensors read this tick

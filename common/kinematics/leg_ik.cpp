@@ -40,7 +40,6 @@ void to_joints(const Params& params, const LegParams& leg, const SinCos* canonic
   }
 }
 
-// Law of cosines.
 SinCos knee_of(const LegParams& leg, float distance_m, LegAngles& result) {
   const float sides_m2 = 2.0F * leg.thigh_m * leg.shank_m;
   const float cos =

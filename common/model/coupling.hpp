@@ -9,7 +9,6 @@
 /// an offset. Both come from the driver's counts.
 namespace verp::model {
 
-/// The joint whose servo moves `joint`.
 inline int driver_of(const Params& params, int joint) {
   const std::uint8_t id = params.joint[joint].servo_id;
   for (int j = 0; joint >= params.servo_count() && j < params.servo_count(); ++j) {
@@ -18,7 +17,6 @@ inline int driver_of(const Params& params, int joint) {
   return joint;
 }
 
-/// The follower's angle when its driver is at `driver_rad`.
 inline float followed(const JointParams& driver, const JointParams& follower, float driver_rad) {
   return (driver.zero_count + driver.counts_per_rad * driver_rad - follower.zero_count) /
          follower.counts_per_rad;

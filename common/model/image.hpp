@@ -64,7 +64,6 @@ enum class ImageFault : std::uint8_t {
 /// Names the robot: equal only for equal bytes, up to 2^-32.
 std::uint32_t params_crc(const Params& params);
 
-/// Fills in the header.
 void seal_image(ParamsImage& image);
 
 /// `size` may exceed the image (a flash section).

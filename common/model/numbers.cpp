@@ -29,7 +29,6 @@ class Search {
   explicit Search(FieldName& bad) : bad_(bad) {}
 
   bool found() const { return found_; }
-  /// Prefix of the following names.
   void in(const char* group, int index = -1) {
     group_ = group;
     index_ = index;

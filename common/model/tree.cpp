@@ -24,7 +24,6 @@ bool below(const Params& params, int node, int ancestor) {
   return node != 0 && below(params, parent(params, node), ancestor);
 }
 
-// Climbs from the deeper end until both meet.
 void connect(const Params& params, int from, int to, Path& path) {
   if (from == to) {
     path.node[path.length++] = static_cast<std::uint8_t>(from);

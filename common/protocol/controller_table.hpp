@@ -21,7 +21,6 @@ inline constexpr std::uint8_t kTableVersion = 1;
 enum class Type : std::uint8_t { kU8, kU16, kU32, kU64, kI8, kI16, kI32, kF32, kText };
 inline constexpr const char* kTypeNames[] = {"u8",  "u16", "u32", "u64", "i8",
                                              "i16", "i32", "f32", "text"};
-/// Bytes of one element.
 constexpr std::uint8_t type_bytes(Type type) {
   constexpr std::uint8_t kBytes[] = {1, 2, 4, 8, 1, 2, 4, 4, 1};
   return kBytes[static_cast<std::size_t>(type)];
@@ -201,7 +200,6 @@ inline constexpr Register kTable[] = {
     r(116, "parameter_high", f32, "", "highest value allowed"),
     r(120, "crash_tick", u32, "ticks", "when it crashed, counted as tick"),
     r(124, "crash_count", u32, "", "crashes in a row before this start; 0: none is known"),
-    // The last tick.
     r(128, "digest", u64, "", "chained digest of all ticks so far"),
     r(136, "tick", u32, "ticks", "control periods since power-up"),
     r(140, "faults", u32, "bits", "safety::Fault, latched until relaxed"),
@@ -250,7 +248,6 @@ inline constexpr Register kTable[] = {
     r(792, "device_rate", u16, "1/s", "reports in the last second (the link: packets)", kDevices),
     r(872, "device_age", u16, "ticks", "since the last report, up to 65535", kDevices),
     r(952, "device_errors", u32, "", "reports missed or stale; bus: CRC errors, timeouts, refused; link: CRC, overruns, framing, noise", kDevices),
-    // Whole images, block by block.
     rw(1112, "window_kind", u8, 4, "", "what the window shows: 0 nothing, 1 the Params image, 2 actions; only to read: 3 the last tick, with tick_hold, 4 the last ticks; begins anew"),
     r(1113, "window_state", u8, "", "0 idle: while a block of actions is refused, their place is being made, so write it again; 1 receiving, 2 accepted: a board stores it and starts anew with it, 3 refused"),
     r(1114, "window_fault", u8, "", "why refused: of Params ImageFault, of actions as action_fault; 254: the flash did not keep a block, 255: the bytes do not have window_crc"),
@@ -264,7 +261,6 @@ inline constexpr Register kTable[] = {
     r(1258, "inputs_flags", u16, "bits", "of the last tick: InputFlag; on CAN also 256 IMU counts in parts, and from 4096 on the number of parts"),
     r(1260, "tick_low", u16, "ticks", "low half of tick"),
     r(1264, "inputs_part", u64, "", "on CAN: one part of the last tick's Inputs: half its offset, its size, up to 6 bytes"),
-    // More joint values.
     r(1272, "joint_velocity", i32, "counts/s", "as each drive told last (606Ch); CiA 402 only", kMaxJoints),
     r(1400, "joint_torque", i16, "0.1 %", "of the rated torque, as each drive told last (6077h); CiA 402 only", kMaxJoints),
     r(1464, "image_field", text, "", "with self_test 4: the number in the Params image that is none, or none of a robot; empty: it is not that", kFieldNameLength),

@@ -170,10 +170,8 @@ class Parser {
  public:
   /// True: a packet is complete; call next() until false before the next push().
   bool push(std::uint8_t byte);
-  /// True if earlier bytes hold another packet.
   bool next();
   const Packet& packet() const { return packet_; }
-  /// The counters stay.
   void reset() { begin_ = size_ = done_ = need_ = 0; }
 
   std::uint32_t crc_errors() const { return crc_errors_; }

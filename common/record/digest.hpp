@@ -16,7 +16,6 @@ class Digest32 {
   constexpr explicit Digest32(std::uint32_t seed) : value_(seed) {}
   constexpr void add(std::uint32_t word) { value_ = (std::rotl(value_, 5) ^ word) * 0x9E3779B1u; }
 
-  /// Adds the struct in memory order.
   template <class T>
   void add_struct(const T& data) {
     static_assert(packed_size<T>() == sizeof(T) && sizeof(T) % 4 == 0);

@@ -29,7 +29,6 @@ constexpr Row kTable[] = {
     {kMayRest, kPowerBad, kStale, Mode::kSitting},
     {bit(Mode::kHolding), 0, kStale, Mode::kRising},
     {bit(Mode::kStanding), kOperatorGone, 0, Mode::kSitting},
-    // The operator's requests.
     {bit(Mode::kRelaxed), kAskStand | kServosKnown,
      kFell | kStale | kOperatorQuiet | kPowerBad | kJointBeyond, Mode::kRising},
     {bit(Mode::kRising), kTimeUp, 0, Mode::kStanding},

@@ -63,10 +63,8 @@ class AnswerWatch {
     owing_ = 0;
     if (prompt_times_ < kKnown) ++prompt_times_;
   }
-  /// The whole bus may be late.
   bool all_owe() const { return planned_ != 0 && (owing_ | owing_since_) == planned_; }
 
-  /// Rates an answer that came after SYNC `window`.
   Answer take(int source, std::uint8_t window) {
     Source& each = source_[source];
     const NodeMask bit = node_bit(source);
@@ -123,7 +121,6 @@ class AnswerWatch {
              return ((before_ & ~answered_) >> i & 1) != 0 && source_[i].planned == window;
            }) == window;
   }
-  /// All nodes answer as planned from now on.
   void realign() {
     for (Source& each : source_) {
       each.group = each.planned;

@@ -49,7 +49,6 @@ concept Images = requires(Store& store, const Store& seen, ImageKind kind, std::
   { store.commit(kind, crc) } -> std::same_as<std::uint8_t>;
 };
 
-/// The window refuses every access.
 struct NoImages {
   static std::size_t size(ImageKind) { return 0; }
   static std::size_t room(ImageKind) { return 0; }

@@ -12,7 +12,6 @@
 /// spare_bytes().
 namespace verp::app {
 
-/// A handler's verdict on a packet.
 enum class Take { kStray, kMore, kDone };
 
 template <hal::FrameBus Bus>

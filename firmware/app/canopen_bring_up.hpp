@@ -111,7 +111,6 @@ class CanopenBringUp {
     }
   }
 
-  /// Returns the nodes that did not boot in time.
   NodeMask await_boot(NodeMask missing) {
     CanFrame frame;
     const std::uint64_t end_us = master_.now_us() + kBootUs;

@@ -66,7 +66,6 @@ concept OperatorLink = requires(Link& link, std::uint32_t tick) {
   { link.order(tick) } -> std::same_as<OperatorOrder>;
 };
 
-/// The pacing clock's report on a tick.
 struct Beat {
   std::uint32_t periods = 0;  ///< since the previous tick; 0: no clock, use bus time
   bool overran = false;       ///< the previous tick was late

@@ -31,7 +31,6 @@ inline constexpr std::uint16_t kImageIndex = 0x5000;
 consteval canopen::Address object(const char* name) {
   return {table::find(name)->object_index(), 0};
 }
-/// Default mapping of TPDO `number`.
 constexpr canopen::PdoMapping<> controller_tpdo(unsigned number) {
   namespace published = canopen::published;
   canopen::PdoMapping<> mapping;
@@ -44,7 +43,6 @@ constexpr canopen::PdoMapping<> controller_tpdo(unsigned number) {
   if (number == published::kPartPdo) mapping.add({object("inputs_part"), 64});
   return mapping;
 }
-/// Switches these TPDOs on or off.
 template <class Objects>
 void publish_ticks(Objects& objects, std::uint8_t node, bool on) {
   for (unsigned number = canopen::published::kDigestPdo; number <= canopen::published::kPartPdo;
@@ -111,7 +109,6 @@ class ControllerObjects {
     return abort_for(registers_.write(place.address, data, size), place);
   }
 
-  // Whole images in parts.
   canopen::Abort write_part(canopen::Address at, std::uint32_t offset, const std::uint8_t* data,
                             std::uint32_t size) {
     if (registers_.armed()) return canopen::Abort::kDeviceState;

@@ -30,7 +30,6 @@ class DeviceWatch {
   }
 
   void heard() { ++packets_; }
-  /// Totals of the servo bus and the operator's link.
   void bus_errors(std::uint32_t sum) { errors(table::kDeviceBus, sum); }
   void link_errors(std::uint32_t sum) { errors(table::kDeviceLink, sum); }
 

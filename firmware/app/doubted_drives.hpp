@@ -24,7 +24,6 @@ class DoubtedDrives {
   /// Doubted drives known to have no torque.
   std::uint32_t limp() const { return limp_; }
 
-  /// The node did not answer for this long.
   void silent_for(int slot, std::uint32_t time_us) {
     if (time_us < patience_us_) {
       silent_ &= ~node_bit(slot);
@@ -40,7 +39,6 @@ class DoubtedDrives {
     lost_ |= node_bit(slot);
     if (is_joint(slot)) doubted_ |= 1u << slot;
   }
-  /// The node is set up and started.
   void renewed(int slot) {
     lost_ &= ~node_bit(slot);
     silent_ &= ~node_bit(slot);

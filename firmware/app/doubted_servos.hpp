@@ -59,7 +59,6 @@ class DoubtedServos {
  private:
   static constexpr std::uint8_t kRepeats = 3;  ///< of unconfirmed writes
 
-  /// The first few.
   std::uint32_t some(std::uint32_t joints) const {
     std::uint32_t chosen = 0;
     std::size_t count = 0;

@@ -19,7 +19,6 @@ class DriveTelemetry {
   /// Asks this drive next: it has something to report.
   void hurry(int joint) { urgent_ = joint; }
 
-  /// The drive whose answer is due.
   NodeMask asked() const { return asked_ < 0 ? 0 : node_bit(asked_); }
 
   /// False: none. Skips drives in `busy`: each answer also proves that the bus is prompt. `missed`:

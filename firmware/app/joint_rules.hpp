@@ -5,10 +5,8 @@
 #include "common/model/params.hpp"
 #include "common/safety/machine.hpp"
 
-/// Joint rules common to all servo buses.
 namespace verp::app {
 
-/// A bit per joint.
 constexpr std::uint32_t all_joints(const Params& params) {
   return params.servo_count() >= kMaxJoints ? ~0u : (1u << params.servo_count()) - 1;
 }

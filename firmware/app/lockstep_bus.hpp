@@ -183,7 +183,6 @@ class LockstepBus {
     return Outcome::kNothing;
   }
 
-  /// Bytes before a packet of the clock.
   struct Brought {
     const std::uint8_t* bytes;  ///< the first `room` of them
     std::size_t count, room;

@@ -43,7 +43,6 @@ inline constexpr std::uint32_t kCanSetUprightId = 0x1FFFFF20;
 inline constexpr std::uint32_t kCanSetUprightReplyId = 0x1FFFFF28;
 inline constexpr std::uint32_t kCanHelloParts = sizeof(Hello) / kMaxCanData;
 static_assert(kCanHelloParts * kMaxCanData == sizeof(Hello));
-/// In one answer.
 inline constexpr std::size_t kMaxBurst = 16;
 /// Part of an SJA1000's 64-byte FIFO for a burst; a CanAdvanced needs the rest. If another client
 /// fills it, the controller asks again.
@@ -112,7 +111,6 @@ constexpr bool is_clock_frame(const CanFrame& frame) {
   return frame.extended && frame.id >= kCanHelloId;
 }
 
-/// Collects the parts of a Hello in any order.
 struct CanHello {
   Hello hello;
   std::uint32_t parts = 0;

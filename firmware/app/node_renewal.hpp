@@ -25,7 +25,6 @@ class NodeRenewal {
     if (slot == slot_) slot_ = -1;
     to_stop_ |= node_bit(slot);
   }
-  /// Stops one rebooted node; false: there is none.
   template <hal::CanBus Bus>
   bool stop_one(CanMaster<Bus>& master) {
     for (int slot = 0; slot < kCanNodes; ++slot) {

@@ -69,7 +69,6 @@ class OperatorDevice {
   /// Call as often as the counters should refresh.
   void report(const LoopHealth& health) { registers_.report().health(health); }
 
-  /// An OperatorNode may share them.
   OperatorRegisters<Store>& registers() { return registers_; }
 
   std::uint8_t id() const { return registers_.id(); }

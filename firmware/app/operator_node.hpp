@@ -43,7 +43,6 @@ class OperatorNode {
     device_.receive(canopen::nmt_frame(canopen::NmtCommand::kStart, kNode), kBegin_us);
   }
 
-  // CanBus, for the loop.
   bool send(const CanFrame& frame) { return bus_.send(frame); }
   bool poll(CanFrame& frame, std::uint32_t timeout_us) {
     for (int taken = 0; bus_.poll(frame, timeout_us); ++taken) {

@@ -26,7 +26,6 @@ struct CrashNote {
   std::uint32_t count = 0;
 };
 
-/// The board's state before the first tick.
 struct OperatorSetup {
   std::uint8_t id = table::kDefaultId;
   table::ImuSource imu_source = table::ImuSource::kBus;
@@ -221,7 +220,6 @@ class OperatorRegisters {
     return error == dxl::Error::kNone ? check_values(write) : error;
   }
 
-  /// Checks bounds that are not constants of the table.
   dxl::Error check_values(const Write& write) const {
     if (write.covers(reg("action_request")) &&
         dxl::get_u16(write.from(reg("action_request"))) > word(reg("action_count"))) {
@@ -271,7 +269,6 @@ class OperatorRegisters {
     return dxl::get_u32(write.covers(reg("window_offset")) ? write.from(reg("window_offset"))
                                                            : image_.at(reg("window_offset")));
   }
-  /// Index range within window_data.
   static std::uint32_t data_begin(const Write& write) {
     return write.address > reg("window_data") ? write.address - reg("window_data") : 0u;
   }

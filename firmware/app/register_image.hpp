@@ -15,7 +15,6 @@ consteval std::uint16_t reg(const char* name) {
 consteval std::uint16_t reg_end(const char* name) {
   return static_cast<std::uint16_t>(table::find(name)->address + table::find(name)->bytes());
 }
-/// Elements have `size` bytes.
 constexpr std::uint16_t element(std::uint16_t array, int index, int size) {
   return static_cast<std::uint16_t>(array + index * size);
 }

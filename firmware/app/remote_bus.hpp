@@ -41,7 +41,6 @@ class RemoteBus {
            (run_.actions_size == 0 || (actions != nullptr && read_actions(*actions)));
   }
 
-  /// The actions that hello() stored.
   action::Library actions(const ActionRoom& room) const { return room.library(run_.actions_size); }
   /// Ticks of the run; 0: until stopped().
   std::uint32_t ticks() const { return run_.ticks; }
@@ -132,7 +131,6 @@ class RemoteBus {
     return !lost_;
   }
 
-  // The first read usually returns the whole reply.
   bool read_reply(std::size_t capacity) {
     std::size_t have = 0;
     std::size_t want = sizeof reply_;

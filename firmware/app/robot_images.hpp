@@ -36,7 +36,6 @@ class RobotImages {
         place_(place) {}
 
   const ParamsImage* accepted_robot() const { return robots_.accepted(); }
-  /// Bytes of the committed new actions, or 0.
   std::size_t accepted_actions() const { return accepted_bytes_; }
   /// Bytes of the active actions; 0: none, or damaged.
   std::size_t actions_bytes() const { return actions_bytes_; }

@@ -35,7 +35,6 @@ std::uint32_t check_of(const Kept& of) {
 bool is_whole() {
   return verp_kept.check == check_of(verp_kept);
 }
-/// Completes the memory writes before a reset.
 void wait_for_memory() {
 #ifdef __riscv
   __asm__ volatile("fence" ::: "memory");

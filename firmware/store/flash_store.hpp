@@ -86,7 +86,6 @@ class FlashStore {
   bool lent() const { return lent_; }
   /// Records that the flash lost. Their keys have older values or none.
   std::uint32_t damaged() const { return damaged_; }
-  /// Room before the next erase.
   std::size_t free_bytes() const { return active_ == kNone ? 0 : page_[active_].bytes() - tail_; }
 
  private:

@@ -63,7 +63,6 @@ inline bool is_all(const std::uint8_t* slot, std::uint8_t byte) {
   return true;
 }
 
-/// A page, accessed by slots.
 template <hal::FlashPages Flash>
 class Page {
  public:

@@ -24,7 +24,6 @@ class FakeFlash {
     writes_left_ = writes;
     cut_planned_ = true;
   }
-  /// Draws new values for the unsure bits.
   void power_up() {
     dark_ = false;
     cut_planned_ = false;

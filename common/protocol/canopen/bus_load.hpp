@@ -58,7 +58,6 @@ constexpr std::uint32_t stuff_bits(std::uint32_t bits, Stuffing stuffing) {
   return 0;
 }
 
-/// A data frame with the intermission.
 constexpr FrameBits classic_bits(std::uint8_t size, Stuffing stuffing, bool extended = false) {
   const std::uint32_t stuffed = (extended ? 39u : 19u) + 8u * size + 15u;
   return {stuffed + stuff_bits(stuffed, stuffing) + kFrameEndBits + kIntermissionBits, 0};

@@ -18,14 +18,12 @@ enum class State : std::uint8_t {
 inline constexpr unsigned kStates = 8;
 const char* state_text(State state);
 
-// Bits of the controlword.
 inline constexpr std::uint16_t kBitSwitchOn = 1 << 0;
 inline constexpr std::uint16_t kBitEnableVoltage = 1 << 1;
 inline constexpr std::uint16_t kBitQuickStop = 1 << 2;  ///< 0 stops
 inline constexpr std::uint16_t kBitEnableOperation = 1 << 3;
 inline constexpr std::uint16_t kBitFaultReset = 1 << 7;  ///< effective on its rising edge
 
-// Controlwords that a master sends.
 inline constexpr std::uint16_t kWordDisableVoltage = 0x0000;
 inline constexpr std::uint16_t kWordQuickStop = 0x0002;
 inline constexpr std::uint16_t kWordShutdown = 0x0006;
@@ -112,11 +110,9 @@ enum class AbortConnection : std::int16_t {
   kQuickStop = 3
 };
 
-/// The drive side.
 class Drive {
  public:
   State state() const { return state_; }
-  /// True: torque is on.
   bool powered() const {
     return state_ == State::kOperationEnabled || state_ == State::kQuickStopActive ||
            state_ == State::kFaultReactionActive;

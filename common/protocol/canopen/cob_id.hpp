@@ -38,7 +38,6 @@ struct SdoChannel {
   std::uint16_t response = 0;
   constexpr bool operator==(const SdoChannel&) const = default;
 };
-/// The one in 1200h.
 constexpr SdoChannel default_sdo(std::uint8_t node) {
   return {sdo_request_id(node), sdo_response_id(node)};
 }

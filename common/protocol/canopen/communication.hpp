@@ -126,7 +126,6 @@ class CommunicationObjects {
     return application_.write_done(at, size);
   }
 
-  /// Returns and clears the last order.
   StoreOrder take_store_order() {
     const StoreOrder order = order_;
     order_ = StoreOrder::kNone;

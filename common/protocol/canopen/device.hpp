@@ -31,7 +31,6 @@ class Device {
         nmt_(node),
         servers_(objects_, node) {}
 
-  /// The communication objects, to set defaults.
   Objects& objects() { return objects_; }
   NmtState state() const { return nmt_.state(); }
 
@@ -69,7 +68,6 @@ class Device {
     return events;
   }
 
-  /// False: no frame to send.
   bool next(Frame& frame, std::uint64_t now_us) {
     if (kSize.beats && objects_.producer.next(now_us, nmt_.state(), frame)) return true;
     if (!may_sdo(nmt_.state())) return false;

@@ -121,10 +121,8 @@ class HeartbeatProducer {
     due_us_ = 0;
   }
   constexpr std::uint16_t period_ms() const { return period_ms_; }
-  /// Boot-up is due again.
   constexpr void restart() { booted_ = false; }
 
-  /// False: nothing is due.
   constexpr bool next(std::uint64_t now_us, NmtState state, Frame& frame) {
     if (state == NmtState::kInitialising) {
       booted_ = false;
@@ -186,7 +184,6 @@ class HeartbeatConsumer {
     return entries_[subindex - 1].value;
   }
   constexpr Life life(std::uint8_t subindex) const { return entries_[subindex - 1].life; }
-  /// By the last heartbeat.
   constexpr NmtState state(std::uint8_t subindex) const { return entries_[subindex - 1].state; }
 
   /// `subindex`: the node's entry.

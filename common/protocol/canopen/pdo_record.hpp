@@ -29,7 +29,6 @@ template <std::size_t kEntries = 8>
 class PdoRecord {
  public:
   constexpr PdoRecord() = default;
-  /// Makes a PDO that is on.
   constexpr PdoRecord(Direction direction, std::uint32_t id, std::uint8_t type,
                       const PdoMapping<kEntries>& mapping)
       : direction_(direction), cob_id_(id | kPdoNoRemote), type_(type), mapping_(mapping) {}
@@ -209,7 +208,6 @@ class RpdoLatch {
     frame_ = frame;
     return false;
   }
-  /// True: `frame` takes effect now.
   constexpr bool on_sync(Frame& frame) {
     if (!waiting_) return false;
     waiting_ = false;

@@ -18,7 +18,6 @@ namespace verp::canopen::published {
 inline constexpr unsigned kDigestPdo = 2;
 inline constexpr unsigned kRecordPdo = 3;
 inline constexpr unsigned kPartPdo = 4;
-/// Frames in every tick.
 inline constexpr int kFrames = 2;
 inline constexpr std::uint8_t kFrameBytes = 8;
 

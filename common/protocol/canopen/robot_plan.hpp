@@ -39,7 +39,6 @@ inline constexpr Address kAccel[3] = {{0x2011, 1}, {0x2011, 2}, {0x2011, 3}};  /
 inline constexpr Address kFoot[kFootSensors] = {
     {0x2020, 1}, {0x2020, 2}, {0x2020, 3}, {0x2020, 4}};  ///< foot sensors: u16
 
-/// Content of kTelemetry.
 struct Telemetry {
   std::uint16_t voltage_tenth_v = 0;
   std::uint8_t temperature_c = 0;
@@ -93,14 +92,12 @@ constexpr PdoMapping<> drive_answer() {
 }
 inline constexpr std::uint8_t kDriveAnswerBytes = 6;
 static_assert(drive_answer().bytes() == kDriveAnswerBytes);
-/// TPDO 1 and 2 of an IMU.
 constexpr PdoMapping<> imu_answer(const Address (&axes)[3]) {
   PdoMapping<> mapping;
   for (const Address& axis : axes) mapping.add(mapped(axis, 16));
   return mapping;
 }
 inline constexpr std::uint8_t kImuAnswerBytes = 6;
-/// TPDO 1 of a foot.
 constexpr PdoMapping<> foot_answer() {
   PdoMapping<> mapping;
   for (const Address& sensor : kFoot) mapping.add(mapped(sensor, 16));
@@ -132,7 +129,6 @@ constexpr int members_of(const Shared& kind, const Params& params, int frame) {
   const int left = params.servo_count() - first_of(kind, frame);
   return left < kind.width ? left : kind.width;
 }
-/// RPDO identifier of the frame's first drive.
 constexpr std::uint16_t shared_id(const Shared& kind, const Params& params, int frame) {
   return rpdo_id(kind.rpdo, params.joint[first_of(kind, frame)].servo_id);
 }

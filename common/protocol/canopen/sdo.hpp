@@ -35,7 +35,6 @@ inline constexpr std::uint8_t kBlockUpload = 6;
 
 inline constexpr std::uint8_t kAbort = 0x80;  ///< no block segment has it
 
-// Bits of byte 0.
 inline constexpr std::uint8_t kToggleBit = 0x10;
 inline constexpr std::uint8_t kLastSegment = 0x01;  ///< of a segmented transfer
 inline constexpr std::uint8_t kExpedited = 0x02;
@@ -43,7 +42,6 @@ inline constexpr std::uint8_t kSizeGiven = 0x01;
 inline constexpr std::uint8_t kLastOfBlocks = 0x80;
 inline constexpr std::uint8_t kBlockCrc = 0x04;
 inline constexpr std::uint8_t kBlockSizeGiven = 0x02;
-/// Sub-commands of a block transfer.
 inline constexpr std::uint8_t kSubMask = 0x03;
 inline constexpr std::uint8_t kBlockInitiate = 0;
 inline constexpr std::uint8_t kBlockEnd = 1;

@@ -44,9 +44,7 @@ class BlockSender {
     sequence_ = 0;
     return Abort::kNone;
   }
-  /// True if everything is confirmed.
   bool done() const { return done_; }
-  /// Unused bytes of the last segment.
   unsigned unused() const {
     if (size_ == 0) return kSegmentBytes;
     return (kSegmentBytes - size_ % kSegmentBytes) % kSegmentBytes;

@@ -22,7 +22,6 @@ class OpenObject {
   /// Size of an expedited download that does not give it.
   std::uint32_t implied_size() const { return entry_.max_size < 4 ? entry_.max_size : 4; }
 
-  /// Reads a small object at once.
   Abort open_read(Address at) {
     if (const Abort refused = find(at); refused != Abort::kNone) return refused;
     if (!entry_.readable) return Abort::kWriteOnly;

@@ -37,7 +37,6 @@ class SdoServer {
     }
   }
 
-  /// False: no frame to send.
   bool next(Frame& frame, std::uint64_t now_us) {
     expire(now_us);
     if (phase_ == Phase::kBlockSegments && !replying_ && patience_.remind(now_us)) {
@@ -120,13 +119,10 @@ class SdoServer {
     abort(Abort::kCommand);
   }
 
-  /// True for kNone; else aborts.
   bool granted(Abort refused) {
     if (refused != Abort::kNone) abort(refused);
     return refused == Abort::kNone;
   }
-
-  // Download: the client writes.
 
   bool open_write(const Frame& frame, bool size_given, std::uint32_t size) {
     forget();
@@ -203,8 +199,6 @@ class SdoServer {
     end_download(refused,
                  sdo::bare(id(), sdo::command(sdo::response::kBlockDownload, sdo::kBlockEnd)));
   }
-
-  // Upload: the client reads.
 
   bool open_read(const Frame& frame) {
     forget();

@@ -36,7 +36,6 @@ inline constexpr std::uint8_t kSrBufferFree = 1u << 2;
 inline constexpr std::uint8_t kSrComplete = 1u << 3;
 inline constexpr std::uint8_t kSrErrors = 1u << 6;
 inline constexpr std::uint8_t kSrBusOff = 1u << 7;
-// IR and IER
 inline constexpr std::uint8_t kIrReceive = 1u << 0;
 inline constexpr std::uint8_t kIrTransmit = 1u << 1;
 inline constexpr std::uint8_t kIrWarning = 1u << 2;  ///< error or bus status
@@ -48,7 +47,6 @@ inline constexpr std::uint8_t kOcrPushPull = 0x1A;
 inline constexpr std::uint8_t kCdrPeliCan = 1u << 7;
 inline constexpr std::uint8_t kCdrBypass = 1u << 6;
 inline constexpr std::uint8_t kCdrClockOff = 1u << 3;
-// First byte of a frame
 inline constexpr std::uint8_t kFrameExtended = 1u << 7;
 inline constexpr std::uint8_t kFrameRemote = 1u << 6;
 inline constexpr std::uint8_t kFrameLength = 0x0F;

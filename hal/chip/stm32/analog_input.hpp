@@ -20,7 +20,6 @@ struct AnalogWiring {
   constexpr bool exists() const { return base != 0; }
 };
 
-/// `Timer` is a TickTimer.
 template <Io Access, class Timer>
 class AnalogInput {
  public:

@@ -232,7 +232,6 @@ class BxCan {
     }
   }
 
-  /// Moves the most urgent waiting frames into free mailboxes.
   void pump() {
     if (was_off_ && (read(can::kEsr) & can::kEsrBoff) == 0) was_off_ = false;
     while (!outbox_.empty()) {

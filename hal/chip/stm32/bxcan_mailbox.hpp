@@ -7,7 +7,6 @@
 /// Frame layout in bxCAN's mailboxes and FIFOs.
 namespace verp::hal::stm32 {
 
-/// One transmit mailbox.
 struct CanMailbox {
   CanFrame frame;
   bool busy = false;

@@ -18,7 +18,6 @@
 /// bytes and is counted.
 namespace verp::hal::stm32 {
 
-/// `Timer` is a TickTimer.
 template <Io Access, class Function, class Timer, std::size_t kRing = 1024>
 class OtgFs {
  public:
@@ -87,7 +86,6 @@ class OtgFs {
     watch_storm(moved_ == before ? core_.pending() & status : 0);
   }
 
-  /// Times a bit did not change in time.
   std::uint32_t stuck() const { return core_.stuck(); }
 
  private:

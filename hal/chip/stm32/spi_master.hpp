@@ -31,7 +31,6 @@ struct SpiErrors {
   std::uint32_t mode_faults = 0;  ///< another bus master detected (MODF)
 };
 
-/// `Timer` is a TickTimer.
 template <Io Access, class Timer>
 class SpiMaster {
  public:

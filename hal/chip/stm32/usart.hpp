@@ -25,7 +25,6 @@ struct UsartWiring {
   Pin direction;  ///< high while sending; none: full duplex
 };
 
-/// `Timer` is a TickTimer.
 template <Io Access, class Kind, class Timer, std::size_t kRing = 1024>
 class Usart {
  public:

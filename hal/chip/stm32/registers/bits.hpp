@@ -5,7 +5,6 @@ namespace verp::hal::stm32 {
 
 enum class Family : std::uint8_t { kF405 = 0, kF446 = 1, kF746 = 2 };
 
-/// From bit `first` up.
 constexpr std::uint32_t bits(unsigned first, unsigned count) {
   return (count >= 32u ? ~0u : (1u << count) - 1u) << first;
 }

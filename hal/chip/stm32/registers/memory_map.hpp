@@ -38,7 +38,6 @@ constexpr unsigned dma2(unsigned stream) {
 }
 }  // namespace irq
 
-/// A sector of main flash.
 struct Sector {
   std::uint32_t address;
   std::uint32_t bytes;
