@@ -20,7 +20,7 @@ class Kept {
   using Room = store::WaitingRoom<Pages, Pages, Log>;
 
  public:
-  /// At start, before robot or actions are used: finishes what a power loss interrupted.
+  /// Call at start, before robot or actions are used: finishes what a power loss interrupted.
   static void finish(Dog& dog) {
     Pages robot = robot_pages(dog), log = log_pages(dog);
     store::finish_waiting(robot, log, [&dog] { dog.feed(); });

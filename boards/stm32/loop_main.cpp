@@ -77,8 +77,8 @@ struct Board {
     return setup;
   }
 
-  /// Whenever nothing arrives. Feeds the watchdog while waiting for a twin; a dead loop never gets
-  /// here.
+  /// Runs whenever nothing arrives. Feeds the watchdog while waiting for a twin; a dead loop never
+  /// gets here.
   void idle() {
     dog.feed();
     serve();
@@ -93,7 +93,6 @@ struct Board {
     if (sign.changed) gpio.write(kLed, sign.lit);
     say(sign.tone);
   }
-  /// Stops ticks and torque for good; keeps reporting the reason.
   [[noreturn]] void refuse(StartFault why) {
     fault = why;
     operator_device.show(why);
@@ -106,7 +105,7 @@ struct Board {
     if (wanted && !operator_device.armed()) start_anew();
     return operator_device.poll();
   }
-  /// For a reboot or new images. The caller has checked that torque is off.
+  /// Restarts for a reboot or new images. The caller has checked that torque is off.
   [[noreturn]] void start_anew() {
     const std::uint64_t end_us = timer.now_us() + kLastWords_us;
     while (timer.now_us() < end_us) operator_device.poll();
@@ -253,7 +252,7 @@ void run_in_real_time(Board& board, Servos& servos, const Params& params, std::u
   }
 }
 
-/// Before the watchdog starts and the board exists, with its own handle to it.
+/// Runs before the watchdog starts and the board exists, with its own handle to it.
 [[gnu::noinline]] void finish_kept(const Start& start) {
   stm32::IndependentWatchdog<Io> dog(start.cause);
   Kept::finish(dog);
@@ -265,7 +264,7 @@ StartFault judge(bool has_desk, control::BootVerdict verdict, const Params& para
   return params.bus_protocol == kProtocol ? StartFault::kNone : StartFault::kProtocol;
 }
 
-/// Its State is on the stack, which is free before a loop runs.
+/// Keeps its State on the stack, which is free before a loop runs.
 [[gnu::noinline]] control::BootReport check_boot(std::size_t size, Params& scratch) {
   State state;
   return control::check_boot(verp_params_begin, size, scratch, state);

@@ -25,23 +25,22 @@ class ServoPower {
     on_ = on && !taken_;
     gpio_.output(power_, on_);
   }
-  /// While no tick reads the stop: an open circuit cuts the power at once.
+  /// Call while no tick reads the stop: an open circuit cuts the power at once.
   void watch() {
     if (on_ && gpio_.read(stop_)) take();
   }
-  /// After each tick of a loop that drives servos: kAnew asks for a new bring-up.
+  /// Call after each tick of a loop that drives servos: kAnew asks for a new bring-up.
   app::DrivePower::Step after_tick(app::DrivePower& drive, bool pressed, safety::Mode mode) {
     const auto step = drive.after_tick(pressed || taken(), mode);
     if (step == app::DrivePower::Step::kOff && on_) take();
     return exists() ? step : app::DrivePower::Step::kOn;
   }
-  /// Regularly. `relax_asked`: `request` 0 was written since the last call; ignored while the
+  /// Call regularly. `relax_asked`: `request` 0 was written since the last call; ignored while the
   /// circuit is open.
   void permit(bool relax_asked) {
     if (relax_asked && !gpio_.read(stop_)) taken_ = false;
     if (!on_ && gpio_.read(stop_)) taken_ = true;
   }
-  /// A stop cut the power, and permit() has not allowed it again.
   bool taken() const { return exists() && taken_; }
   dxl::controller::ServoPower state() const {
     using State = dxl::controller::ServoPower;

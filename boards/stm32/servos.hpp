@@ -6,7 +6,7 @@
 
 namespace verp::board {
 
-/// Before there is a loop: the robot's port and power switch.
+/// The robot's port before there is a loop, and the power switch.
 struct Servos {
   /// Without a robot the baud rate is unknown.
   bool open() { return has_robot && open_robot_port(start, baud); }

@@ -8,7 +8,6 @@
 #include "hal/chip/stm32/spi_master.hpp"
 #include "hal/chip/stm32/usart.hpp"
 
-/// The types in which a board.hpp describes its STM32's wiring.
 namespace verp::board {
 
 using hal::stm32::Pin;

@@ -64,7 +64,7 @@ gait::Xy dcm_m(const EstimatorState& state);
 float roll_rad(const EstimatorState& state);
 float pitch_rad(const EstimatorState& state);
 
-/// The whole estimate, ordered as the controller's registers from body_position on.
+/// Ordered as the controller's registers from body_position on.
 struct Whereabouts {
   Xyz body_m;
   Xyz roll_pitch_yaw_rad;

@@ -18,8 +18,8 @@ VERP_PACKED(LandingState);
 /// m/s instead of 0.40.
 inline constexpr float kOffPlan_m = 0.002F;
 
-/// When another foot begins to carry; not if a leg joint did not report or the foot was moved off
-/// its plan (stepping.hpp).
+/// Learns when another foot begins to carry; not if a leg joint did not report or the foot was
+/// moved off its plan (stepping.hpp).
 void learn_landing(const Params& params, const gait::GaitState& gait, const gait::GaitOut& plan,
                    const Inputs& inputs, bool as_planned, LandingState& state);
 

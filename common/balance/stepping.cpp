@@ -34,7 +34,6 @@ float beyond(float value, float free) {
   return value - math::clamp(value, -free, free);
 }
 
-// Room between the soles if the swing foot lands `by_m` off.
 float apart_m(const Params& params, const gait::Step& step, Xy by_m) {
   gait::Foothold foot[kFeet] = {step.after(gait::kLeft), step.after(gait::kRight)};
   foot[step.swing].at_m = foot[step.swing].at_m + by_m;
@@ -72,7 +71,6 @@ Xy landing_off(const Params& params, const Tuning& tuning, const SteppingIn& in,
   return gait::turned(off_m, yaw_rad);
 }
 
-// Moves the swing foot's offset as fast as this phase allows.
 void move_foot(const Tuning& tuning, const gait::Step& step, float time_s, float period_s,
                Xy wanted_m, SteppingState& state) {
   const float swing_s = step.duration_s() - step.double_support_s;

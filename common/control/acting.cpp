@@ -101,7 +101,6 @@ balance::FeedbackOut keep_up(const BalanceTuning& tuning, const Vec3& up,
   const Vec3 lift = math::kGravityMS2 * up;
   for (int side = 0; side < kFeet; ++side) {
     const LegParams& leg = params.leg[side];
-    // Under the centre of mass, as far as this sole reaches.
     const Vec3 below_m = com_m - (com_m - legs.sole_m[side]).dot(up) * up;
     const Vec3 off_m = below_m - legs.sole_m[side];
     const float most_m = 0.5F * (leg.sole_left_m + leg.sole_right_m);

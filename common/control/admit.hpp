@@ -4,7 +4,6 @@
 #include "common/math/linear.hpp"
 #include "common/model/params.hpp"
 
-/// First stage: converts raw counts, ages silent devices, checks a parameter write.
 namespace verp {
 
 /// In a row, to alarm a servo. Each of 21 servos is read every 0.2 s: in half a second no glitch
@@ -55,7 +54,7 @@ struct AdmitOut {
   float head_tilt_rad = 0;
 };
 
-/// Before the first tick, with its inputs: no device was heard yet.
+/// Call before the first tick, with its inputs: no device was heard yet.
 void start(const Params& params, const Inputs& inputs, AdmitState& state);
 
 /// Applies a parameter write to `tuning`.

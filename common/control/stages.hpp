@@ -2,7 +2,6 @@
 #include "common/control/state.hpp"
 #include "common/model/params.hpp"
 
-/// The stages of step() connect the modules, which do the arithmetic.
 namespace verp::control {
 
 /// First tick: copies the tuning from Params and starts the ages.
@@ -13,10 +12,8 @@ balance::AttitudeOut estimate(const Params& params, State& state, const AdmitOut
 /// Body and centre of mass from the legs, by the last tick's plan.
 void locate(const Params& params, State& state, const Inputs& inputs, const AdmitOut& admitted);
 
-/// Sets the condition of a push beyond what ankles balance.
 void watch_push(const Params& params, State& state, AdmitOut& admitted);
 
-/// Walks if the safety table says so; corrects heading drift.
 gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& admitted,
                           const balance::AttitudeOut& attitude);
 

@@ -136,7 +136,6 @@ Xy leftward_of(const Foothold& foot) {
   return turned({0.0F, 1.0F}, foot.yaw_rad);
 }
 
-// Least room between the soles: at most that in standing.
 float clearance_m(const Params& params, const GaitTuning& tuning) {
   const float standing_m =
       2.0F * tuning.half_stance_m - params.leg[kLeft].sole_right_m - params.leg[kRight].sole_left_m;

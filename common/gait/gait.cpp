@@ -190,7 +190,6 @@ void next_in_queue(GaitState& state) {
   if (step.swing != kBoth) rebase_walk(step.foot[step.carrying()].at_m, state);
 }
 
-// Fixes key points until two lie ahead of the clock.
 void plan_ahead(const Params& params, const Tuning& tuning, const GaitIn& in, GaitState& state) {
   const Step& step = state.queue[0];
   const auto wanted = static_cast<std::uint8_t>(state.first_key + state.clock_us / step.key_us + 2);

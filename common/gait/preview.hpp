@@ -57,7 +57,6 @@ struct Laid {
 Laid lay_key_point(const Params& params, const Tuning& tuning, const Step* queue,
                    PreviewState& state);
 
-/// Fixes the next key point by the misses beyond it.
 void fix_key_point(const Step& step, PreviewState& state);
 
 /// `fraction` (0..1) after key point `index` (mod 256), by a cubic through four.

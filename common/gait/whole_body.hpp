@@ -2,7 +2,6 @@
 #include "common/gait/swing.hpp"
 #include "common/kinematics/leg_ik.hpp"
 
-/// Twelve leg links and a lump of all that the legs carry.
 namespace verp::gait {
 
 inline constexpr int kPoints = 1 + kFeet * kLegJoints;

@@ -27,7 +27,7 @@ Mat3 axis_rotation(const JointParams& joint, float angle_rad) {
   return math::rotation(math::to_vec(joint.axis), angle);
 }
 
-// Skips zeros: most joints sit on an axis of their parent.
+// Most joints sit on an axis of their parent.
 inline void place(const Pose& parent, const Xyz& origin_m, Vec3& position_m) {
   position_m = parent.position_m;
   if (origin_m.x != 0.0F) position_m += origin_m.x * parent.rotation.col(0);

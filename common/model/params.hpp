@@ -79,7 +79,6 @@ struct LegParams {
 };
 VERP_PACKED(LegParams);
 
-/// Registers written when a servo is armed, and bus features.
 struct ServoProfile {
   /// 1030 is XM430-W210, 30 is MX-28(2.0). On CAN, product code (1018h:2).
   std::uint16_t model_number = 0;

@@ -4,7 +4,6 @@
 
 #include "common/protocol/dynamixel2.hpp"
 
-/// Protocol 2.0 on the device side. Rules from the e-Manual.
 namespace verp::dxl {
 
 /// One device's part of a Sync or Bulk Read.

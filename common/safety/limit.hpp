@@ -2,7 +2,6 @@
 #include "common/model/params.hpp"
 #include "common/safety/machine.hpp"
 
-/// Final limits on every goal: joint limits, joint speeds, mode.
 namespace verp::safety {
 
 /// No torque if a joint is further beyond its limits: this bounds the first jump. Less than the

@@ -45,7 +45,7 @@ class App {
 
   /// Torque is off afterwards. Do not tick after a failure.
   BringUpReport bring_up() { return servos_.bring_up(); }
-  /// Every servo's strength from the next tick on, for first steps: 1 to 100 %.
+  /// Limits every servo's strength from the next tick on, for first steps: 1 to 100 %.
   void limit_torque(std::uint8_t percent) { servos_.limit_torque(percent); }
 
   void tick(const Beat& beat = {}) {

@@ -17,8 +17,8 @@ class CalibratedImu {
   CalibratedImu(Chip& chip, Memory& memory, const ImuParams& imu)
       : chip_(chip), memory_(memory), basis_(basis_of(imu)), calibrator_(imu) {}
 
-  /// At start. One for another scale or mounting is ignored but stays stored, as that robot may
-  /// return.
+  /// Call at start. A calibration for another scale or mounting is ignored but stays stored, as
+  /// that robot may return.
   void load() {
     std::uint8_t bytes[ImuCalibration::kBytes];
     const std::size_t size = memory_.get(kImuCalibrationKey, bytes, sizeof bytes);

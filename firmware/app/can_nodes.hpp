@@ -6,7 +6,6 @@
 
 namespace verp::app {
 
-/// Slots of a robot's nodes: joints, then IMU and feet. A set is a mask.
 inline constexpr int kImuNode = kMaxJoints;
 inline constexpr int kFootNode = kImuNode + 1;
 inline constexpr int kCanNodes = kFootNode + kFeet;

@@ -48,7 +48,6 @@ class CanopenServos {
   }
   void limit_torque(std::uint8_t percent) { writer_.limit_torque(percent); }
 
-  /// Runs all SYNCs of the tick; keeps the sensors' answers.
   void read_positions(Inputs& inputs) {
     answers_.begin();
     if (params_.servo_count() == 0) answers_.prompt();  // no drive could show it

@@ -10,7 +10,6 @@
 #include "firmware/app/bus_counters.hpp"
 #include "firmware/app/joint_effort.hpp"
 
-/// The loop's interfaces: servos in some protocol, an operator, a recorder, perhaps a clock.
 namespace verp::app {
 
 /// A robot's servos and the sensors on their bus, in one protocol. Promises:

@@ -43,7 +43,8 @@ class DoubtedServos {
     here_ &= ~(1u << joint);
   }
 
-  /// In ticks with room on the bus: queries a few servos, or sets them up again. `torque`: wanted.
+  /// Call in ticks with room on the bus: queries a few servos, or sets them up again. `torque`:
+  /// wanted.
   void resolve(BusMaster<Bus>& master, bool torque) {
     if (!torque) limp_ = 0;
     if (torque) renewals_ = 0;

@@ -8,7 +8,6 @@
 
 namespace verp::app {
 
-/// The part of a TickSource that LinkBus needs.
 template <class Source>
 concept Clock = requires(const Source& clock) {
   { clock.now_us() } -> std::same_as<std::uint64_t>;

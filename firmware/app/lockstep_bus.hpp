@@ -64,7 +64,7 @@ class LockstepBus {
   }
 
   bool stopped() const { return lost_ || over(); }
-  /// Before greet(), after a refusal, after `idle` gave up, or when the twin restarted: call
+  /// True before greet(), after a refusal, after `idle` gave up, or when the twin restarted: call
   /// greet() again.
   bool lost() const { return lost_; }
   const LockstepCounters& counters() const { return counters_; }
@@ -102,10 +102,9 @@ class LockstepBus {
   static constexpr std::uint32_t kEager_us = 2000;
   static constexpr std::uint32_t kFirstPatience_us = 50'000;
   static constexpr std::uint32_t kLastPatience_us = 1'000'000;
-  /// More bytes without the answer: the link carries something else.
+  /// A link that brings more without the answer carries something else.
   static constexpr std::uint32_t kMostBytes = 4 * lockstep::kMaxPollBytes;
 
-  // Places the request behind the frames, so that all leave in one write.
   template <class Payload>
   std::size_t encode(std::uint16_t address, const Payload& payload) {
     return dxl::encode_write(outbox_ + used_, lockstep::kMaxClockPacket, lockstep::kClockId,

@@ -36,7 +36,7 @@ class NodeRenewal {
     return false;
   }
 
-  /// Once a tick, for `candidates` in turn. Returns the node that was started, or -1.
+  /// Call once a tick; serves `candidates` in turn. Returns the node that was started, or -1.
   template <hal::CanBus Bus>
   int run(CanMaster<Bus>& master, NodeMask candidates) {
     if (slot_ >= 0 && (candidates & node_bit(slot_)) == 0) slot_ = -1;
@@ -53,7 +53,6 @@ class NodeRenewal {
     master.send(canopen::nmt_frame(canopen::NmtCommand::kStart, node_id(params_, done)));
     return done;
   }
-  /// Sends the next request; false: the node refused or was silent.
   template <hal::CanBus Bus>
   bool proceed(CanMaster<Bus>& master) {
     if (slot_ < 0 || !advance(master.now_us())) {
@@ -85,7 +84,6 @@ class NodeRenewal {
     canopen::put_le(data_, setting_.value, 4);
     client_.download(setting_.at, data_, setting_.bytes, canopen::SdoClient::Mode::kPlain, now_us);
   }
-  /// Moves on once a setting is written; false: refused or silent.
   bool advance(std::uint64_t now_us) {
     using State = canopen::SdoClient::State;
     if (client_.state() == State::kBusy || finished_) return true;

@@ -26,8 +26,8 @@ class OperatorDevice {
                  const OperatorSetup& setup) requires std::same_as<Store, NoImages>
       : OperatorDevice(link, params, setup, no_images) {}
 
-  /// At most kSlice bytes from the link; nothing while part of a reply waits for room. True if
-  /// there was anything to do.
+  /// Takes at most kSlice bytes from the link; nothing while part of a reply waits for room. True
+  /// if there was anything to do.
   bool poll() {
     bool busy = push();
     if (more_) serve(parser_.next());
@@ -50,11 +50,9 @@ class OperatorDevice {
     withdraw_orders();
   }
 
-  /// Shows why torque is refused until the next start (start_fault.hpp).
   void show(table::StartFault fault) { registers_.report().start_fault(fault); }
 
   void show(table::ServoPower power) { registers_.report().servo_power(power); }
-  /// Shows the calibration state, also before there is a loop.
   void show(table::ImuCalibrationState state) { registers_.report().imu_calibration(state); }
 
   /// The twin that played the servos is gone: no servo can hold torque. The operator regains what

@@ -87,8 +87,8 @@ class OperatorRegisters {
   table::ImuSource imu_source() const {
     return image_.template get<table::ImuSource>(reg("imu_source"));
   }
-  /// For App::limit_torque() before each tick. Changes only with torque off: a standing robot must
-  /// neither sag nor push harder at once.
+  /// Pass to App::limit_torque() before each tick. Changes only with torque off: a standing robot
+  /// must neither sag nor push harder at once.
   std::uint8_t torque_limit_percent() const { return byte(reg("torque_limit")); }
   /// The order for the chip; returned once.
   table::ImuCalibrationOrder take_calibration_order() {
@@ -193,7 +193,6 @@ class OperatorRegisters {
     const std::uint8_t* from(std::uint16_t at) const { return data + (at - address); }
   };
 
-  /// They only select what is read and how long it is held.
   static constexpr bool only_shows(std::uint16_t address) {
     return address == reg("parameter_id") || address == reg("window_kind") ||
            address == reg("window_offset") || address == reg("tick_hold");

@@ -42,7 +42,7 @@ class SettingsKeeper {
     kept_ = {setup.id, setup.imu_source, setup.torque_limit_percent};
   }
 
-  /// Regularly: stores changes, one step of the memory per call. True while something is not
+  /// Call regularly: stores changes, one step of the memory per call. True while something is not
   /// durable. A change that the memory refuses is not retried until the next start.
   bool keep(const Settings& now, bool may_erase) {
     const hal::WorkState state = memory_.work(may_erase);

@@ -33,8 +33,8 @@ class LoopGuard {
   /// `exists`: false on an emulator.
   LoopGuard(Dog& dog, bool exists) : dog_(dog), exists_(exists) {}
 
-  /// Last before the first tick: starts the pacing clock, then the watchdog. Do not tick after a
-  /// fault.
+  /// Call last before the first tick: starts the pacing clock, then the watchdog. Do not tick after
+  /// a fault.
   template <hal::TickSource Source>
   table::StartFault begin(Pacer<Source>& pacer, std::uint32_t period_us, std::uint32_t timeout_us) {
     using table::StartFault;

@@ -7,8 +7,8 @@ namespace verp::boot {
 
 std::uintptr_t stack_limit();
 
-/// At start: forbids the 32 bytes below the stack, so that an overflow faults at once. False: no
-/// memory protection unit; the stack then ends with RAM.
+/// Call at start: forbids the 32 bytes below the stack, so that an overflow faults at once. False:
+/// no memory protection unit; the stack then ends with RAM.
 bool guard_stack();
 
 /// Refills the stack below the caller's frame; depth counts from the result.

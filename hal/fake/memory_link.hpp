@@ -20,7 +20,6 @@ class MemoryLink {
  private:
   friend class MemoryWire;
   MemoryLink(MemoryWire& wire, MemoryLink& far) : wire_(wire), far_(far) {}
-  /// Updates connected_ as far as this end can know it.
   void look();
 
   static constexpr std::size_t kBytes = 256;
@@ -40,7 +39,6 @@ class MemoryWire {
   void cut() { whole_ = false; }
   void mend() { whole_ = true; }
   bool whole() const { return whole_; }
-  /// Counts a byte with a bad stop bit, or with noise.
   static void spoil_framing(MemoryLink& link) { ++link.errors_.framing; }
   static void spoil_noise(MemoryLink& link) { ++link.errors_.noise; }
   std::uint64_t now_us() const { return now_us_; }

@@ -36,7 +36,6 @@ class ScriptedCan {
     arrival_[at] = {frame, time_us, 0};
     return true;
   }
-  /// True if every expected frame was sent, in order, and no other.
   bool finished() const { return mismatches_ == 0 && played_ == expected_; }
   std::size_t mismatches() const { return mismatches_; }
 

@@ -9,7 +9,6 @@ namespace verp::hal {
 
 class ScriptedRangeFinder {
  public:
-  /// Makes a scan available; replaces one that was not read.
   void measure(const RangeScan& scan) {
     scan_ = scan;
     fetched_ = false;

@@ -16,7 +16,6 @@ inline constexpr BusProtocol kProtocol = BusProtocol::kCia402;
 inline constexpr unsigned kRobotInterrupts[] = {
     kCanPort.first_interrupt, kCanPort.first_interrupt + 1, kCanPort.first_interrupt + 2,
     kCanPort.first_interrupt + 3};
-/// A clock that cannot make the usual rate does not compile.
 static_assert(hal::stm32::bxcan_timing(kClockPlan, 1'000'000).bitrate == 1'000'000);
 
 template <class Io, class UsartKind, class Timer>

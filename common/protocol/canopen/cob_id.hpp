@@ -70,7 +70,6 @@ struct Connection {
   constexpr bool operator==(const Connection&) const = default;
 };
 
-/// The service of an 11-bit identifier in the default configuration.
 constexpr Connection connection_of(std::uint32_t id) {
   if (id == kNmtId) return {Service::kNmt};
   if (id == kSyncId) return {Service::kSync};

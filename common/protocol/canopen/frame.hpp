@@ -19,7 +19,6 @@ constexpr void put_le(std::uint8_t* to, std::uint64_t value, unsigned bytes) {
   for (unsigned i = 0; i < bytes; ++i) to[i] = static_cast<std::uint8_t>(value >> (8 * i));
 }
 
-/// A classic data frame of `size` (at most 8) zero bytes.
 constexpr Frame classic_frame(std::uint32_t id, std::uint8_t size) {
   Frame frame;
   frame.id = id;

@@ -89,7 +89,7 @@ inline void copy_heard(Inputs& to, const Inputs& from, bool imu) {
 
 class Parts {
  public:
-  /// Finds the parts of `now` that a listener lacks who knows `before` and hears the bus.
+  /// Finds the parts of `now` that a listener lacks if it knows `before` and hears the bus.
   void find(const Inputs& before, const Inputs& now, bool bus_imu) {
     Inputs heard = before;
     copy_heard(heard, now, bus_imu);

@@ -60,7 +60,6 @@ inline constexpr std::uint8_t kEffortTicks = 4;
 /// An SJA1000 stores 64 bytes; a classic frame of eight takes eleven.
 inline constexpr int kAnswersToOneSync = 5;
 
-/// Frames of IMU (gyro TPDO 1, accelerometer TPDO 2) and feet.
 constexpr int sensor_answers(const Params& params) {
   int frames = params.imu.device_id != 0 ? 2 : 0;
   for (const std::uint8_t id : params.feet.device_id) frames += id != 0 ? 1 : 0;
@@ -132,7 +131,6 @@ constexpr int members_of(const Shared& kind, const Params& params, int frame) {
 constexpr std::uint16_t shared_id(const Shared& kind, const Params& params, int frame) {
   return rpdo_id(kind.rpdo, params.joint[first_of(kind, frame)].servo_id);
 }
-/// The RPDO of `joint`'s drive, in frame joint / width.
 constexpr PdoMapping<> shared_mapping(const Shared& kind, const Params& params, int joint) {
   const int frame = joint / kind.width;
   PdoMapping<> mapping;

@@ -174,7 +174,6 @@ class BxCan {
     begun_ = stamp_us;
     begun_new_ = true;
   }
-  /// When the last accepted frame began, as far as known, by the timer.
   std::uint64_t last_begin_us(std::uint64_t time_us) {
     const Masked<Access> masked(io_);
     if (begun_new_) {

@@ -5,7 +5,6 @@
 #include "hal/chip/stm32/clock.hpp"
 #include "hal/chip/stm32/registers/can.hpp"
 
-/// Bit timing of bxCAN, computed and checked at compile time.
 namespace verp::hal::stm32 {
 
 /// CanTiming with a `prescaler` of 1 to 1024.

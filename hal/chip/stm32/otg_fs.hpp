@@ -154,7 +154,6 @@ class OtgFs {
     listen();
   }
 
-  /// Follows the host as it opens and closes the port.
   void follow_host() {
     const bool up = function_.opened() && !suspended_;
     if (up == up_) return;

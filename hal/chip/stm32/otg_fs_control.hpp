@@ -71,7 +71,6 @@ class OtgFsControl {
         return refuse();
     }
   }
-  /// Sends the next packet, or starts the host's status stage.
   void send_answer() {
     if (left_ == 0 && ended_) {
       stage_ = Stage::kStatusOut;

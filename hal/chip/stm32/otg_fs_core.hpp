@@ -61,7 +61,6 @@ class OtgFsCore {
     write(otg_fs::kGotgint, flags);
     return flags;
   }
-  /// Reads and clears the endpoint flags that the driver uses.
   std::uint32_t take_in(unsigned endpoint) {
     const std::uint32_t flags = read(otg_fs::diepint(endpoint)) & otg_fs::kDiepXfrc;
     if (flags != 0) write(otg_fs::diepint(endpoint), flags);

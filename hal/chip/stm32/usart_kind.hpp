@@ -4,7 +4,6 @@
 #include "hal/chip/stm32/io.hpp"
 #include "hal/chip/stm32/registers/usart.hpp"
 
-/// Differences between the two kinds of USART, and baud rates.
 namespace verp::hal::stm32 {
 
 /// Flags at the same place in SR and ISR.
