@@ -31,8 +31,8 @@ inline constexpr const char* kKeptFaultNames[] = {
     "none",    "truncated",     "no action library", "of another version",
     "damaged", "out of bounds", "for another robot"};
 
-/// The robot's name, each joint's name, place, axis and limits. Not gains, friction, zeros, tuning
-/// or bus.
+/// Covers the robot's name, each joint's name, place, axis and limits. Not gains, friction, zeros,
+/// tuning or bus.
 std::uint32_t robot_mark(const Params& params);
 
 KeptMark make_mark(const LibraryHeader& library, const Params& params);

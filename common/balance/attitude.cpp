@@ -56,8 +56,8 @@ void learn_bias(AttitudeState& state, const AttitudeIn& in) {
   state.still_s = math::min(state.still_s + in.period_s, kBestKnown_s);
 }
 
-// Linear in the acceleration: over a step its motion part averages to zero and its direction does
-// not.
+// The pull is linear in the acceleration: over a step its motion part averages to zero and its
+// direction does not.
 Vec3 follow(Xyz& up_body, const Vec3& rate_rad_s, const Vec3& accel_m_s2, float period_s,
             float mean_s) {
   Vec3 up = math::to_vec(up_body);

@@ -21,9 +21,9 @@ constexpr std::uint8_t kPatience = 10;       // ticks of silence bridged
 constexpr float kStanding_s = 0.1F;          // time constant to standstill after a longer silence
 constexpr float kMostVelocity_m_s = 10.0F, kMostAhead_m = 0.05F;
 
-// Standing, the mean of ground and accelerometer errs less than either, weighted by squared errors:
-// 0.3 degrees (an offset of 5 mg) and 0.5 (floors, joint zeros). More lean is the ground's: a ramp
-// or an edge.
+// On a standing robot the mean of ground and accelerometer errs less than either, weighted by
+// squared errors: 0.3 degrees (an offset of 5 mg) and 0.5 (floors, joint zeros). More lean is the
+// ground's: a ramp or an edge.
 constexpr float kOffset_rad = 0.005F, kGround_rad = 0.009F;
 constexpr float kShareOfGround =
     kOffset_rad * kOffset_rad / (kOffset_rad * kOffset_rad + kGround_rad * kGround_rad);

@@ -31,7 +31,8 @@ LegMotion follow(const Params& params, int side, const float* leg_rad, DriveStat
 
 namespace {
 
-// Rotor and gears. Friction changes sign smoothly: a joint near rest may turn either way.
+// Torque for rotor and gears. Friction changes sign smoothly: a joint near rest may turn either
+// way.
 float taken_nm(const BalanceTuning& tuning, const JointParams& joint, float load_nm, float rate,
                float accel) {
   constexpr float kSure_rad_s = 0.1F;

@@ -15,8 +15,8 @@ VERP_PACKED(LeanState);
 
 /// Tilt left uncorrected: accelerometer offset (25 mg), nearly level floors.
 inline constexpr float kLeftTilted_rad = 0.026F;
-/// For pitch. With its toes on a 1 cm edge generic21 tilts by 0.1 rad, which is no fall. 80 of 80
-/// get over the edge; with 0.06 3 of 80 fall (tuning seeds 1001-1080, 20 s).
+/// Pitch left uncorrected. With its toes on a 1 cm edge generic21 tilts by 0.1 rad, which is no
+/// fall. 80 of 80 get over the edge; with 0.06 3 of 80 fall (tuning seeds 1001-1080, 20 s).
 inline constexpr float kLeftPitched_rad = 0.08F;
 
 /// Once a tick while walking. Nose down is positive.

@@ -16,7 +16,7 @@ constexpr float kHurry = 0.135F;
 // Limits on a foot's offset and its speed, in hip heights over the ankles: generic21's 5 cm and 0.6
 // m/s.
 constexpr float kFarthest = 0.333F, kPace_per_s = 4.0F;
-// Near the ground feet do not move sideways: share of the swing.
+// Share of the swing at each end with less offset speed: near the ground feet do not move sideways.
 constexpr float kBegins = 1.0F / 6.0F;
 constexpr float kOver_m = 1e-5F;
 // A standing robot steps when the DCM is this far from the soles' middle, in half soles; at the
@@ -102,7 +102,8 @@ bool answers(const Tuning& tuning, const SteppingIn& in) {
   return may_step(tuning) && in.gait->queue[1].swing != gait::kBoth;
 }
 
-// Ahead or behind. Sideways two soles reach as far as a step could help.
+// True if the DCM leaves the soles ahead or behind. Sideways two soles reach as far as a step could
+// help.
 bool leaves_soles(const Params& params, const SteppingIn& in) {
   if (in.estimator->blind != 0) return false;
   const LegParams& leg = params.leg[gait::kLeft];

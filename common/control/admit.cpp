@@ -28,7 +28,8 @@ Vec3 in_body(const ImuParams& imu, const std::int16_t* count, float scale) {
   return scale * (body_imu * raw);
 }
 
-// At least one, so that ages grow. A tick that runs backwards counts as a long silence.
+// Periods since the last tick: at least one, so that ages grow. A tick that runs backwards counts
+// as a long silence.
 std::uint32_t count_periods(const Inputs& inputs, AdmitState& state) {
   const std::uint32_t periods = inputs.tick - state.tick;
   state.tick = inputs.tick;

@@ -6,11 +6,11 @@
 
 namespace verp {
 
-/// In a row, to alarm a servo. Each of 21 servos is read every 0.2 s: in half a second no glitch
-/// lasts and no hot servo cools.
+/// Bad readings in a row that alarm a servo. Each of 21 servos is read every 0.2 s: in half a
+/// second no glitch lasts and no hot servo cools.
 inline constexpr int kAlarmReadings = 3;
-/// In a row, of any servos, because they share the supply. 0.2 s at 10 ms outlasts a step's current
-/// peak. A single low servo has a bad cable and reports a hardware error.
+/// Low readings in a row, of any servos, because they share the supply. 0.2 s at 10 ms outlasts a
+/// step's current peak. A single low servo has a bad cable and reports a hardware error.
 inline constexpr std::uint8_t kSupplyReadings = 21;
 
 /// Equal fresh readings in a row that mean a frozen IMU. Noise moves an ICM-20648's counts by 1.5

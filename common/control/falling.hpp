@@ -11,8 +11,8 @@ inline constexpr std::int32_t kFallLasts_us = 700'000;
 /// The robot gets up after so long: it lies still, and the accelerometer gives its tilt.
 inline constexpr std::int32_t kLieStill_us = 1'000'000;
 
-/// Conditions of a fall and of getting up. Without the actions (common/action) it falls limp and
-/// stays down.
+/// Sets the conditions of a fall and of getting up. Without the actions (common/action) it falls
+/// limp and stays down.
 void watch_fall(const Params& params, const action::Library& actions, State& state,
                 const Inputs& inputs, const balance::AttitudeOut& attitude, AdmitOut& admitted);
 

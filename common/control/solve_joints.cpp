@@ -34,8 +34,8 @@ bool in_mid_step(const gait::GaitOut& plan) {
   return state >= 3 && state <= 6;
 }
 
-// One foot in the air, the other's pressure well inside its sole, exact undelayed angles. Without
-// sensors, mid-step.
+// True if one foot is in the air, the other's pressure is well inside its sole, and the angles are
+// exact and undelayed. Without sensors, mid-step.
 bool carries_flat(const Params& params, const State& state, const gait::GaitOut& plan,
                   const Inputs& inputs, int side, const kinematics::LegAngles& angles) {
   if (plan.swing == gait::kBoth || plan.swing == side || angles.flags != 0 ||

@@ -31,7 +31,7 @@ float period_s(const Params& params) {
   return static_cast<float>(params.period_us) * 1e-6F;
 }
 
-// Latched with its fault: a supply that sags under load recovers without it.
+// Power trouble is latched with its fault: a supply that sags under load recovers without it.
 bool power_bad(const State& state, const AdmitOut& admitted) {
   return (admitted.conditions & safety::kPowerBad) != 0 ||
          (state.machine.faults & safety::kPowerFaults) != 0;

@@ -9,7 +9,7 @@ void start(const Params& params, const Inputs& inputs, State& state);
 
 balance::AttitudeOut estimate(const Params& params, State& state, const AdmitOut& admitted);
 
-/// Body and centre of mass from the legs, by the last tick's plan.
+/// Locates body and centre of mass from the legs, by the last tick's plan.
 void locate(const Params& params, State& state, const Inputs& inputs, const AdmitOut& admitted);
 
 void watch_push(const Params& params, State& state, AdmitOut& admitted);

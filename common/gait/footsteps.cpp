@@ -7,8 +7,8 @@
 namespace verp::gait {
 namespace {
 
-// Between passing soles. Joint errors, slip and the swing's bend take up to 5 mm. At 3 mm one of
-// ten fast curves touched (tuning seeds 1001-1026).
+// Room between passing soles. Joint errors, slip and the swing's bend take up to 5 mm. At 3 mm one
+// of ten fast curves touched (tuning seeds 1001-1026).
 constexpr float kSoleClearance_m = 0.005F;
 // Outward shift of a turning foot: generic21 needs it for 0.4 rad a step.
 constexpr float kMostWider_m = 0.045F;

@@ -33,10 +33,10 @@ void all_poses(const Params& params, const Pose& body, const float* angle_rad, P
 
 Vec3 center_of_mass(const Params& params, const Pose& body, const float* angle_rad);
 
-/// From the rotation of the link that the joint moves.
+/// Joint axis from the rotation of the link that the joint moves.
 Vec3 joint_axis(const JointParams& joint, const Mat3& link_rotation);
 
-/// Six links, hip to ankle, in the frame of `body`, from the joints' sines if known
+/// Poses of six links, hip to ankle, in the frame of `body`, from the joints' sines if known
 /// (LegAngles::turn), else their angles.
 struct LegChain {
   Pose link[kLegJoints] = {Pose(math::Unset{}), Pose(math::Unset{}), Pose(math::Unset{}),

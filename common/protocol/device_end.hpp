@@ -12,7 +12,8 @@ struct ReadEntry {
   std::uint16_t address = 0;
   std::uint16_t length = 0;
 };
-/// In order of the answers. False if there is none, or the packet is malformed or of another kind.
+/// Entry `index`, in order of the answers. False if there is none, or the packet is malformed or of
+/// another kind.
 bool read_entry(const Packet& packet, std::size_t index, ReadEntry& entry);
 
 /// One device's part of a Sync or Bulk Write.

@@ -157,8 +157,8 @@ struct FastBlock {
   std::uint8_t id = 0;
   const std::uint8_t* data = nullptr;
 };
-/// At byte `offset`; false if the reply is too short. The next one is kFastBlockBytes + length
-/// further.
+/// The block at byte `offset`; false if the reply is too short. The next one is kFastBlockBytes +
+/// length further.
 bool fast_block_at(const Packet& reply, std::size_t offset, std::size_t length, FastBlock& block);
 /// Block `index` of `length` data bytes each; false if there is none.
 bool fast_block(const Packet& reply, std::size_t index, std::size_t length, FastBlock& block);

@@ -13,7 +13,7 @@ float inside(const JointParams& joint, float angle_rad) {
   return math::clamp(angle_rad, joint.lower_rad, joint.upper_rad);
 }
 
-// Minimum jerk peaks at 15/8 of its mean; the stand may move meanwhile.
+// Takes twice the mean speed: minimum jerk peaks at 15/8 of its mean; the stand may move meanwhile.
 std::uint16_t time_for_way(const Params& params, const LimitState& state, const LimitIn& in) {
   const bool sitting = in.mode == Mode::kSitting;
   float longest_s = sitting ? in.tuning->sit_s : in.tuning->rise_s;

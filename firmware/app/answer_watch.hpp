@@ -80,7 +80,7 @@ class AnswerWatch {
     fresh_ |= bit;
     return Answer::kFresh;
   }
-  /// Two answers of this tick differ: neither counts.
+  /// Two answers of this source in this tick differ: neither counts.
   void spoil(int source) {
     tardy_ticks_ = kTardyTicks;
     fresh_ &= ~node_bit(source);
@@ -114,8 +114,8 @@ class AnswerWatch {
     if (came * 2 > meant) return 0;
     return most(2, [&](int i) { return source_[i].came == window; });
   }
-  /// Most nodes planned for SYNC `window` answered in the previous tick, not in this. Two lost
-  /// answers may be coincidence.
+  /// True if most nodes planned for SYNC `window` answered in the previous tick, not in this. Two
+  /// lost answers may be coincidence.
   bool fell_silent(std::uint8_t window) const {
     return most(3, [&](int i) {
              return ((before_ & ~answered_) >> i & 1) != 0 && source_[i].planned == window;

@@ -62,8 +62,8 @@ class App {
     sink_.record(TickRecord{state_.digest, inputs_}, state_, outputs_);
   }
 
-  /// Whose counts become Inputs from the next tick on: the chip's or the bus device's. Ignored
-  /// while any servo holds torque or if one is missing.
+  /// Selects whose counts become Inputs from the next tick on: the chip's or the bus device's.
+  /// Ignored while any servo holds torque or if one is missing.
   void use_chip(bool yes) {
     if (chip_ != nullptr && params_.imu.device_id != 0 && outputs_.torque_enable == 0)
       from_chip_ = yes;
@@ -78,7 +78,8 @@ class App {
   const JointEffort* efforts() const { return servos_.efforts(); }
 
  private:
-  // On the pacing clock, else on bus time at the end of the first read. Missed periods are skipped.
+  // Counts ticks on the pacing clock, else on bus time at the end of the first read. Missed periods
+  // are skipped.
   void count_tick(const Beat& beat) {
     const std::uint64_t now_us = servos_.now_us();
     if (ticking_) {

@@ -10,7 +10,8 @@ namespace verp::app {
 
 inline constexpr std::uint16_t kImuCalibrationKey = 2;  ///< in the board's Store
 
-/// Corrects samples with the calibration in the board's Store, and can measure a new one.
+/// An Imu that corrects samples with the calibration in the board's Store, and can measure a new
+/// one.
 template <hal::Imu Chip, hal::Store Memory>
 class CalibratedImu {
  public:
@@ -41,7 +42,8 @@ class CalibratedImu {
   /// silent chip, or a loop that does not read it, must not measure for ever.
   static constexpr std::uint64_t kMost_us = 2 * ImuCalibrator::kSamples * std::uint64_t{20'000};
 
-  /// The robot must stand upright and still, torque off. The old calibration applies until the end.
+  /// Starts a measurement: the robot must stand upright and still, torque off. The old calibration
+  /// applies until the end.
   void measure(std::uint64_t now_us) {
     calibrator_.begin();
     state_ = State::kMeasuring;

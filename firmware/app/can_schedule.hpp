@@ -8,9 +8,10 @@
 /// Time of one tick at worst stuffing; the source of the loop's timeouts.
 namespace verp::app {
 
-/// From SYNC to a drive's answer: an allowance, not a measurement. A slower drive counts as silent.
+/// Time from SYNC to a drive's answer: an allowance, not a measurement. A slower drive counts as
+/// silent.
 inline constexpr std::uint32_t kReactionUs = 300;
-/// Before the last answer to a SYNC: one under way, an SDO answer, an EMCY.
+/// Frames that may precede the last answer to a SYNC: one under way, an SDO answer, an EMCY.
 inline constexpr std::uint32_t kForeignFrames = 3;
 
 /// Classic frames. Without a baud rate: the maximum.
@@ -21,7 +22,7 @@ constexpr std::uint32_t can_frames_us(std::uint8_t bytes, std::uint32_t frames,
   return static_cast<std::uint32_t>((std::uint64_t{bits.all()} * 1'000'000u + baud - 1) / baud);
 }
 
-/// Until the SYNC's group has answered. Drives may extend answers to eight bytes.
+/// From a SYNC until its group has answered. Drives may extend answers to eight bytes.
 constexpr std::uint32_t window_us(const Params& params, std::uint8_t group) {
   std::uint32_t answers = group == canopen::plan::sync_groups(params)
                               ? static_cast<std::uint32_t>(canopen::plan::sensor_answers(params))

@@ -108,8 +108,8 @@ class CanopenServos {
   static constexpr std::uint16_t kLongSilence = 5000;  ///< ticks; the count stops here
   static_assert(most_sent(kMaxJoints) <= hal::kCanQueue);
 
-  // Frames after the last tick are too old. Waiting frames cost no time; those that arrive while
-  // ours wait for the wire do.
+  // Drops stale frames: those after the last tick. Waiting frames cost no time; those
+  // that arrive while ours wait for the wire do.
   void forget_stale(Inputs& inputs) {
     window_ = 0;
     CanFrame frame;

@@ -26,7 +26,7 @@ namespace verp::app {
 ///  - now_us(): bus time, as read_positions() ended.
 ///  - counters(), damaged(), noise(): so far. damaged: packets or frames in pieces; noise: bytes or
 ///    frames that came to nothing.
-///  - efforts(): of kMaxJoints joints, from time to time; null if the protocol has none.
+///  - efforts(): of kMaxJoints joints, from time to time; null if the protocol lacks them.
 /// A lost, late or foreign answer never blocks a tick beyond its timeout and never counts as an
 /// answer. No call allocates.
 template <class Servos>

@@ -91,8 +91,8 @@ class DeviceWatch {
   /// True if a servo repeats one position although its goal has left it: an old value is repeated,
   /// or the joint is stuck.
   bool stands_still(int j, const Inputs& inputs, const Outputs& outputs) {
-    // Servo lag and start from rest, ticks. Measured: a knee that was to step 3.7 degrees in 3
-    // ticks moved one tick later.
+    // Ticks for servo lag and the start from rest. Measured: a knee that was to step 3.7 degrees in
+    // 3 ticks moved one tick later.
     constexpr std::uint8_t kPatience = 4;
     constexpr float kAway_rad = 0.0614F;  // 3.5 degrees: more than sag and backlash
     Still& still = still_[j];

@@ -21,8 +21,8 @@ class DriveTelemetry {
 
   NodeMask asked() const { return asked_ < 0 ? 0 : node_bit(asked_); }
 
-  /// False: none. Skips drives in `busy`: each answer also proves that the bus is prompt. `missed`:
-  /// the last request had no answer.
+  /// The next request; false: there is no request. Skips drives in `busy`: each answer also proves
+  /// that the bus is prompt. `missed`: the last request had no answer.
   bool next(CanFrame& frame, NodeMask busy, bool& missed) {
     missed = asked_ >= 0;
     if (missed || !more_ || is_in(busy, joint_)) choose(busy);

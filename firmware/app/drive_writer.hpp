@@ -10,10 +10,10 @@
 
 namespace verp::app {
 
-/// Goals, controlwords and strengths in shared RPDOs. RPDOs have no reply, so a changed frame is
-/// sent in kRepeats ticks, and one other frame in turn each tick. Controlwords follow each drive's
-/// statusword, so a lost one costs a tick. Strength is Max torque, in thousandths of the rated
-/// torque.
+/// The tick's second half on CAN: goals, controlwords and strengths in shared RPDOs. RPDOs have no
+/// reply, so a changed frame is sent in kRepeats ticks, and one other frame in turn each tick.
+/// Controlwords follow each drive's statusword, so a lost one costs a tick. Strength is Max torque,
+/// in thousandths of the rated torque.
 template <hal::CanBus Bus>
 class DriveWriter : public JointStrength {
  public:
@@ -32,7 +32,7 @@ class DriveWriter : public JointStrength {
 
   /// Sends goals from the first tick that wants torque; torque from the third at the earliest, for
   /// all drives together once all are switched on. `doubted` drives get no more torque than they
-  /// have; `limp` ones have none.
+  /// have; `limp` ones have no torque.
   void send(CanMaster<Bus>& master, const Outputs& outputs, std::uint32_t doubted,
             std::uint32_t limp) {
     const std::uint32_t wanted = outputs.torque_enable & all_joints(params_);

@@ -55,7 +55,7 @@ class LinkBus {
  private:
   static constexpr std::uint64_t kPush_us = 1000;
 
-  // The rest of a frame that a loss cut in two would be noise.
+  // Drops the rest of a frame that a loss cut in two: it would be noise.
   void push() {
     if (left_ == 0) return;
     const std::size_t count = link_.write(outbox_ + sent_, left_, 0);

@@ -20,7 +20,7 @@ struct Setting {
   bool optional = false;  ///< a node may lack the object
 };
 
-/// One setting of a list that is generated in order.
+/// Picks one setting of a list that is generated in order.
 class SettingList {
  public:
   SettingList(const Params& params, int slot, int wanted)

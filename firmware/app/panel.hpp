@@ -59,11 +59,13 @@ class WithPanel {
     }
     return order;
   }
-  /// In the last order, by panel or link. False for a stop that reads released but is not settled.
+  /// True if panel or link held a stop pressed in the last order. False for a stop that reads
+  /// released but is not settled.
   bool pressed() const { return pressed_; }
 
  private:
-  /// Second reading: one may be a spark. It ends after a quarter of a second at 8 ms.
+  /// A stop counts at the second reading, because one may be a spark. It ends after a quarter of a
+  /// second at 8 ms.
   static constexpr std::uint8_t kPressed = 2, kReleased = 32, kButton = 4;
 
   Link& link_;

@@ -31,7 +31,8 @@ class RemoteBus {
  public:
   RemoteBus(In& in, Out& out) : in_(in), out_(out) {}
 
-  /// Params, actions and the run's settings. False: refused, link lost, or no room for the actions.
+  /// Fetches Params, actions and the run's settings. False: refused, link lost, or no room for the
+  /// actions.
   bool hello(Params& params, ActionRoom* actions = nullptr) {
     append(link::Kind::kHello, link::Hello{.params_size = sizeof(Params),
                                            .record_size = sizeof(TickRecord),

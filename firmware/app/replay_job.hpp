@@ -42,7 +42,7 @@ concept ByteStream = requires(Stream& stream, void* to, const void* from, std::s
 
 enum class ReplayResult : std::uint8_t { kDone, kBadJob, kLinkLost };
 
-/// Too big for a microcontroller's stack. A bigger Block gives fewer transfers.
+/// A replay's memory, too big for a microcontroller's stack. A bigger Block gives fewer transfers.
 template <int Block>
 class Replay {
  public:

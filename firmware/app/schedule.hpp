@@ -51,8 +51,8 @@ constexpr bool all_fast(const Params& params) {
   return params.servo_count() > 0;
 }
 
-/// While torque is on: servos hold by themselves a little after the controller would have begun to
-/// lower the robot.
+/// Bus Watchdog setting while torque is on: servos hold by themselves a little after the controller
+/// would have begun to lower the robot.
 inline std::uint8_t bus_watchdog_units(const Params& params) {
   constexpr float kLater_s = 0.1F;
   constexpr float kUnit_s = 1e-6F * static_cast<float>(dxl::kBusWatchdogUnit_us);
@@ -96,8 +96,8 @@ constexpr std::size_t schedule_bytes(const Params& params) {
          sync_write_bytes(joints, 4) + (told_to_all > told_to_some ? told_to_all : told_to_some);
 }
 
-/// Reply slack included. Above 80 % of the period no retry fits: such a robot is refused
-/// (host/robot/model/bus_time.hpp).
+/// Time of that tick on the wire, reply slack included. Above 80 % of the period no retry fits:
+/// such a robot is refused (host/robot/model/bus_time.hpp).
 constexpr std::uint32_t schedule_us(const Params& params) {
   const std::size_t replies =
       (all_fast(params) ? 1u : params.servo_count()) + sensor_devices(params) + 1;

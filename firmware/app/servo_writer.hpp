@@ -95,7 +95,8 @@ class ServoWriter : public JointStrength {
     master.send(encoder.finish());
   }
 
-  // Joints first_ to last_, except `left_out`: `value` where torque is on, else 0.
+  // Writes a register of joints first_ to last_, except `left_out`: `value` where torque is on,
+  // else 0.
   void send_to(BusMaster<Bus>& master, std::uint16_t address, std::uint8_t value,
                std::uint32_t left_out = 0) {
     dxl::Encoder encoder(master.frame(), master.capacity());

@@ -15,7 +15,7 @@ class StandingOrder {
  public:
   StandingOrder(const Params& params, RegisterImage& image) : params_(params), image_(image) {}
 
-  /// After each start, also by the watchdog, relax comes first.
+  /// After each start, also by the watchdog, the first request must be to relax.
   bool takes(Request request) const { return relaxed_once_ || request == Request::kRelax; }
   /// A request that takes() accepted was written.
   void requested() {

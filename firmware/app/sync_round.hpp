@@ -22,7 +22,8 @@ class SyncRound {
 
   /// Begins a tick with SYNC 1.
   void begin() { again_ = false; }
-  /// More than `groups`: the tick's are done. `quiet`: the window ended on time with the bus free.
+  /// The SYNC after `window`; more than `groups`: the tick's are done. `quiet`: the window ended on
+  /// time with the bus free.
   std::uint8_t after(std::uint8_t window, AnswerWatch& answers, bool quiet) {
     const auto next = static_cast<std::uint8_t>(window + 1);
     if (!quiet) return next;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Implemented in firmware/boot/<family>, whose entry sets the stack pointer and calls
-/// verp_reset().
+/// Functions that each family implements in firmware/boot/<family>, whose entry sets the stack
+/// pointer and calls verp_reset().
 namespace verp::boot {
 
 /// Called first: enables float instructions and routes faults to verp_fault().

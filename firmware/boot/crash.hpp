@@ -19,7 +19,7 @@ struct CrashRecord {
 /// Call once a tick, for the crash record.
 void note_tick(std::uint32_t tick);
 void keep_crash(const FaultReport& report);
-/// Once after a start. False: no crash, or power was lost. Returns a record once.
+/// Call once after a start. False: no crash, or power was lost. Returns a record once.
 bool take_crash(CrashRecord& record);
 /// Resets the crash count: this run is healthy.
 void forget_crashes();

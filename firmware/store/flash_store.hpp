@@ -24,8 +24,8 @@ class FlashStore {
  public:
   explicit FlashStore(Flash& flash) : page_{Page<Flash>(flash, 0), Page<Flash>(flash, 1)} {}
 
-  /// First, once. Settles a power cut, which may program a record; erases nothing. Pages without a
-  /// log are an empty store.
+  /// Call first, once. Settles a power cut, which may program a record; erases nothing. Pages
+  /// without a log are an empty store.
   void open() {
     const PageHeader header[2] = {page_[0].header(), page_[1].header()};
     const bool valid[2] = {is_valid(header[0]), is_valid(header[1])};

@@ -91,11 +91,11 @@ class Page {
     constexpr std::uint8_t kZeros[kSlot] = {};
     return program(offset, kZeros);
   }
-  /// Backwards: a cut leaves no header of a half-erased record.
+  /// Goes backwards, so that a cut leaves no header of a half-erased record.
   void make_void(std::size_t from, std::size_t to) const {
     while (to > from) make_void(to -= kSlot);
   }
-  /// Programs again: a cut slot keeps what it reads now.
+  /// Programs the contents again: a cut slot keeps what it reads now.
   bool make_firm(std::size_t offset) const {
     std::uint8_t slot[kSlot] = {};
     read(offset, slot, kSlot);

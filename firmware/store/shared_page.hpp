@@ -111,7 +111,8 @@ class WaitingRoom {
     wanted_ = page_state_ == PageState::kUsed;
   }
   bool ready() const { return !wanted_; }
-  /// In any order, repeats allowed. False: the memory failed, or the log took the page.
+  /// Writes a block, in any order, repeats allowed. False: the memory failed, or the log took the
+  /// page.
   bool write(std::size_t offset, const std::uint8_t* from, std::size_t count) {
     const bool erased = page_state_ != PageState::kBad;
     page_state_ = PageState::kUsed;

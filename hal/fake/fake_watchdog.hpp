@@ -3,7 +3,7 @@
 
 #include "hal/contract/watchdog.hpp"
 
-/// Time passes by advance(); the test sets the oscillator's speed.
+/// A Watchdog whose time passes by advance(); the test sets the oscillator's speed.
 namespace verp::hal {
 
 class FakeWatchdog {

@@ -3,7 +3,7 @@
 
 #include "hal/contract/tick_source.hpp"
 
-/// Time passes only in wait() and advance().
+/// A TickSource whose time passes only in wait() and advance().
 namespace verp::hal {
 
 class ManualClock {

@@ -4,7 +4,7 @@
 
 #include "hal/contract/store.hpp"
 
-/// Volatile: for boards without spare flash and for tests.
+/// A volatile Store, for boards without spare flash and for tests.
 namespace verp::hal {
 
 class MemoryStore {

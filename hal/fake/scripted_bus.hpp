@@ -4,8 +4,8 @@
 
 #include "hal/contract/frame_bus.hpp"
 
-/// Plays a script: each exchange names the expected frame, the reply and its delay. Also runs on a
-/// microcontroller. Frames take no time.
+/// A FrameBus that plays a script: each exchange names the expected frame, the reply and its delay.
+/// Also runs on a microcontroller. Frames take no time.
 namespace verp::hal {
 
 class ScriptedBus {

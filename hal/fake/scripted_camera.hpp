@@ -4,7 +4,8 @@
 
 #include "hal/contract/camera.hpp"
 
-/// Plays a script of pictures and faults. The script owns the bytes, as long as the contract says.
+/// A Camera that plays a script of pictures and faults. The script owns the bytes, as long as the
+/// contract says.
 namespace verp::hal {
 
 class ScriptedCamera {

@@ -4,8 +4,8 @@
 
 #include "hal/contract/can_bus.hpp"
 
-/// Plays a script of expected frames and timed answers. Also runs on a microcontroller. Frames take
-/// no time: an accepted frame has left, unless the bus is held.
+/// A CanBus that plays a script of expected frames and timed answers. Also runs on a
+/// microcontroller. Frames take no time: an accepted frame has left, unless the bus is held.
 namespace verp::hal {
 
 class ScriptedCan {

@@ -4,7 +4,7 @@
 
 #include "hal/contract/imu.hpp"
 
-/// Plays a script of samples and faults.
+/// An Imu that plays a script of samples and faults.
 namespace verp::hal {
 
 class ScriptedImu {

@@ -4,7 +4,7 @@
 
 #include "hal/contract/range_finder.hpp"
 
-/// Plays a script of scans and faults.
+/// A RangeFinder that plays a script of scans and faults.
 namespace verp::hal {
 
 class ScriptedRangeFinder {

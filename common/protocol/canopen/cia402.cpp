@@ -10,7 +10,8 @@ struct Row {
   State next;
 };
 
-// Without 13, from every state, and 12 and 16, which depend on the quick stop option code.
+// CiA 402's transitions without 13, from every state, and 12 and 16, which depend on the quick stop
+// option code.
 constexpr Row kRows[] = {
     {1, State::kNotReady, Trigger::kInitialised, State::kSwitchOnDisabled},
     {2, State::kSwitchOnDisabled, Trigger::kShutdown, State::kReadyToSwitchOn},

@@ -25,7 +25,7 @@ inline constexpr std::uint8_t kFrameBytes = 8;
 inline constexpr std::uint16_t kInputsMask = 0x00FF;
 inline constexpr std::uint16_t kImuInParts = 1 << 8;  ///< IMU counts are not from the bus
 inline constexpr int kPartsShift = 12;                ///< number of parts, from here
-/// In a tick. With more, none are sent, and the listener must ask for them.
+/// Most parts in a tick. With more, none are sent, and the listener must ask for them.
 inline constexpr int kMostParts = 6;
 inline constexpr unsigned kTooManyParts = 15;
 
@@ -64,7 +64,7 @@ struct Part {
 };
 static_assert(sizeof(Part) == kFrameBytes);
 
-/// The part that frames of record, drives and sensors carry. `imu`: on the bus.
+/// Copies the part that frames of record, drives and sensors carry. `imu`: on the bus.
 inline void copy_heard(Inputs& to, const Inputs& from, bool imu) {
   to.tick = from.tick;
   to.fresh = from.fresh;

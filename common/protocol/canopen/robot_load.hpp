@@ -76,7 +76,7 @@ class TickLoad {
   LoadFormat format_;
 };
 
-/// A steady tick. Above it nothing can be repeated, so the robot is refused.
+/// Most load of a steady tick. Above it nothing can be repeated, so the robot is refused.
 inline constexpr std::uint32_t kMostLoadPermille = 800;
 /// A tick in which all drives change state must end before the next.
 inline constexpr std::uint32_t kMostChangePermille = 1000;

@@ -6,8 +6,8 @@
 
 namespace verp::canopen::sdo {
 
-/// A server's object. Small ones pass through a buffer, so they are read and written whole; large
-/// ones go in pieces.
+/// The object of a server's transfer. Small ones pass through a buffer, so they are read and
+/// written whole; large ones go in pieces.
 template <Dictionary D, std::size_t kBuffer>
 class OpenObject {
   static_assert(kBuffer >= 8, "numbers go whole");

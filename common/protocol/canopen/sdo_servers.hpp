@@ -6,8 +6,8 @@
 
 namespace verp::canopen {
 
-/// The default channel and `kFurther` more (1201h and on), one client each. They take turns in
-/// sending.
+/// Servers of the default channel and `kFurther` more (1201h and on), one client each. They take
+/// turns in sending.
 template <Dictionary D, std::size_t kFurther>
 class SdoServers {
  public:

@@ -65,7 +65,8 @@ bool guard_stack() {
 
 }  // namespace verp::boot
 
-// ARMv7-M ARM, B1.5.3. A board's interrupt table follows in section .vectors.interrupts.
+// The table of ARMv7-M ARM, B1.5.3. A board's interrupt table follows in section
+// .vectors.interrupts.
 extern const Vector verp_vectors[16];
 __attribute__((section(".vectors"), used)) const Vector verp_vectors[16] = {
     {.stack = verp_stack_top},      // initial stack

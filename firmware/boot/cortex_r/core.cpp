@@ -102,7 +102,7 @@ constexpr std::uint32_t kNoAccess = 0;
 constexpr std::uint32_t kReadOnly = 5u << 8 | 1u << 3 | 3u;
 constexpr std::uint32_t kGuardBytes = 32;
 
-/// One region (B6.1.86, .27, .28, .26): a power of two of at least 32 bytes.
+/// Sets one MPU region (B6.1.86, .27, .28, .26): a power of two of at least 32 bytes.
 void set_region(std::uint32_t number, std::uint32_t begin, std::uint32_t bytes,
                 std::uint32_t access) {
   const auto size = static_cast<std::uint32_t>(__builtin_ctz(bytes)) - 1;

@@ -14,7 +14,7 @@ extern std::uint32_t verp_code_begin[];
 extern std::uint32_t verp_code_bytes[];  ///< the address is the value
 }
 
-/// At the lowest code address. The C library's errno needs `tp`.
+/// The core's entry, at the lowest code address. The C library's errno needs `tp`.
 extern "C" __attribute__((naked, section(".vectors"), used)) void verp_entry() {
   __asm__ volatile(
       ".option push\n .option arch, +zicsr\n"
@@ -47,7 +47,7 @@ namespace {
 // pmpcfg0: four entries, a byte each.
 constexpr std::uint32_t kRead = 1, kExecute = 4, kPowerOfTwo = 3u << 3, kLocked = 1u << 7;
 
-/// A naturally aligned power of two of at least 8 bytes.
+/// pmpaddr of a naturally aligned power of two of at least 8 bytes.
 constexpr std::uint32_t region(std::uint32_t begin, std::uint32_t bytes) {
   return begin >> 2 | (bytes / 8 - 1);
 }

@@ -49,7 +49,7 @@ class MotionSensor {
   enum class Phase : std::uint8_t { kSearch, kResetting, kStarting, kRunning };
   /// Longest time after DEVICE_RESET (both data sheets, "start-up time for register read/write").
   static constexpr std::uint64_t kReset_us = 100'000;
-  /// Sleep to valid rates: 35 ms typical (both data sheets), plus the filter.
+  /// From sleep to valid rates: 35 ms typical (both data sheets), plus the filter.
   static constexpr std::uint64_t kStart_us = 50'000;
   /// Fifty sample periods: the chip has stopped.
   static constexpr std::uint64_t kSilence_us = 100'000;
@@ -167,7 +167,7 @@ class MotionSensor {
     return static_cast<std::int16_t>(static_cast<std::uint16_t>(data[0] << 8 | data[1]));
   }
 
-  // The clock that both kinds accept, until the chip is known.
+  // Until the chip is known, uses the clock that both kinds accept.
   std::uint32_t registers_hz() const {
     return phase_ == Phase::kSearch ? kMpu9250.registers_hz : kind_->registers_hz;
   }

@@ -6,7 +6,7 @@
 namespace verp::hal::invensense {
 
 namespace detail {
-/// Within 2 % of `wanted`; `steps` double from `finest`; -1: none.
+/// The step within 2 % of `wanted`, of `steps` that double from `finest`; -1: none.
 constexpr int nearest_step(float wanted, float finest, int steps) {
   float step = finest;
   for (int i = 0; i < steps; ++i, step *= 2.0F) {

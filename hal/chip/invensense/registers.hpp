@@ -20,7 +20,7 @@ struct Ranges {
   std::uint8_t accel = 1;  ///< 2, 4, 8, 16 g
 };
 
-/// `range` and `range_shift`: the range to add, and its bit.
+/// One register to write. `range` and `range_shift`: the range to add, and its bit.
 struct Setting {
   enum Range : std::uint8_t { kNone, kGyro, kAccel };
   std::uint8_t bank = 0;

@@ -21,9 +21,9 @@ class File {
   bool is_open() const { return handle_ >= 0; }
   /// Waits for at least one byte. 0: the far end closed.
   std::size_t read_some(void* data, std::size_t capacity);
-  /// Waits for all. False: the far end closed or the file ended.
+  /// Waits for all bytes. False: the far end closed or the file ended.
   bool read(void* data, std::size_t size);
-  /// Waits until all have gone. False: the far end closed.
+  /// Waits until all bytes have gone. False: the far end closed.
   bool write(const void* data, std::size_t size);
 
  private:

@@ -107,7 +107,7 @@ class BxCan {
   std::uint32_t stuck() const { return stuck_; }
 
  private:
-  // At the end of the frame on the wire: 160 bits at 10 kbit/s take 16 ms.
+  // A request takes effect at the end of the frame on the wire: 160 bits at 10 kbit/s take 16 ms.
   static constexpr std::uint64_t kInitialise_us = 20'000;
   static constexpr std::uint64_t kIdle_us = 2000;
   static constexpr int kReleasePolls = 100;  // a few bus clocks

@@ -102,8 +102,8 @@ class ClockTree {
            set_wait_states() && switch_to(rcc::kClockPll);
   }
 
-  // In this order while the PLL settles (RM0385 4.1.4, RM0390 5.1.4). A reset sets the regulator's
-  // highest scale.
+  // Overdrive must be entered in this order while the PLL settles (RM0385 4.1.4, RM0390 5.1.4). A
+  // reset sets the regulator's highest scale.
   bool overdrive() {
     if (plan_.sysclk_hz <= limits(family_).sysclk_max_hz) return true;
     enable_clock(io_, rcc::kApb1enr, rcc::kApb1Pwr);
@@ -138,7 +138,7 @@ class ClockTree {
   // A crystal that fails later raises the NMI: the fault handler and a reset.
   void watch_crystal() { modify32(io_, at(rcc::kCr), 0, rcc::kCrCsson); }
 
-  // F4: flash caches. F7: its prefetch and ART serve a bus that we don't use.
+  // F4: enables the flash caches. F7: its prefetch and ART serve a bus that we don't use.
   void prepare_flash() {
     if (family_ == Family::kF746) return;
     modify32(io_, base::kFlash + flash::kAcr, 0,

@@ -209,8 +209,8 @@ class OtgFsCore {
   static constexpr std::uint32_t kSetups = 3u << otg_fs::kDoeptsizStupcntShift;
   static constexpr std::uint32_t kSetupBytes = 3 * 8;
 
-  // In words. Reception needs (RM0385 37.13, RxFIFO): 10 for requests, two packets with their
-  // status, a word for each transfer's end, one for the global NAK. The rest is reserve.
+  // FIFO memory in words. Reception needs (RM0385 37.13, RxFIFO): 10 for requests, two packets with
+  // their status, a word for each transfer's end, one for the global NAK. The rest is reserve.
   static constexpr std::uint32_t kReceiveWords = 128;
   static constexpr std::uint32_t kSendWords[kEndpoints] = {16, 64, 16};
   static_assert(kReceiveWords >= 10 + 2 * (kPacket / 4 + 1) + 2 * kOutEndpoints + 1);

@@ -48,8 +48,8 @@ class SpiMaster {
     gpio_.alternate(wiring_.data_out, wiring_.function);
   }
 
-  /// At the highest clock up to max_hz. False: `in` is invalid. Takes at most twice the bytes' time
-  /// plus kSlack_us.
+  /// Exchanges `size` bytes at the highest clock up to max_hz. False: it failed and `in` is
+  /// invalid. Takes at most twice the bytes' time plus kSlack_us.
   bool exchange(const std::uint8_t* out, std::uint8_t* in, std::size_t size, std::uint32_t max_hz) {
     if (!clean()) restart();
     const std::uint32_t clock_hz = set_clock(max_hz);

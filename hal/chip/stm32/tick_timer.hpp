@@ -64,8 +64,8 @@ class TickTimer {
     return io_.read32(base_ + timer::kCnt) - static_cast<std::uint32_t>(origin_us_);
   }
 
-  /// Until the next interrupt or deadline_us, unless `ready()`. Interrupts are masked while it
-  /// asks, so no event slips in before the sleep.
+  /// Sleeps until the next interrupt or deadline_us, unless `ready()`. Interrupts are masked while
+  /// it asks, so no event slips in before the sleep.
   template <class Ready>
   void doze_until(std::uint64_t deadline_us, Ready&& ready) {
     const Masked<Access> masked(io_);

@@ -159,7 +159,7 @@ class Usart {
     if (received_ - taken_ + 1 == kRing) clear_bits(Kind::kCr1, usart_v1::kCr1Rxneie);
     ring_[received_++ % kRing] = static_cast<std::uint8_t>(read(Kind::kReceive));
   }
-  /// Bytes that the DMA stored. Its interrupts call this at least twice per ring turn.
+  /// Counts the bytes that the DMA stored. Its interrupts call this at least twice per ring turn.
   void track() {
     if (!by_dma_) return;
     const std::uint32_t left = io_.read32(stream(dma::kNdtr)) & 0xFFFF;

@@ -32,8 +32,8 @@ class IndependentWatchdog {
   }
   bool caused_reset() const { return cause_ == ResetCause::kWatchdog; }
 
-  /// For an operation that stops the processor for seconds, such as a flash erase; relax() restores
-  /// start()'s timeout. Does nothing before start().
+  /// Sets the longest timeout for an operation that stops the processor for seconds, such as a
+  /// flash erase; relax() restores start()'s timeout. Does nothing before start().
   void stretch() {
     if (armed_ && set({iwdg::kPrMax, iwdg::kRlrMax})) feed();
   }
@@ -52,7 +52,8 @@ class IndependentWatchdog {
 
   static std::uint32_t at(std::uint32_t offset) { return base::kIwdg + offset; }
 
-  /// Waits at least timeout_us on the fastest oscillator. The first count may be short.
+  /// The finest setting that waits at least timeout_us on the fastest oscillator. The first count
+  /// may be short.
   static bool choose(std::uint32_t timeout_us, Setting& setting) {
     if (timeout_us == 0) return false;
     for (std::uint32_t prescaler = 0; prescaler <= iwdg::kPrMax; ++prescaler) {

@@ -43,8 +43,8 @@ class ZynqmpCan {
     return can_timing(clock_hz, bit_rate_hz, kMostPrescaler);
   }
 
-  /// Joins the bus. False: no controller, or the timing is impossible. `bit_rate_hz` determines how
-  /// long a bus-off lasts.
+  /// Resets the controller and joins the bus. False: no controller, or the timing is impossible.
+  /// `bit_rate_hz` determines how long a bus-off lasts.
   bool open(const CanTiming& timing, std::uint32_t bit_rate_hz) {
     if (!timing.possible() || bit_rate_hz == 0) return false;
     timing_ = timing;

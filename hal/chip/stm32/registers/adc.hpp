@@ -1,7 +1,7 @@
 #pragma once
 #include "hal/chip/stm32/registers/bits.hpp"
 
-/// The same in all three families.
+/// ADCs, the same in all three families.
 namespace verp::hal::stm32::adc {
 
 inline constexpr std::uint32_t kSr = 0x00, kCr1 = 0x04, kCr2 = 0x08, kSmpr1 = 0x0C, kSmpr2 = 0x10,

@@ -1,7 +1,7 @@
 #pragma once
 #include "hal/chip/stm32/registers/bits.hpp"
 
-/// The same in all three families. CAN1 also holds CAN2's filters.
+/// bxCAN, the same in all three families. CAN1 also holds CAN2's filters.
 namespace verp::hal::stm32::can {
 
 inline constexpr std::uint32_t kMcr = 0x00, kMsr = 0x04, kTsr = 0x08, kRf0r = 0x0C, kRf1r = 0x10,

@@ -1,7 +1,7 @@
 #pragma once
 #include "hal/chip/stm32/registers/bits.hpp"
 
-/// 8 streams each, the same in all three families.
+/// DMA1 and DMA2: 8 streams each, the same in all three families.
 namespace verp::hal::stm32::dma {
 
 inline constexpr std::uint32_t kLisr = 0x00, kHisr = 0x04, kLifcr = 0x08, kHifcr = 0x0C;
@@ -21,7 +21,8 @@ inline constexpr unsigned kCrChselShift = 25;
 inline constexpr std::uint32_t kFcrFth = bits(0, 2), kFcrDmdis = bit(2), kFcrFs = bits(3, 3),
                                kFcrFeie = bit(7);
 
-/// In LISR (streams 0 to 3) or HISR (4 to 7), cleared in LIFCR or HIFCR; shift by flag_shift().
+/// A stream's flags in LISR (streams 0 to 3) or HISR (4 to 7), cleared in LIFCR or HIFCR; shift by
+/// flag_shift().
 inline constexpr std::uint32_t kFlagFe = bit(0), kFlagDme = bit(2), kFlagTe = bit(3),
                                kFlagHt = bit(4), kFlagTc = bit(5),
                                kFlagAll = kFlagFe | kFlagDme | kFlagTe | kFlagHt | kFlagTc;
