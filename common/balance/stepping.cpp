@@ -10,8 +10,8 @@ using gait::Xy;
 // DCM errors left to the ankles, in half soles. generic21 at 4 cm in 450 ms, tuning seed 1001,
 // pushed at 16 phases from four sides.
 constexpr float kAnkles_x = 0.29F, kAnkles_y = 0.36F;
-// Hurried servos lag, and stepping after the lag hurries them more. Hip heights over the ankles,
-// per unit of haste, also left to the ankles.
+// Hurried servos lag, and stepping after the lag hurries them more. This many hip heights, per unit
+// of haste, are left to the ankles too.
 constexpr float kHurry = 0.135F;
 // Limits on a foot's offset and its speed, in hip heights over the ankles: generic21's 5 cm and 0.6
 // m/s.
