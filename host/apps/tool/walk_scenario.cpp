@@ -44,8 +44,8 @@ scenario::Robot robot_of(const WalkOptions& options) {
 
 namespace {
 
-/// Throws ToolError with the known ones.
-void check_board(const std::string& board) {
+/// Throws ToolError with the known ones. `where` gave it.
+void check_board(const std::string& board, const std::string& where) {
   if (board.empty()) return;
   std::string names;
   for (const flash::Recipe& each : flash::recipes()) {
@@ -53,11 +53,10 @@ void check_board(const std::string& board) {
     if (board == each.board) return;
     names += (names.empty() ? "" : ", ") + std::string(each.board);
   }
-  throw cli::ToolError(
-      cli::kBadInput,
-      fmt::format("verp walk: --on {}: no emulated board that takes its twin from here; "
-                  "give one of: {}; others walk in `./verp test --on BOARD`",
-                  board, names));
+  throw cli::ToolError(cli::kBadInput,
+                       fmt::format("{} {}: no emulated board that takes its twin from here; "
+                                   "give one of: {}; others walk in `./verp test --on BOARD`",
+                                   where, board, names));
 }
 
 /// For a wrong name of a disturbance.
@@ -186,9 +185,17 @@ Scenario scenario_of(const WalkOptions& options, const sim::WorldOptions& world)
 
 scenario::Expanded expand(const WalkOptions& options, const Scenario& scenario,
                           const sim::WorldOptions& world) {
-  for (const scenario::Robot& robot : scenario.robots) check_board(robot.controller.board);
+  const std::string& file = options.scenario_file;
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
+    check_board(scenario.robots[i].controller.board,
+                file.empty() ? "verp walk: --on"
+                             : fmt::format("{}: robots[{}].controller.board:", file, i));
+  }
   try {
     return scenario::expand(scenario, world);
+  } catch (const model::LoadError& error) {
+    if (file.empty()) throw;
+    throw cli::ToolError(cli::kBadInput, fmt::format("{}: {}", file, error.what()));
   } catch (const scenario::ScenarioError& error) {
     throw cli::ToolError(cli::kBadInput, in_words(options, scenario, error));
   }

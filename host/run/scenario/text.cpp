@@ -2,13 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
 #include "common/model/tuning_ranges.hpp"
 #include "host/os/files/whole.hpp"
+#include "host/robot/model/find.hpp"
 #include "host/robot/model/load_error.hpp"
+#include "host/robot/model/load_world.hpp"
 #include "host/robot/model/params.hpp"
 
 namespace verp::scenario {
@@ -24,6 +30,8 @@ constexpr std::pair<const char*, sim::Lies> kStarts[] = {
 struct Limits {
   double low, high;
 };
+constexpr std::uint64_t kMostSeed = 4294967295;
+constexpr std::size_t kMostRobots = 16;
 constexpr Limits kAny{-1e12, 1e12}, kPlace{-1000, 1000}, kSpeed{-2, 2}, kTurn{-6.3, 6.3};
 
 class Writer {
@@ -36,6 +44,7 @@ class Writer {
     to_[key] = value;
   }
   void number(const char* key, double value, Limits) { to_[key] = value; }
+  void seed(const char* key, std::uint64_t value) { to_[key] = value; }
 
   template <class T, class Fields>
   void object(const char* key, T& value, Fields&& fields) {
@@ -77,6 +86,21 @@ class Reader {
     if (!has(key) || (value >= limits.low && value <= limits.high)) return;
     fail(key, fmt::format("{} is out of range; give {:g} to {:g}", value, limits.low, limits.high));
   }
+  void seed(const char* key, std::uint64_t& seed) {
+    value(key, seed);
+    if (seed > kMostSeed)
+      fail(key, fmt::format("{} is out of range; give 0 to {}", seed, kMostSeed));
+  }
+  /// A file that the value names; `find` throws LoadError without it.
+  template <class Find>
+  void file(const char* key, Find&& find) const {
+    try {
+      find();
+    } catch (const model::LoadError& error) {
+      throw model::LoadError(
+          file_, 0, fmt::format("{}: {}: {}", join(key), error.file, error.message), error.fix);
+    }
+  }
 
   template <class T, class Fields>
   void object(const char* key, T& value, Fields&& fields) {
@@ -105,9 +129,11 @@ class Reader {
     return at == from_.end() ? nullptr : &*at;
   }
 
-  void end() const {
+  /// Fails at a key that no field took.
+  void end(const std::string& remedy = "") const {
     for (const auto& [key, value] : from_.items()) {
       if (known_.contains(key)) continue;
+      if (!remedy.empty()) fail(key, "there is no such key; " + remedy);
       std::string names;
       for (const std::string& name : known_) names += (names.empty() ? "" : ", ") + name;
       fail(key, "there is no such key; give one of: " + names);
@@ -143,6 +169,12 @@ template <class Io>
 void fields(Io& io, World& world) {
   io.value("file", world.file);
   io.number("physics_step_ms", world.physics_step_ms, {0.25, 2});
+  if constexpr (Io::kReads) {
+    constexpr double kSteps_ms[] = {0.25, 0.5, 1, 2};
+    if (std::ranges::find(kSteps_ms, world.physics_step_ms) == std::end(kSteps_ms))
+      io.fail("physics_step_ms", "give one of: 0.25, 0.5, 1, 2");
+    if (!world.file.empty()) io.file("file", [&] { model::find_world(world.file); });
+  }
 }
 
 template <class Io>
@@ -164,6 +196,13 @@ void fields(Io& io, Controller& controller) {
   io.value("folder", controller.folder);
   io.value("board", controller.board);
   io.value("link", controller.link);
+  if constexpr (Io::kReads) {
+    if (!controller.board.empty() && !controller.link.empty())
+      io.fail("", "give one of board, link");
+    const std::filesystem::path folder = controller.folder;
+    if (!folder.empty() && !std::filesystem::exists(folder / "controller.hpp"))
+      io.fail("folder", fmt::format("{} has no controller.hpp", controller.folder));
+  }
 }
 
 template <class Io>
@@ -238,6 +277,7 @@ void fields(Io& io, std::map<std::string, double>& tuning) {
       const auto decimal = [](float value) { return std::stod(fmt::format("{:g}", value)); };
       io.number(name.c_str(), tuning[name], {decimal(range.low), decimal(range.high)});
     }
+    io.end("`verp parameters` lists them");
   } else {
     for (const auto& [name, value] : tuning) io.number(name.c_str(), value, kAny);
   }
@@ -248,11 +288,12 @@ void fields(Io& io, Robot& robot) {
   const auto each = [](auto& inner, auto& value) { fields(inner, value); };
   io.value("name", robot.name);
   io.value("model", robot.model);
+  if constexpr (Io::kReads) io.file("model", [&] { model::find_model(robot.model); });
   io.value("bus", robot.bus);
   io.object("tuning", robot.tuning, each);
   io.object("orders", robot.orders, each);
   io.object("controller", robot.controller, each);
-  io.value("seed", robot.seed);
+  io.seed("seed", robot.seed);
   io.value("vary", robot.vary);
   io.object("at", robot.at, each);
   start(io, robot.lies);
@@ -274,7 +315,7 @@ void fields(Io& io, Radio& radio) {
   io.value("overhead", air.overhead);
   io.value("most_bytes", air.most_bytes);
   io.value("most_waiting", air.most_waiting);
-  io.value("seed", radio.seed);
+  io.seed("seed", radio.seed);
   if constexpr (Io::kReads) {
     try {
       radio::check(air);
@@ -299,6 +340,32 @@ void fields(Io& io, Scenario& scenario) {
   io.number("patience_s", scenario.patience_s, {0.1, 3600});
 }
 
+bool is_name(const std::string& text) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
+  return std::ranges::all_of(text, plain);
+}
+
+/// What no robot can have beside the others.
+void check_robots(const std::vector<Robot>& robots, const Reader& reader) {
+  constexpr double kLeast_m = 0.1;  // session::Session refuses less
+  if (robots.empty() || robots.size() > kMostRobots)
+    reader.fail("robots", fmt::format("{} robots; give 1 to {}", robots.size(), kMostRobots));
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    const Robot& robot = robots[i];
+    const auto fail = [&](const char* key, const std::string& what) {
+      reader.fail(fmt::format("robots[{}].{}", i, key), what);
+    };
+    if (!is_name(robot.name)) fail("name", "a name has letters, digits, _ and -");
+    if (robot.name.empty() && robots.size() > 1) fail("name", "each of several robots needs one");
+    for (std::size_t other = 0; other < i; ++other) {
+      const Robot& there = robots[other];
+      if (there.name == robot.name) fail("name", fmt::format("robots[{}] has it too", other));
+      if (std::hypot(there.at.x_m - robot.at.x_m, there.at.y_m - robot.at.y_m) < kLeast_m)
+        fail("at", fmt::format("robots[{}] stands there; keep them {:g} m apart", other, kLeast_m));
+    }
+  }
+}
+
 /// nlohmann-json keeps the last of equal keys.
 Json parsed(const std::string& text, const std::string& file) {
   std::vector<std::set<std::string>> keys;
@@ -310,12 +377,17 @@ Json parsed(const std::string& text, const std::string& file) {
                              "leave one out");
     return true;
   };
+  const auto no_json = [&](const std::string& what) {
+    return model::LoadError(file, 0, "no JSON: " + what,
+                            "`verp walk --print-scenario` prints a valid file");
+  };
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) throw no_json("the file is empty");
+  if (text.find('\0') != std::string::npos) throw no_json("a byte is 0");
   try {
     return Json::parse(text, watch);
   } catch (const Json::exception& error) {  // or a number beyond double
     const std::string what = error.what();
-    throw model::LoadError(file, 0, "no JSON: " + what.substr(what.find("] ") + 2),
-                           "`verp walk --print-scenario` prints a valid file");
+    throw no_json(what.substr(what.find("] ") + 2));
   }
 }
 
@@ -342,17 +414,12 @@ Scenario parse(const std::string& text, const std::string& file) {
   Reader reader(json, file, "");
   fields(reader, scenario);
   reader.end();
-  if (scenario.robots.empty()) reader.fail("robots", "there is none; give one at least");
-  std::set<std::string> names;
-  for (const Robot& robot : scenario.robots) {
-    if (!names.insert(robot.name).second || (robot.name.empty() && scenario.robots.size() > 1))
-      reader.fail("robots", "each of several robots needs a name of its own");
-  }
+  check_robots(scenario.robots, reader);
   return scenario;
 }
 
 Scenario read(const std::string& file) {
-  const auto text = files::read(file);
+  const auto text = std::filesystem::is_directory(file) ? std::nullopt : files::read(file);
   if (!text) throw model::LoadError(file, 0, "cannot be read", "give a scenario's file");
   return parse(*text, file);
 }

@@ -53,6 +53,33 @@ TEST_F(Scenarios, AreRefusedWhereTheyAreWrong) {
   expect_refused("walk --scenario wrong.json", "wrong.json: no JSON: number overflow");
 }
 
+TEST_F(Scenarios, AreRefusedWhereTheOptionsWouldBe) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"", "no JSON: the file is empty"},
+      {R"({"world": {"physics_step_ms": 0.7}})", "world.physics_step_ms: give one of"},
+      {R"({"world": {"file": "nope"}})", "world.file: nope: there is no world"},
+      {R"({"robots": []})", "robots: 0 robots; give 1 to 16"},
+      {R"({"robots": [{"model": "nope"}]})", "robots[0].model: nope: there is no robot"},
+      {R"({"robots": [{"bus": "nope"}]})", "robot.sdf"},
+      {R"({"robots": [{"name": "a b"}]})", "robots[0].name: a name has letters"},
+      {R"({"robots": [{"seed": 4294967296}]})", "robots[0].seed: 4294967296 is out of range"},
+      {R"({"robots": [{"name": "a"}, {"name": "a"}]})", "robots[1].name: robots[0] has it"},
+      {R"({"robots": [{"name": "a"}, {"name": "b"}]})", "robots[1].at: robots[0] stands there"},
+      {R"({"robots": [{"tuning": {"x": 1}}]})", "`verp parameters` lists them"},
+      {R"({"robots": [{"controller": {"board": "nope"}}]})", "robots[0].controller.board: nope"},
+      {R"({"robots": [{"controller": {"folder": "."}}]})", "robots[0].controller.folder: . has no"},
+      {R"({"robots": [{"controller": {"board": "a", "link": "b"}}]})", "give one of board, link"},
+  };
+  for (const auto& [text, what] : cases) {
+    std::ofstream(folder_ / "wrong.json") << text;
+    expect_refused("walk --scenario wrong.json", "wrong.json: ");
+    expect_refused("walk --scenario wrong.json", what);
+  }
+  std::ofstream(folder_ / "wrong.json") << "{}" << '\0' << "}";
+  expect_refused("walk --scenario wrong.json", "wrong.json: no JSON: a byte is 0");
+  expect_refused("walk --scenario .", "cannot be read");
+}
+
 TEST_F(Scenarios, AreRefusedOfManyRuns) {
   for (const char* many : {"--seeds 1-3", "--map push", "--sweep-step 0.01:0.03:0.01"})
     expect_refused(std::string("walk --print-scenario ") + many, "a scenario file holds one run");
