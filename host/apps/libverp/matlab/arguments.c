@@ -7,11 +7,11 @@
 
 #include "host/apps/libverp/verp.h"
 
-static const char* call = "mex";
+static const char* called = "mex";
 
 const char* begin_call(const char* name) {
-  const char* before = call;
-  call = name;
+  const char* before = called;
+  called = name;
   return before;
 }
 
@@ -21,7 +21,7 @@ void refuse(const char* words, ...) {
   va_start(values, words);
   vsnprintf(said, sizeof said, words, values);
   va_end(values);
-  mexErrMsgIdAndTxt("verp:argument", "verp_%s: %s", call, said);
+  mexErrMsgIdAndTxt("verp:argument", "verp_%s: %s", called, said);
 }
 
 int checked(int status) {

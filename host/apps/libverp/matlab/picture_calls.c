@@ -4,77 +4,6 @@
 #include "host/apps/libverp/matlab/calls.h"
 #include "host/apps/libverp/verp.h"
 
-static verp_session session_of(const arguments* a) {
-  return (verp_session)handle(a);
-}
-
-static verp_camera camera_of(const arguments* a, uint32_t robot, uint32_t index) {
-  verp_camera camera = {.size = sizeof camera};
-  checked(verp_session_camera(session_of(a), robot, index, &camera));
-  return camera;
-}
-
-static mxArray* row(const double* from, size_t count) {
-  mxArray* made = mxCreateDoubleMatrix(1, (mwSize)count, mxREAL);
-  memcpy(mxGetPr(made), from, count * sizeof *from);
-  return made;
-}
-
-/* A 4x4 matrix from a row-major rotation and a position. */
-static mxArray* pose(const double* from) {
-  mxArray* made = mxCreateDoubleMatrix(4, 4, mxREAL);
-  double* to = mxGetPr(made);
-  for (size_t i = 0; i < 3; ++i) {
-    for (size_t j = 0; j < 3; ++j) to[i + 4 * j] = from[3 * i + j];
-    to[i + 12] = from[9 + i];
-  }
-  to[15] = 1;
-  return made;
-}
-
-static mxArray* lens(const verp_camera* camera) {
-  mxArray* made = mxCreateDoubleMatrix(3, 3, mxREAL);
-  double* to = mxGetPr(made);
-  to[0] = camera->fx_px;
-  to[4] = camera->fy_px;
-  to[6] = camera->cx_px;
-  to[7] = camera->cy_px;
-  to[8] = 1;
-  return made;
-}
-
-void session_cameras(const arguments* a) {
-  static const char* names[] = {"name",       "gives",  "width", "height", "rate_hz", "matrix",
-                                "distortion", "near_m", "far_m", "link",   "pose"};
-  static const char* whats[] = {"colour", "depth", "labels"};
-  const uint32_t robot = whole(a, 1, "robot");
-  uint32_t count = 0;
-  checked(verp_session_cameras(session_of(a), robot, &count));
-  a->out[0] = mxCreateStructMatrix(1, count, sizeof names / sizeof names[0], names);
-  for (uint32_t i = 0; i < count; ++i) {
-    const verp_camera each = camera_of(a, robot, i);
-    char gives[64] = "";
-    for (int bit = 0; bit < 3; ++bit) {
-      if ((each.gives & (1U << bit)) == 0) continue;
-      if (gives[0] != '\0') strcat(gives, " ");
-      strcat(gives, whats[bit]);
-    }
-    mxArray* const values[] = {mxCreateString(each.name),
-                               mxCreateString(gives),
-                               mxCreateDoubleScalar(each.width),
-                               mxCreateDoubleScalar(each.height),
-                               mxCreateDoubleScalar(each.rate_hz),
-                               lens(&each),
-                               row(each.distortion, 5),
-                               mxCreateDoubleScalar(each.near_m),
-                               mxCreateDoubleScalar(each.far_m),
-                               mxCreateDoubleScalar(each.link),
-                               pose(each.pose)};
-    for (int field = 0; field < (int)(sizeof values / sizeof values[0]); ++field)
-      mxSetFieldByNumber(a->out[0], i, field, values[field]);
-  }
-}
-
 /* A picture from rows, top first, with `deep` numbers per pixel. */
 static mxArray* picture_of(const void* from, size_t height, size_t width, size_t deep,
                            size_t bytes) {
@@ -97,13 +26,14 @@ static mxArray* picture_of(const void* from, size_t height, size_t width, size_t
 void session_picture(const arguments* a) {
   const uint32_t robot = whole(a, 1, "robot"), index = whole(a, 2, "camera");
   const uint32_t what = whole(a, 3, "what");
-  const verp_camera camera = camera_of(a, robot, index);
+  verp_camera camera = {.size = sizeof camera};
+  checked(verp_session_camera(handle(a), robot, index, &camera));
   const size_t deep = what == VERP_COLOUR ? 3 : 1, bytes = what == VERP_COLOUR ? 1 : 2;
   const size_t size = deep * bytes * camera.width * camera.height;
   void* pixels = mxMalloc(size);
   double time_s = 0;
   const int status =
-      checked(verp_session_picture(session_of(a), robot, index, what, pixels, size, &time_s));
+      checked(verp_session_picture(handle(a), robot, index, what, pixels, size, &time_s));
   const int seen = status != VERP_NO_PICTURE;
   a->out[0] = seen ? picture_of(pixels, camera.height, camera.width, deep, bytes)
                    : mxCreateDoubleMatrix(0, 0, mxREAL);
@@ -137,7 +67,7 @@ void session_render(const arguments* a) {
   const int drawn = view.width <= VERP_MOST_PIXELS && view.height <= VERP_MOST_PIXELS;
   const size_t size = drawn ? (size_t)3 * view.width * view.height : 0; /* if not, it is refused */
   void* pixels = mxMalloc(size + 1);
-  checked(verp_session_render(session_of(a), &view, pixels, size));
+  checked(verp_session_render(handle(a), &view, pixels, size));
   a->out[0] = picture_of(pixels, view.height, view.width, 3, 1);
   mxFree(pixels);
 }

@@ -6,10 +6,6 @@
 #include "host/apps/libverp/matlab/fields.h"
 #include "host/apps/libverp/verp.h"
 
-static verp_session session_of(const arguments* a) {
-  return (verp_session)handle(a);
-}
-
 /* ---- the memory for a session's ticks ---- */
 
 typedef struct seen {
@@ -60,39 +56,16 @@ void session_open(const arguments* a) {
 }
 
 void session_close(const arguments* a) {
-  const int status = verp_session_close(session_of(a));
-  if (status != VERP_BUSY) close_session(session_of(a)); /* it writes there until it is closed */
+  const int status = verp_session_close(handle(a));
+  if (status != VERP_BUSY) close_session(handle(a)); /* it writes there until it is closed */
   checked(status);
 }
 
-static const field kRobotNumbers[] = {{"flags", kU32, offsetof(verp_robot, flags), 1},
-                                      {"seed", kU64, offsetof(verp_robot, seed), 1},
-                                      {"walk_s", kDouble, offsetof(verp_robot, walk_s), 1},
-                                      {"vx_m_s", kDouble, offsetof(verp_robot, vx_m_s), 1},
-                                      {"vy_m_s", kDouble, offsetof(verp_robot, vy_m_s), 1},
-                                      {"wz_rad_s", kDouble, offsetof(verp_robot, wz_rad_s), 1},
-                                      {"x_m", kDouble, offsetof(verp_robot, x_m), 1},
-                                      {"y_m", kDouble, offsetof(verp_robot, y_m), 1},
-                                      {"yaw_rad", kDouble, offsetof(verp_robot, yaw_rad), 1}};
-static const shape kRobot = {"robot", kRobotNumbers, sizeof kRobotNumbers / sizeof kRobotNumbers[0],
-                             sizeof(verp_robot)};
-
-static void set_text(const mxArray* from, const char* name, const char** into) {
-  const mxArray* given = mxGetField(from, 0, name);
-  if (given != NULL && !mxIsEmpty(given)) *into = text_of(given, name);
-}
-
 void session_add(const arguments* a) {
-  const verp_session session = session_of(a);
+  const verp_session session = handle(a);
   verp_robot robot;
   checked(verp_robot_defaults(&robot));
-  const char* wrong = a->given < 2 ? "a struct is needed" : from_matlab(&kRobot, a->in[1], &robot);
-  if (wrong != NULL) refuse("%s", wrong);
-  set_text(a->in[1], "model", &robot.model);
-  set_text(a->in[1], "bus", &robot.bus);
-  set_text(a->in[1], "name", &robot.name);
-  set_text(a->in[1], "tuning", &robot.tuning);
-  set_text(a->in[1], "record", &robot.record);
+  take_struct(a, 1, &kRobot, &robot);
   uint32_t index = 0;
   checked(verp_session_add(session, &robot, &index));
   seen* one = calloc(1, sizeof *one);
@@ -142,7 +115,7 @@ static int controller(const verp_moment* moment, void* user) {
 
 /* session_tick(session, count, controllers): true while there is a further tick. */
 void session_tick(const arguments* a) {
-  const verp_session session = session_of(a); /* arguments are checked before anything is kept */
+  const verp_session session = handle(a); /* arguments are checked before anything is kept */
   const uint32_t count = whole(a, 1, "count");
   const mxArray* given = a->given > 2 ? a->in[2] : NULL;
   if (given != NULL && !mxIsStruct(given)) refuse("controllers: a struct array is needed");
@@ -166,91 +139,34 @@ void session_tick(const arguments* a) {
 /* session_control(session, robot, on): the function itself is passed with each tick. */
 void session_control(const arguments* a) {
   const int on = number(a, 2, "on") != 0;
-  checked(verp_session_control(session_of(a), whole(a, 1, "robot"), on ? controller : NULL, NULL));
-}
-
-static void add_field(mxArray* to, const char* name, mxArray* value) {
-  mxSetFieldByNumber(to, 0, mxAddField(to, name), value);
+  checked(verp_session_control(handle(a), whole(a, 1, "robot"), on ? controller : NULL, NULL));
 }
 
 void session_seen(const arguments* a) {
-  const verp_tick* tick = tick_of(session_of(a), whole(a, 1, "robot"));
-  a->out[0] = to_matlab(&kTick, tick, 1);
-  add_field(a->out[0], "inputs", to_matlab(&kInputs, &tick->inputs, 1));
-  add_field(a->out[0], "outputs", to_matlab(&kOutputs, &tick->outputs, 1));
-  add_field(a->out[0], "truth", to_matlab(&kTruth, &tick->truth, 1));
+  a->out[0] = to_matlab(&kTick, tick_of(handle(a), whole(a, 1, "robot")), 1);
 }
 
-void session_result(const arguments* a) {
-  verp_result result = {.size = sizeof result};
-  checked(verp_session_result(session_of(a), whole(a, 1, "robot"), &result));
-  a->out[0] = to_matlab(&kResult, &result, 1);
-  add_field(a->out[0], "failure", mxCreateString(result.failure));
-  add_field(a->out[0], "remark", mxCreateString(result.remark));
+/* ---- radio ---- */
+
+enum { kMostBytes = 65536 };
+
+/* session_send(session, robot, to, uint8): false if too many messages wait. */
+void session_send(const arguments* a) {
+  const verp_session session = handle(a);
+  if (a->given < 4 || !mxIsUint8(a->in[3])) refuse("data: a row of uint8 is needed");
+  const int status = verp_session_send(session, whole(a, 1, "robot"), signed_whole(a, 2, "to"),
+                                       mxGetData(a->in[3]), mxGetNumberOfElements(a->in[3]));
+  a->out[0] = mxCreateLogicalScalar(checked(status) == VERP_OK);
 }
 
-void session_digest(const arguments* a) {
-  uint64_t digest = 0;
-  checked(verp_session_digest(session_of(a), whole(a, 1, "robot"), &digest));
-  a->out[0] = word(digest);
-}
-
-void session_command(const arguments* a) {
-  checked(verp_session_command(session_of(a), whole(a, 1, "robot"), whole(a, 2, "request"),
-                               number(a, 3, "vx_m_s"), number(a, 4, "vy_m_s"),
-                               number(a, 5, "wz_rad_s"), number(a, 6, "pan_rad"),
-                               number(a, 7, "tilt_rad")));
-}
-
-void session_give_back(const arguments* a) {
-  checked(verp_session_give_back(session_of(a), whole(a, 1, "robot")));
-}
-
-void session_emergency_stop(const arguments* a) {
-  checked(verp_session_emergency_stop(session_of(a), whole(a, 1, "robot"),
-                                      number(a, 2, "pressed") != 0));
-}
-
-void session_tune(const arguments* a) {
-  checked(verp_session_tune(session_of(a), whole(a, 1, "robot"), text(a, 2, "name"),
-                            number(a, 3, "value")));
-}
-
-void session_tuning(const arguments* a) {
-  double value = 0;
-  checked(verp_session_tuning(session_of(a), whole(a, 1, "robot"), text(a, 2, "name"), &value));
-  a->out[0] = mxCreateDoubleScalar(value);
-}
-
-void session_quantities(const arguments* a) {
-  static const char* names[] = {"name", "unit", "what", "low", "high", "settable"};
-  uint32_t count = 0;
-  checked(verp_session_quantities(session_of(a), &count));
-  a->out[0] = mxCreateStructMatrix(1, count, 6, names);
-  for (uint32_t i = 0; i < count; ++i) {
-    verp_quantity each = {.size = sizeof each};
-    checked(verp_session_quantity(session_of(a), i, &each));
-    mxSetFieldByNumber(a->out[0], i, 0, mxCreateString(each.name));
-    mxSetFieldByNumber(a->out[0], i, 1, mxCreateString(each.unit));
-    mxSetFieldByNumber(a->out[0], i, 2, mxCreateString(each.what));
-    mxSetFieldByNumber(a->out[0], i, 3, mxCreateDoubleScalar(each.low));
-    mxSetFieldByNumber(a->out[0], i, 4, mxCreateDoubleScalar(each.high));
-    mxSetFieldByNumber(a->out[0], i, 5, mxCreateLogicalScalar(each.settable != 0));
-  }
-}
-
-void session_read(const arguments* a) {
-  double value = 0;
-  checked(verp_session_read(session_of(a), text(a, 1, "quantity"), &value));
-  a->out[0] = mxCreateDoubleScalar(value);
-}
-
-void session_set(const arguments* a) {
-  checked(verp_session_set(session_of(a), text(a, 1, "quantity"), number(a, 2, "value")));
-}
-
-void session_push(const arguments* a) {
-  checked(verp_session_push(session_of(a), text(a, 1, "thing"), number(a, 2, "force x"),
-                            number(a, 3, "force y"), number(a, 4, "force z"),
-                            number(a, 5, "time")));
+/* session_take(session, robot): a row of uint8 and the sender; -1: no message. */
+void session_take(const arguments* a) {
+  uint64_t size = 0;
+  uint32_t from = 0;
+  void* room = mxMalloc(kMostBytes);
+  const int status =
+      checked(verp_session_take(handle(a), whole(a, 1, "robot"), room, kMostBytes, &size, &from));
+  a->out[0] = mxCreateNumericMatrix(status == VERP_OK, (mwSize)size, mxUINT8_CLASS, mxREAL);
+  if (size > 0) memcpy(mxGetData(a->out[0]), room, size);
+  if (a->wanted > 1) a->out[1] = mxCreateDoubleScalar(status == VERP_OK ? (double)from : -1);
 }

@@ -34,24 +34,12 @@ classdef Session < handle
     % false): every argument is optional. With walk_s = 0 the robot obeys command() alone.
       known = {'model', 'bus', 'name', 'tuning', 'record', 'seed', 'walk_s', 'vx_m_s', 'vy_m_s', ...
                'wz_rad_s', 'x_m', 'y_m', 'yaw_rad', 'open_end'};
-      if mod(numel(varargin), 2) ~= 0
-        error('verp:argument', 'verp: add() takes names and values');
-      end
-      what = struct();
-      for i = 1:2:numel(varargin)
-        name = varargin{i};
-        if ~ischar(name) || ~any(strcmp(name, known))
-          error('verp:argument', 'verp: add() knows: %s', strjoin(known, ', '));
+      what = named_values('add', known, varargin);
+      if isfield(what, 'open_end')
+        if ~is_flag(what.open_end)
+          error('verp:argument', 'verp: add(): open_end is true or false');
         end
-        value = varargin{i + 1};
-        if strcmp(name, 'open_end')
-          if ~is_flag(value)
-            error('verp:argument', 'verp: add(): open_end is true or false');
-          end
-          what.flags = double(value ~= 0);
-        else
-          what.(name) = value;
-        end
+        what.flags = double(what.open_end ~= 0);
       end
       robot = verp_mex('session_add', obj.session, what);
       obj.controllers(robot + 1) = struct('function', [], 'own_first', false);
@@ -142,7 +130,11 @@ classdef Session < handle
     function found = quantities(obj)
     %QUANTITIES The quantities of the physics, after all robots were added: name, unit, what, low,
     % high, settable.
-      found = verp_mex('session_quantities', obj.session);
+      found = orderfields(verp_mex('session_quantities', obj.session), ...
+                          {'name', 'unit', 'what', 'low', 'high', 'settable'});
+      for i = 1:numel(found)
+        found(i).settable = found(i).settable ~= 0;
+      end
     end
 
     function value = read(obj, quantity)
@@ -168,7 +160,18 @@ classdef Session < handle
     % rate_hz, matrix (fx 0 cx; 0 fy cy; 0 0 1, in pixels; the middle of the first one is 0),
     % distortion (k1 k2 p1 p2 k3), near_m, far_m, link (index as in core.forward()) and pose in it.
       if nargin < 2, robot = 0; end
-      cameras = verp_mex('session_cameras', obj.session, robot);
+      names = {'name', 'gives', 'width', 'height', 'rate_hz', 'matrix', 'distortion', 'near_m', 'far_m', ...
+               'link', 'pose'};
+      given = verp_mex('session_cameras', obj.session, robot);
+      cameras = cell2struct(cell(numel(names), numel(given)), names, 1)';
+      for i = 1:numel(given)
+        camera = given(i);
+        contents = {'colour', 'depth', 'labels'};
+        camera.gives = strjoin(contents(bitand(camera.gives, [1 2 4]) ~= 0), ' ');
+        camera.matrix = [camera.fx_px, 0, camera.cx_px; 0, camera.fy_px, camera.cy_px; 0 0 1];
+        camera.pose = [reshape(camera.pose(1:9), 3, 3)', camera.pose(10:12)'; 0 0 0 1];
+        for k = 1:numel(names), cameras(i).(names{k}) = camera.(names{k}); end
+      end
     end
 
     function [pixels, time_s] = picture(obj, what, camera, robot)
@@ -212,16 +215,7 @@ classdef Session < handle
     % optional; see verp_radio.
       known = {'range_m', 'loss', 'fade', 'fade_s', 'delay_s', 'jitter_s', 'bytes_s', 'most_bytes', ...
                'most_waiting', 'overhead_bytes', 'seed'};
-      if mod(numel(varargin), 2) ~= 0
-        error('verp:argument', 'verp: radio() takes names and values');
-      end
-      what = struct();
-      for i = 1:2:numel(varargin)
-        if ~ischar(varargin{i}) || ~any(strcmp(varargin{i}, known))
-          error('verp:argument', 'verp: radio() knows: %s', strjoin(known, ', '));
-        end
-        what.(varargin{i}) = varargin{i + 1};
-      end
+      what = named_values('radio', known, varargin);
       verp_mex('session_radio', obj.session, what);
     end
 
@@ -256,6 +250,19 @@ classdef Session < handle
     function delete(obj)
       obj.close();
     end
+  end
+end
+
+function what = named_values(call, known, given)
+  if mod(numel(given), 2) ~= 0
+    error('verp:argument', 'verp: %s() takes names and values', call);
+  end
+  what = struct();
+  for i = 1:2:numel(given)
+    if ~ischar(given{i}) || ~any(strcmp(given{i}, known))
+      error('verp:argument', 'verp: %s() knows: %s', call, strjoin(known, ', '));
+    end
+    what.(given{i}) = given{i + 1};
   end
 end
 
