@@ -4,10 +4,10 @@
 
 namespace verp::cli {
 
-/// From a person or a script.
+/// Standard input, from a person or a script.
 class Answers {
  public:
-  /// Without its line break; nullopt: end of input, or interrupted.
+  /// The next line without its line break; nullopt: end of input, or interrupted.
   std::optional<std::string> line();
   /// Prints the question on standard error.
   std::optional<std::string> line(const std::string& question);

@@ -31,7 +31,7 @@ void add_bus_option(CLI::App& app, std::string& bus);
 /// the range, also for NaN, infinity and trailing characters.
 double parse_number(const std::string& text, double low, double high, const std::string& unit);
 
-/// By the rules of parse_number().
+/// Follows the rules of parse_number().
 CLI::Validator number_between(double low, double high, const std::string& unit);
 
 /// Digits only.

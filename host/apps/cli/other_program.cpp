@@ -19,7 +19,7 @@ struct OtherProgram {
 constexpr OtherProgram kPictures = {"../pictures/verp_pictures", "verp_pictures"};
 constexpr OtherProgram kEditor = {"../edit/verp_edit", "verp_edit"};
 
-/// With the word and all following arguments.
+/// Passes the word and all following arguments.
 [[noreturn]] void become(const OtherProgram& other, const std::string& word,
                          std::vector<std::string> arguments) {
   const std::filesystem::path program =

@@ -23,7 +23,7 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
   return row.back();
 }
 
-/// After the last dot: "half_stance_m" of gait.half_stance_m.
+/// The part after the last dot: "half_stance_m" of gait.half_stance_m.
 std::string_view last_part(std::string_view word) {
   return word.substr(word.rfind('.') + 1);  // npos + 1 is 0
 }

@@ -7,7 +7,7 @@
 
 namespace verp::abi {
 
-/// For the twin and the controller; any thread may load it.
+/// A robot for twin and controller; any thread may load it.
 struct Loaded {
   model::Entity entity;
   Params params;

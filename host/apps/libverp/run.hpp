@@ -59,8 +59,8 @@ class RobotInstance {
   verp_tick* view_ = nullptr;
   State state_;
   std::uint32_t tick_ = 0;
-  std::optional<std::uint32_t> deciding_;  ///< its controller runs or has failed
-  std::string radio_failure_;              ///< the trace takes no more messages
+  std::optional<std::uint32_t> deciding_;  ///< tick whose controller runs or has failed
+  std::string radio_failure_;              ///< why the trace takes no more messages
   std::optional<session::WalkResult> result_;
 };
 

@@ -16,7 +16,7 @@ class Sight {
   void add(const session::WalkPlan& plan);
   void looked(session::Session& session, std::uint32_t robot);
 
-  /// In that encoding (camera::Picture); null: none taken yet. Throws CameraError.
+  /// The picture in that encoding (camera::Picture); null: none taken yet. Throws CameraError.
   const camera::Picture* picture(std::uint32_t robot, std::uint32_t camera, const char* encoding);
   /// The world now. Throws CameraError, and std::invalid_argument for an unknown view.
   camera::Picture render(session::Session& session, std::uint32_t robot,
@@ -31,7 +31,7 @@ class Sight {
 
   camera::Stage stage_;
   std::vector<std::vector<Look>> last_;       ///< by robot, by camera
-  std::unique_ptr<camera::Painter> painter_;  ///< by the first request
+  std::unique_ptr<camera::Painter> painter_;  ///< made by the first request
 };
 
 }  // namespace verp::abi

@@ -5,7 +5,7 @@
 
 namespace verp::abi {
 
-/// As much as fits, with a final zero.
+/// Copies as much as fits, with a final zero.
 template <std::size_t kSize>
 void put_text(std::string_view from, char (&to)[kSize]) {
   const std::size_t length = std::min(from.size(), kSize - 1);

@@ -321,7 +321,7 @@ class Session {
   std::unique_ptr<std::exception_ptr> thrown_ = std::make_unique<std::exception_ptr>();
   std::map<std::uint32_t, std::unique_ptr<Attached>> controllers_;
   std::vector<std::unique_ptr<verp_tick>> ticks_;
-  std::unique_ptr<verp_session, Close> session_;  ///< before the memory that it uses
+  std::unique_ptr<verp_session, Close> session_;  ///< destroyed before the memory that it uses
 };
 
 /// Tick count and digest of a trace that replays bit for bit; throws Error if it does not.

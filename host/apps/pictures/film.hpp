@@ -15,12 +15,12 @@ class Film {
   virtual ~Film() = default;
   const scene::Scene& scene() const { return scene_; }
   const model::Entity& entity() const { return *scene_.robots.front().entity; }
-  /// For the user; may be empty.
+  /// A line for the user; may be empty.
   const std::string& note() const { return note_; }
   virtual double end_s() const = 0;  ///< an estimate
   virtual scene::Snapshot start() const = 0;
-  /// From from_s on, every_s apart (0: each tick), to the end or until `show` returns false. Call
-  /// once.
+  /// Shows instants from from_s on, every_s apart (0: each tick), to the end or until `show`
+  /// returns false. Call once.
   virtual void play(double from_s, double every_s, const Show& show) = 0;
 
  protected:

@@ -14,7 +14,7 @@ struct ActionWords {
   bool json = false;
   WalkOptions walk;         ///< of the twin
   bool held = false;        ///< by its trunk, throughout
-  int gains_percent = 100;  ///< of the position loops
+  int gains_percent = 100;  ///< gains of the position loops
 };
 
 struct ActionRobot {

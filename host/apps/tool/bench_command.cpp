@@ -133,7 +133,7 @@ void add_pc_rows(const Samples& samples, std::vector<BenchRow>& rows) {
                   .exact = true});
 }
 
-/// From target_bench: a board's exact cost, or its link's speed.
+/// Output of target_bench: a board's exact cost, or its link's speed.
 void add_board_rows(const cli::Json& line, std::vector<BenchRow>& rows, cli::Json& headings) {
   const std::string where = line.at("board");
   const Bar promised = where == board::kPromisedBoard ? Bar::kAtMost : Bar::kNone;
@@ -202,7 +202,7 @@ void add_picture_rows(const cli::Json& line, std::vector<BenchRow>& rows) {
     add("apart", fmt::format("  its pixels from those of 64 samples, rms"), "of 255");
     return;
   }
-  // On two idle cores with software rendering.
+  // Limits for two idle cores with software rendering.
   add("frames_per_s", fmt::format("the window with {}", of), "1/s", robots == 1 ? 20 : 10);
   add("real_time_factor", "the twin beside it, of real time", "times", 0.99);
   add("cores", "cores busy with both", "");

@@ -25,7 +25,7 @@ struct BusBench {
 /// Ends early on interruption.
 BusBench run_bus_bench(bus::Client& client, std::uint8_t id, std::uint16_t address,
                        std::uint16_t size, double seconds);
-/// For any bus: `read` makes one read of `size` bytes; false: no answer.
+/// Works on any bus: `read` makes one read of `size` bytes; false: no answer.
 BusBench run_bus_bench(const std::function<bool()>& read, std::uint16_t size, double seconds);
 
 std::string to_text(const BusBench& result);

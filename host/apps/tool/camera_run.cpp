@@ -57,7 +57,7 @@ link::VideoWish wish_of(const CameraWords& words) {
   return wish;
 }
 
-/// Before any recording. A camera that encodes JPEG offers nothing else.
+/// Called before any recording. A camera that encodes JPEG offers nothing else.
 void require_picture_name(const std::string& file, PixelFormat format) {
   const std::string kind = std::filesystem::path(file).extension().string();
   const bool jpeg = format == PixelFormat::kJpeg;

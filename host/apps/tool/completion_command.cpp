@@ -13,7 +13,7 @@
 namespace verp::tool {
 namespace {
 
-/// After one command ("bus read"; empty: the root).
+/// Words after one command ("bus read"; empty: the root).
 struct ShellWords {
   std::string command;
   std::vector<std::pair<std::string, std::string>> commands, options;  ///< with their descriptions

@@ -45,7 +45,7 @@ std::string replay_board(const std::string& board) {
   return is_emulated(board) ? board : flash::find_recipe(board).replay_board;
 }
 
-/// With debug information. $VERP_FIRMWARE_DIR's images stay unchanged.
+/// Builds with debug information. $VERP_FIRMWARE_DIR's images stay unchanged.
 void build_for_gdb(const std::string& board, const std::string& target, const fs::path& folder) {
   if (std::getenv("VERP_FIRMWARE_DIR") != nullptr) return;
   const fs::path tree = files::source_dir() / "build" / ("debug-" + board);

@@ -160,7 +160,7 @@ demos::Options options_of(const DemoWords& words) {
   return options;
 }
 
-/// Before the demo, which takes a minute.
+/// Called before the demo, which takes a minute.
 void check_picture(const std::string& file) {
   if (file.empty()) return;
   if (!file.ends_with(".png") && !file.ends_with(".svg"))

@@ -42,7 +42,7 @@ struct StepAnswer {
   cli::Json json = cli::Json::object();
 };
 
-/// From a model to a robot. Each step returns a result or throws; a dry run describes it.
+/// The steps from a model to a robot. Each step returns a result or throws; a dry run describes it.
 class Deployment {
  public:
   explicit Deployment(const DeployOptions& options)
@@ -70,7 +70,7 @@ class Deployment {
     return {images};
   }
 
-  /// In the twin, with this PC as controller; records the inputs.
+  /// Walks in the twin, with this PC as controller; records the inputs.
   StepAnswer walk() {
     if (dry()) return {fmt::format("would walk {:g} s in the twin", plan_.walk_s)};
     const fs::path file = folder() / "walk.mcap";

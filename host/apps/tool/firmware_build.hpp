@@ -19,7 +19,7 @@ struct FirmwareBuild {
 void run_build(const std::vector<std::string>& command, const std::filesystem::path& lock,
                const std::filesystem::path& log, cli::Progress& progress);
 
-/// Under the lock that ./verp also takes.
+/// Builds under the lock that ./verp also takes.
 void build_firmware(const FirmwareBuild& build, cli::Progress& progress);
 
 }  // namespace verp::tool

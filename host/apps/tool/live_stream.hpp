@@ -27,7 +27,7 @@ struct LiveOptions {
   std::vector<std::string> origins = {};  ///< further web pages that may watch
 };
 
-/// --live, --live-wait and --live-origin.
+/// Declares --live, --live-wait and --live-origin.
 void declare_live(CLI::App& app, LiveOptions& options);
 
 /// Streams to viewers on this PC (host/trace/live). Does nothing without --live.

@@ -75,7 +75,7 @@ fs::path table_of(const std::string& from) {
                   from));
 }
 
-/// With the new name and opening comment.
+/// The table with the new name and opening comment.
 std::string table_for(const std::string& table, const NewRobotWords& options) {
   std::string out = fmt::format(
       "# {0}: lengths, masses and servos; begun as a copy of {1}. Change them here, then\n"

@@ -12,10 +12,10 @@
 
 namespace verp::tool {
 
-/// With name and type from the EDS data.
+/// An object with name and type from the EDS data.
 struct NodeObject {
   canopen::Address at;
-  std::string name;                           ///< or its address
+  std::string name;                           ///< its address without EDS data
   std::optional<dxl::controller::Type> type;  ///< empty: bytes
   bool writable = true;
 
@@ -36,7 +36,7 @@ canopen::Address parse_object(const std::string& text);
 /// each name fits exactly one.
 std::vector<NodeObject> wanted(const BusOptions& options, const std::vector<NodeObject>& known);
 
-/// By type, else as bytes; bit fields such as COB-IDs in hexadecimal.
+/// Formats by type, else as bytes; bit fields such as COB-IDs in hexadecimal.
 std::string show_value(const NodeObject& object, const std::vector<std::uint8_t>& bytes);
 cli::Json json_value(const NodeObject& object, const std::vector<std::uint8_t>& bytes);
 

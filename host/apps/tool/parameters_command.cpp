@@ -17,7 +17,7 @@
 namespace verp::tool {
 namespace {
 
-/// In the order of Tuning's fields (common/model/tuning.hpp).
+/// Listed in the order of Tuning's fields (common/model/tuning.hpp).
 constexpr const char* kMeaning[] = {
     "two steps",
     "share of a step during which both feet carry",
@@ -67,7 +67,7 @@ constexpr const char* kMeaning[] = {
 };
 static_assert(std::size(kMeaning) == kTuningCount);
 
-/// From the name's end. Without unit: shares, switches, and gains in rad per rad.
+/// The unit is the name's end. Without unit: shares, switches, and gains in rad per rad.
 std::string unit_of_number(std::string_view name) {
   constexpr std::pair<const char*, const char*> kUnits[] = {
       {"_m", "m"}, {"_rad", "rad"}, {"_s", "s"}, {"_v", "V"}, {"_c", "C"}};

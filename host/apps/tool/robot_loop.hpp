@@ -26,7 +26,7 @@ namespace verp::tool {
 inline constexpr std::uint32_t kAnswer_us = 100'000;
 inline constexpr int kAsked = 3;  ///< requests to a silent servo
 
-/// At the end: its torque is off.
+/// Answer at the end: is the servo's torque off?
 enum class LetGo : std::uint8_t { kYes, kNo, kSilent };
 
 /// Throws ToolError with the remedy if a tick cannot fit.
@@ -96,7 +96,7 @@ class RobotRun {
     if (report.status != app::BringUpStatus::kReady)
       throw session::not_up(report, place(), Robot::where(report.address));
     app_.limit_torque(static_cast<std::uint8_t>(plan_.torque_percent));
-    robot_.set_held(result_.fit.held_us());  // bring-up has its own
+    robot_.set_held(result_.fit.held_us());  // bring-up has its own limits
     if constexpr (!kInLockstep) result_.real_time = cli::become_real_time();
     if (!result_.real_time.advice.empty()) say(result_.real_time.advice);
     const std::uint64_t start_ns = link::monotonic_ns();

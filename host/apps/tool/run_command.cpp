@@ -244,7 +244,7 @@ int run_on(Link& link, const RunWords& words, const RunPlan& plan, WalkFiles& fi
         "off, and a fall is not noticed");
   }
   cli::Answers answers;
-  // On every link: tcp: or pty: may lead to a real robot.
+  // Ask on every link: tcp: or pty: may lead to a real robot.
   confirm_first_power(plan.walk.params, words.yes, answers);
   live.run_beside_real_time();
   cli::Progress progress(!words.walk.json);

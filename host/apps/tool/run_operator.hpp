@@ -30,11 +30,11 @@ class RunOperator {
   /// Outputs of the last tick.
   void observe(const State& state, const Outputs& outputs);
 
-  /// From another source, for the planned length.
+  /// Obeys another source for the planned length.
   using Orders = std::function<app::OperatorOrder(std::uint32_t tick)>;
   void obey(Orders orders) { orders_ = std::move(orders); }
 
-  /// Once, instead of a walk.
+  /// Plays the action once, instead of a walk.
   void play(int number) { player_.emplace(number, period_s_); }
 
   /// From now on: sit down, then release torque.

@@ -20,7 +20,7 @@ void set_period(Params& params, double period_ms) {
   }
 }
 
-/// With its feedback; recorded in the trace.
+/// Removes its feedback, too; recorded in the trace.
 void do_without_imu(Params& params) {
   params.imu.device_id = 0;
   params.tuning.balance.feedback_enable = 0;

@@ -13,7 +13,7 @@
 namespace verp::tool {
 namespace {
 
-constexpr std::int32_t kMoved = 60;  // 5 degrees: above tremor
+constexpr std::int32_t kMoved = 60;  // counts, 5 degrees: above tremor
 
 /// Direction of the right thumb for a positive turn. Robots face x; y is their left, z up.
 std::string thumb(const JointParams& joint) {

@@ -24,14 +24,14 @@ class SetupGuide {
   bool run();
 
  private:
-  /// At a joint's turn, or after an error.
+  /// The user's answer at a joint's turn or after an error.
   enum class Answer { kGoOn, kSkip };
   /// End of input, interruption, or q.
   struct Stop {};
 
   Answer ask(const std::string& question);
   bool joint(int index);
-  /// With the changes of earlier attempts.
+  /// Starts with the changes of earlier attempts.
   cli::Json begun(const JointParams& joint) const;
   void set_up(const JointParams& joint, cli::Json& entry);
   /// Saves a written change: a later step may fail.

@@ -71,7 +71,8 @@ int write_file(const std::string& file, const std::string& text) {
   refuse(file, std::string("cannot be written: ") + std::strerror(error));
 }
 
-/// Before a servo changes: its entry would be lost. `now`: present content; `room`: bytes to add.
+/// Checked before a servo changes: its entry would be lost. `now`: present content; `room`: bytes
+/// to add.
 void check_place(const std::string& file, const std::string& now, std::size_t room) {
   int error = write_part(file, now + std::string(room, ' '));
   if (error == 0) ::unlink(part_of(file).c_str());

@@ -22,7 +22,7 @@ class SetupReport {
 
   const cli::Json& json() const { return json_; }
   const std::string& file() const { return file_; }
-  /// By this run or an earlier one.
+  /// The file exists, from any run.
   bool written() const { return written_; }
   /// One line per joint of the robot.
   std::string text(const Params& params) const;

@@ -33,7 +33,7 @@ namespace {
 struct ShadowWords {
   std::string model, bus, link;
   RunParams params;
-  WalkOptions tuning;     ///< tuning only
+  WalkOptions tuning;
   double for_s = 0;       ///< 0: until an interrupt
   double patience_s = 5;  ///< with a silent controller
   bool json = false;
@@ -224,7 +224,7 @@ class ShadowRun {
   bool connected_ = true;
 };
 
-/// With the changes given to `verp run`.
+/// Includes the changes given to `verp run`.
 Params params_of(const ShadowWords& words, const model::Entity& entity) {
   Params params = model::make_params(entity);
   scenario::tune(tuning_of(words.tuning), params.tuning);

@@ -42,7 +42,7 @@ void StickFigure::add_trunk() {
     }
   }
   hips_m /= std::max(legs, 1);
-  top_m.y() = 0;  // without a head
+  top_m.y() = 0;  // for a robot without a head
   limbs_.push_back({Kind::kTrunk, 2});
   bones_.push_back({{0, hips_m}, {0, top_m}});
 }

@@ -16,7 +16,7 @@ struct TeamOptions {
   int robots = 0;  ///< 0: only named ones
   /// NAME=MODEL, NAME=ext:LINK, NAME=on:BOARD, or with a model NAME=MODEL,ext:LINK.
   std::vector<std::string> seats;
-  bool go_on = false;      ///< after a lost controller
+  bool go_on = false;      ///< a lost controller ends only its robot
   double patience_s = 10;  ///< for a controller elsewhere, wall clock
   std::string of_outside;  ///< the given option for controllers elsewhere
 };
@@ -35,8 +35,8 @@ bool sort_robot_words(const std::vector<std::string>& words, std::string& model,
 struct Seat {
   std::string name;
   std::string model;  ///< empty: MODEL
-  std::string link;   ///< of a controller elsewhere
-  std::string board;  ///< emulated, runs its controller
+  std::string link;   ///< to a controller elsewhere; empty: none
+  std::string board;  ///< emulated board that runs its controller; empty: none
 };
 
 /// --robots (r1, r2, ...) and --robot NAME=..., which may also set the controller of one of the

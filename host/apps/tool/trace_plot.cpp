@@ -14,7 +14,7 @@
 namespace verp::tool {
 namespace {
 
-constexpr std::size_t kMostPanels = 40;  // more are illegible
+constexpr std::size_t kMostPanels = 40;  // per picture; more are illegible
 
 using signals::Column;
 
@@ -29,7 +29,7 @@ int list_signals(const std::vector<Column>& columns) {
   return cli::kGood;
 }
 
-/// Once each, in this order.
+/// Each column once, in this order.
 std::vector<std::size_t> chosen(const TraceWords& words, const std::vector<Column>& columns) {
   std::vector<std::string> names;
   for (const Column& column : columns) names.push_back(column.name);

@@ -80,7 +80,7 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
   return std::filesystem::weakly_canonical(std::filesystem::absolute(file)).parent_path();
 }
 
-/// Before the search: the robot's file can be written there and loads with its includes.
+/// Checked before the search: the robot's file can be written there and loads with its includes.
 void require_place(const std::string& file, const std::filesystem::path& robot_file) {
   std::error_code error;
   if (std::filesystem::exists(file, error))

@@ -12,7 +12,7 @@ struct ViewOptions {
   std::string link, gamepad = "/dev/input/js0";
 };
 
-/// For this program and the window's.
+/// Declared for this program and the window's.
 CLI::App* declare_view(CLI::App& root, ViewOptions& options);
 
 }  // namespace verp::tool

@@ -150,7 +150,7 @@ int walk_once(WalkOptions options, Walk& walk) {
 
 int run_walk(WalkOptions options) {
   read_robot_words(options);
-  if (options.touch.list) {  // of the nominal robot
+  if (options.touch.list) {  // quantities of the nominal robot
     options.vary = false;
     options.touch.pushes.clear();
     options.touch.settings.clear();

@@ -18,7 +18,7 @@
 namespace verp::tool {
 namespace {
 
-constexpr double kLength_s = 10;  // of a stability map
+constexpr double kLength_s = 10;  // default length in a stability map
 constexpr int kMostDirections = 36;
 
 int grid_of(const MapOptions& options, int usual, int least, int most, const char* what) {

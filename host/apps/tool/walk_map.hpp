@@ -22,7 +22,7 @@ struct MapOptions {
 
 constexpr int kMostOnMapAxis = 41;
 
-/// After all options that it excludes.
+/// Call it after all options that it excludes.
 void declare(CLI::App& app, MapOptions& options);
 
 /// Survey, answer and page. An interrupted one reports its finished part, status 1. Throws

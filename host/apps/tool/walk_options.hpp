@@ -39,7 +39,7 @@ struct WalkOptions {
   bool no_multibody = false, no_feedback = false, no_gravity = false, no_zeros = false;
   bool record_state = false, compress = false, json = false;
   bool stand = false;              ///< stands instead of walking
-  bool get_up = false;             ///< after a fall
+  bool get_up = false;             ///< a fall does not end the walk
   std::string start = "standing";  ///< or lying:SIDE
   bool vary = false;               ///< domain randomization (host/twin/sim/vary.hpp)
   std::vector<std::pair<std::string, std::string>> changed;  ///< changed_options()

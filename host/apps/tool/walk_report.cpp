@@ -159,7 +159,7 @@ std::string title(const WalkPlan& plan, const scenario::Orders& orders) {
                      cycle_s);
 }
 
-/// From the body's pose at the gait's start.
+/// The path from the body's pose at the gait's start.
 std::vector<report::Point2> asked_points(const WalkPlan& plan, const report::Sample& start,
                                          double walk_s) {
   std::vector<report::Point2> points;

@@ -20,8 +20,8 @@ struct Walk {
   scenario::Expanded run;
 };
 
-/// From options or --scenario. Robots: MODEL, --robots, --robot NAME=... and the world's. Each next
-/// seed is one more. Throws ToolError and LoadError.
+/// The run of the options or --scenario. Robots: MODEL, --robots, --robot NAME=... and the world's.
+/// Each next seed is one more. Throws ToolError and LoadError.
 Walk walk_of(const WalkOptions& options);
 scenario::Scenario scenario_of(const WalkOptions& options, const sim::WorldOptions& world);
 
@@ -29,7 +29,7 @@ scenario::Scenario scenario_of(const WalkOptions& options, const sim::WorldOptio
 scenario::Expanded expand(const WalkOptions& options, const scenario::Scenario& scenario,
                           const sim::WorldOptions& world);
 
-/// By --vary, as text and for --json.
+/// Values drawn by --vary, as text and for --json.
 struct Drawn {
   cli::Json json = cli::Json::object();
   std::string text;

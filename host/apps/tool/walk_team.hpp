@@ -53,7 +53,7 @@ class RealTimePace final : public session::Observer {
 struct Walks {
   std::vector<WalkResult> results;         ///< of each plan
   double took_s = 0;                       ///< wall time, with waiting
-  cli::Json objects = cli::Json::array();  ///< movable ones, at the end
+  cli::Json objects = cli::Json::array();  ///< the world's movable objects, at the end
 };
 
 /// At a plan's link a controller drives its robot in lockstep: the world waits for it at every

@@ -25,7 +25,7 @@ void declare_push(CLI::App& app, TouchOptions& options);
 
 /// Pushes first. Throws ToolError.
 std::vector<session::Intervention> disturbances_of(const TouchOptions& options);
-/// "--push '1: body 0,30,0 N for 0.1'".
+/// For example "--push '1: body 0,30,0 N for 0.1'".
 std::string option_of(const TouchOptions& options, std::size_t index);
 
 /// All as JSON, or one line per kind.

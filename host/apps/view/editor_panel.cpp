@@ -205,7 +205,7 @@ void EditorPanel::preview(int row, const QString& text) {
   soon_->start();
 }
 
-/// With the text being typed.
+/// Checks the text being typed.
 void EditorPanel::look() {
   if (!document_) return;
   soon_->stop();
@@ -213,7 +213,7 @@ void EditorPanel::look() {
   try {
     if (!typed_path_.empty()) seen.apply(edit::set(seen, typed_path_, typed_));
   } catch (const model::LoadError&) {
-    return;  // reported on entry
+    return;  // reported when the text is entered
   }
   const auto complaint = edit::check(seen);
   tell(complaint);

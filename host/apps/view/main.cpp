@@ -33,7 +33,7 @@ int show(MainWindow& window) {
   QObject::connect(&interrupts, &QTimer::timeout, [&] {
     if (!cli::interrupted() && !window.isHidden()) return;
     window.close();
-    QApplication::quit();  // close() needs a shown window
+    QApplication::quit();  // close() does not end a program without a window
   });
   interrupts.start(kInterrupt_ms);
   window.show();

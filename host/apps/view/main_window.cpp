@@ -58,7 +58,7 @@ MainWindow::MainWindow(QSettings& settings, MakeRun make_run)
       transport_(new Transport(this)),
       timer_(new QTimer(this)) {
   setWindowTitle("verp view");
-  resize(1280, 740);  // 800 lines minus a desktop's bars
+  resize(1280, 740);  // fits 800 lines with a desktop's bars
   setCentralWidget(scene_);
   make_editor();
   addToolBar(Qt::BottomToolBarArea, transport_);

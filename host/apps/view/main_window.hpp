@@ -112,7 +112,7 @@ class MainWindow final : public QMainWindow {
   std::unique_ptr<Gamepad> gamepad_;
   std::unique_ptr<Player> player_;
   std::shared_ptr<const TraceFilm> trace_;     ///< null in a run
-  std::unique_ptr<StepOn> shadow_;             ///< from a tick of the trace
+  std::unique_ptr<StepOn> shadow_;             ///< continues from a tick of the trace
   std::size_t state_index_ = ~std::size_t{0};  ///< shown in the panel
   std::shared_ptr<const Film> film_;
   std::shared_ptr<const scene::Entity> entity_;
@@ -139,7 +139,7 @@ class MainWindow final : public QMainWindow {
   QByteArray first_layout_;
   std::string failure_, said_, happened_;
   std::set<std::string> told_;              ///< notes already reported
-  std::optional<scene::Vec3> grip_link_m_;  ///< not a foot; link frame
+  std::optional<scene::Vec3> grip_link_m_;  ///< not on a foot; in the link's frame
   std::optional<scene::Vec3> foot_from_m_;  ///< where the drag began
   int frames_ = 0;
 };

@@ -99,7 +99,7 @@ void MainWindow::step_on(int ticks) {
   player_->seek((shadow_->inputs().tick + 0.5) * player.trace().period_s());
 }
 
-/// With the continuing controller's goals.
+/// The robot with the continuing controller's goals.
 Picture MainWindow::with_shadow(Picture now) const {
   if (!shadow_ || !now || now->robots.empty()) return now;
   auto picture = std::make_shared<scene::Snapshot>(*now);

@@ -30,7 +30,7 @@ class PosePanel final : public QWidget {
   scene::Vec3 in_link_m(int node, const scene::Vec3& at_world_m) const;
   Picture picture() const;
 
-  std::function<void()> changed;  ///< pose or hold
+  std::function<void()> changed;  ///< the pose, or whether the robot is held
 
  private:
   void show_hand();

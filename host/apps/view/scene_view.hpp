@@ -34,12 +34,12 @@ class SceneView final : public QOpenGLWidget {
   struct Hold {
     int robot = 0, node = 0;
     scene::Vec3 at_world_m = scene::Vec3::Zero();  ///< where the grip began
-    scene::Vec3 to_world_m = scene::Vec3::Zero();  ///< at the same distance from the eye
+    scene::Vec3 to_world_m = scene::Vec3::Zero();  ///< the mouse, at the same distance from the eye
   };
   std::function<void(const Hold&)> held, let_go;
   std::function<void(const Hold&)> taken;              ///< double click
   std::function<void(const std::string& why)> failed;  ///< the view cannot draw
-  std::function<void(const std::string& what)> noted;  ///< cannot be drawn
+  std::function<void(const std::string& what)> noted;  ///< an item that cannot be drawn
 
   std::uint64_t drawn() const { return drawn_; }
 

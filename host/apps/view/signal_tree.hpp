@@ -9,7 +9,7 @@ class QLineEdit;
 
 namespace verp::view {
 
-/// With a check box and the current value.
+/// Signals with a check box and the current value.
 class SignalTree final : public QWidget {
  public:
   explicit SignalTree(QWidget* parent = nullptr);

@@ -119,7 +119,7 @@ void TuningPanel::set_box(int id, float value) {
   mark(id);
 }
 
-/// Only numbers that changed: a requested change takes effect later.
+/// Shows only numbers that changed: a requested change takes effect later.
 void TuningPanel::show_tuning(const Tuning& tuning) {
   for (int id = 0; id < kTuningCount; ++id) {
     const float value = tuning_value(tuning, id);

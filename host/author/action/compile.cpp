@@ -248,7 +248,7 @@ class Maker {
   Poser poser_;
   std::vector<Document> documents_;
   std::vector<Draft> drafts_;
-  std::vector<std::size_t> first_;  ///< of each action
+  std::vector<std::size_t> first_;  ///< first frame of each action
 };
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include "common/action/library.hpp"
 #include "host/robot/model/load_error.hpp"
 
-/// As in its file (host/guide/actions.md), not compiled.
+/// An action as in its file (host/guide/actions.md), not compiled.
 namespace verp::action {
 
 /// Body or sole from the stand, relative to the ground.
@@ -20,7 +20,7 @@ struct Offset {
 
 struct JointGoal {
   std::string joint;
-  bool from_stand = false;  ///< relative to the stand angle
+  bool from_stand = false;  ///< `angle_rad` is relative to the stand
   double angle_rad = 0;
   int line = 0;
 };

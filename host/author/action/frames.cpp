@@ -17,7 +17,7 @@ int joint_of(const Params& params, const Document& document, int line, const std
   return joint_named(params, name, document.file, line);
 }
 
-/// From one frame to the next.
+/// State from one frame to the next.
 struct Held {
   bool smooth = true, balance = true;
   Stance stance = Stance::kBoth;
@@ -142,7 +142,7 @@ std::uint32_t leg_joints(const Params& params) {
   return joints;
 }
 
-/// In any frame; before its first goal a joint stands.
+/// Joints with a goal in any frame; before its first goal a joint stands.
 std::uint32_t joints_of(const Params& params, const Document& document) {
   std::uint32_t joints = 0;
   for (const FrameText& text : document.frames) {

@@ -5,11 +5,11 @@
 
 namespace verp::action {
 
-/// For a plan that may get up. Throws LoadError if a needed action is missing.
+/// Loads the actions of a plan that may get up. Throws LoadError if a needed action is missing.
 void take_get_up_actions(session::WalkPlan& plan);
 
-/// Also without get-ups, if the robot can get up from both sides. Returns its files' error, or
-/// empty.
+/// Loads them also without get-ups, if the robot can get up from both sides. Returns its files'
+/// error, or empty.
 std::string offer_get_up_actions(session::WalkPlan& plan);
 
 }  // namespace verp::action

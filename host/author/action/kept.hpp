@@ -7,7 +7,7 @@
 
 namespace verp::action {
 
-/// As in a board's flash, with the robot's mark.
+/// The image as in a board's flash, with the robot's mark.
 std::vector<std::uint8_t> kept_image(const CompiledActions& made, const Params& params);
 
 }  // namespace verp::action

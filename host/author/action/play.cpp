@@ -8,7 +8,7 @@
 namespace verp::action {
 namespace {
 
-/// On the floor, in the heading of `from`.
+/// The way on the floor, in the heading of `from`.
 void tell_way(const sim::Truth& from, const sim::Truth& to, PlayedAction& played) {
   const Eigen::Rotation2Dd home(-from.yaw_rad);
   played.went_m = home * (to.body_world.translation() - from.body_world.translation()).head<2>();

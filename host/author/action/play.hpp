@@ -6,13 +6,13 @@ namespace verp::action {
 struct PlayedAction {
   session::WalkResult run;
   double action_s = 0;  ///< stand to stand
-  double asked_s = 0;   ///< simulated
-  /// Since the request, in the heading then: x ahead, y left.
+  double asked_s = 0;   ///< simulated time of the request
+  /// The way since the request, in the heading then: x ahead, y left.
   sim::Vec2 went_m = sim::Vec2::Zero();
   double turned_rad = 0;  ///< to the left
 };
 
-/// On the twin, with the caller's `hooks`.
+/// Plays it on the twin, with the caller's `hooks`.
 PlayedAction play(session::WalkPlan plan, int number, session::Hooks hooks,
                   session::Options options);
 

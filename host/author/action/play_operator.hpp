@@ -10,7 +10,7 @@ namespace verp::action {
 /// Stands, requests an action once the robot is quiet, and waits until it stands again.
 class PlayOperator {
  public:
-  /// For the stand or the action's begin, and for the action.
+  /// Limits for the stand or the action's begin, and for the action.
   static constexpr double kStandUp_s = 15, kMostAction_s = 300;
 
   PlayOperator(int number, double period_s) : number_(number), period_s_(period_s) {}

@@ -16,7 +16,7 @@ Pose moved(const Pose& pose, const Offset& offset) {
   return {turn * pose.rotation, pose.position_m + by_m};
 }
 
-/// With the centre of mass over the soles.
+/// The stand with the centre of mass over the soles.
 gait::Posture settled(const Params& params) {
   constexpr int kGlideTicks = 2000;
   gait::GaitState state;

@@ -21,7 +21,7 @@ class Poser {
     Offset body, foot[kFeet];
     std::optional<double> over_left;  ///< moves the body for the centre of mass
   };
-  /// Only the legs' angles. Returns empty or the reason.
+  /// Sets only the legs' angles. Returns empty or the reason.
   std::string bend(const Legs& legs, Angles& angle_rad) const;
 
  private:

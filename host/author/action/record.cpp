@@ -20,7 +20,7 @@ double in_ms(double time_s) {
   return 1e-3 * std::round(1e3 * time_s);
 }
 
-/// At the time of the goals.
+/// Planned leg poses at the time of the goals.
 void add_planned(const Params& params, const State& state, FrameText& frame) {
   const gait::Posture posture = gait::posture_before(params, state.tuning, state.gait, 0);
   for (int side = 0; side < kFeet; ++side) {

@@ -70,7 +70,7 @@ FrameText frame_of_page(const Params& params, const Page& page, std::size_t step
   frame.hold_s = page[at + kPause] * unit_s(page);
   if (step == 0) frame.balance = false;  // servo angles under load
   Stiffness off{{}, 0, 0}, on{{}, 100, 0};
-  bool was_off = false;  // until a frame turns torque on
+  bool was_off = false;  // torque stays off until a frame turns it on
   for (int j = 0; j < params.joint_count; ++j) {
     const JointParams& joint = params.joint[j];
     if (joint.servo_id >= kPageServos) continue;

@@ -15,7 +15,7 @@ inline constexpr std::size_t kPages = 256, kPageBytes = 512, kSteps = 7, kPageSe
 using Page = std::array<std::uint8_t, kPageBytes>;
 using Motion = std::vector<Page>;  ///< kPages of them
 
-/// As ROBOTIS' editor resets a page.
+/// A page as ROBOTIS' editor resets a page.
 Page blank_page();
 /// All bytes then sum to 255.
 void seal(Page& page);
@@ -26,8 +26,8 @@ Motion read_motion(const std::filesystem::path& file);
 
 /// One action per page with steps or content; joints by servo id.
 std::vector<Document> from_motion(const Params& params, const Motion& motion);
-/// To an action's page or the first free one. Other bytes stay. Throws LoadError for content that
-/// no page holds.
+/// Each action goes to its page or the first free one. Other bytes stay. Throws LoadError for
+/// content that no page holds.
 Motion to_motion(const Params& params, const std::vector<Document>& documents);
 
 /// Parts that pages neither hold nor need: "note, stance"; or empty.

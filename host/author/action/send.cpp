@@ -70,7 +70,7 @@ void require_ready(ActionPort& port, const SendOptions& options) {
   fail(port, why + "; it keeps those that it has");
 }
 
-/// Until there is a place; a chip that erases does not answer.
+/// Offers until there is a place; a chip that erases does not answer.
 Offer offer_until(ActionPort& port, std::span<const std::uint8_t> image,
                   const SendOptions& options) {
   const Clock::time_point end = in(options.place_s);

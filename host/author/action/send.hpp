@@ -30,7 +30,7 @@ class ActionPort {
   /// The controller's name in errors.
   virtual std::string place() const = 0;
   virtual std::vector<std::uint8_t> read(const char* name) = 0;
-  /// From the beginning. `went(bytes)`: progress; false stops.
+  /// Sends from the beginning. `went(bytes)`: progress; false stops.
   virtual Offer offer(std::span<const std::uint8_t> image,
                       const std::function<bool(std::size_t)>& went) = 0;
 
@@ -42,7 +42,7 @@ class ActionPort {
   }
 };
 
-/// By the registers' window of device `id`.
+/// Uses the registers' window of device `id`.
 std::unique_ptr<ActionPort> serial_action_port(const link::Endpoint& endpoint, std::uint8_t id);
 /// The caller keeps the client.
 std::unique_ptr<ActionPort> serial_action_port(bus::Client& client, std::uint8_t id);

@@ -102,7 +102,8 @@ Torques Support::torques(const PlayerOut& now) const {
       if (leg.solver == LegSolver::kNone || (beyond >> leg.joint[kLegJoints - 1] & 1U) == 0) {
         continue;
       }
-      // Below the centre of mass if the foot carries alone, else at the sole's middle.
+      // The ground pushes below the centre of mass if the foot carries alone, else at the sole's
+      // middle.
       const Vec3 below_m = com_m - (com_m - soles[foot].position_m).dot(up) * up;
       const Vec3 ground_m = now.stance == Stance::kBoth ? soles[foot].position_m : below_m;
       moment += math::cross(ground_m - at_m, now.carry[foot] * push_n * up);

@@ -13,9 +13,9 @@ class Support {
  public:
   explicit Support(const Params& params) : params_(params) {}
 
-  /// Against weight alone, N m.
+  /// Torques against weight alone, N m.
   Torques torques(const PlayerOut& now) const;
-  /// Relative to a standing sole: x and y in its frame, z above.
+  /// The centre of mass relative to a standing sole: x and y in its frame, z above.
   Vec3 com_over(const PlayerOut& now, int side) const;
   /// Inside the carrying soles, for a point in that sole's frame; negative outside.
   double margin_m(const PlayerOut& now, int side, const Vec2& point_m) const;

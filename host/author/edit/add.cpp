@@ -151,7 +151,7 @@ class Adder {
     return word_ == "z" ? "0 0 1" : row("axis", 3);
   }
 
-  /// With a mass, its link too.
+  /// With a mass, adds its link, too.
   Edit joint() const {
     new_name(Kind::kJoint);
     const std::string type = word("type", "revolute"), name = word("name"),
@@ -191,7 +191,7 @@ class Adder {
     });
   }
 
-  /// Behind the last of its kind.
+  /// Inserts behind the last of its kind.
   Edit last(const std::string& block, int parent = -1) const {
     if (parent < 0) parent = document_.model();
     const std::string tag = block.substr(1, block.find_first_of(" >/", 1) - 1);

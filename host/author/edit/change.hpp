@@ -14,25 +14,25 @@ namespace verp::edit {
 /// <dynamics> for joint:l_knee/axis/dynamics/damping.
 Edit set(const Document& document, const std::string& path, const std::string& value);
 
-/// With dependents: a joint's link and all joints of that, servos, frames, limbs, and angles in
-/// poses.
+/// Also removes dependents: a joint's link and all joints of that, servos, frames, limbs, and
+/// angles in poses.
 Edit remove(const Document& document, int element);
 
 /// Renames every mention, too.
 Edit rename(const Document& document, int element, const std::string& name);
 
-/// As the last child of `parent`, or behind child `after`. `block` has two spaces a level; the
-/// file's own indentation is added.
+/// Inserts `block` as the last child of `parent`, or behind child `after`. `block` has two spaces a
+/// level; the file's own indentation is added.
 Edit insert(const Document& document, int parent, const std::string& block, int after = -1);
 
-/// With dependents, beside the part. Servos get free ids.
+/// Copies the part with dependents beside the part. Servos get free ids.
 Edit duplicate(const Document& document, int element, const std::string& name);
 
-/// To the other side: left becomes right, l_ becomes r_, y becomes -y. Rotations are mirrored;
-/// joint axes point as before.
+/// Copies to the other side: left becomes right, l_ becomes r_, y becomes -y. Rotations are
+/// mirrored; joint axes point as before.
 Edit mirror(const Document& document, int element);
 
-/// Behind the comments on its line if the element is the last.
+/// The place behind an element; behind the comments on its line if the element is the last.
 std::size_t behind(const Document& document, int element);
 
 Edit together(const Document& document, const std::string& what,

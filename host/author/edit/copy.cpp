@@ -25,7 +25,7 @@ bool is_within(const Document& document, int inner, int outer) {
   return a.begin >= b.begin && a.end <= b.end;
 }
 
-/// With other names, ids and numbers.
+/// Copies with other names, ids and numbers.
 class Copier {
  public:
   Copier(const Document& document, int element, Rename renamed, bool mirrored)

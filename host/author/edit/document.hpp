@@ -15,7 +15,7 @@ struct Splice {
   std::string before, after;
 };
 
-/// As the user sees it: splices in text order, not nested.
+/// A change as the user sees it: splices in text order, not nested.
 struct Edit {
   std::string what;  ///< "set mass of trunk"
   std::vector<Splice> splices;
@@ -51,7 +51,7 @@ class Document {
   /// Returns a note with the place.
   std::string put_aside() const;
 
-  /// For find(): "link:trunk/inertial/mass".
+  /// A path for find(): "link:trunk/inertial/mass".
   std::string path(int element) const;
   /// Throws LoadError with the candidates.
   int find(const std::string& path) const;
@@ -77,7 +77,7 @@ struct Complaint {
   std::string file;
   int line = 1;
   std::string message, fix, part;
-  bool unfinished = true;  ///< missing; false: wrong
+  bool unfinished = true;  ///< something is missing; false: it is wrong
   std::string line_of_text() const;
 };
 std::optional<Complaint> check(const Document& document);

@@ -62,7 +62,7 @@ void add_mentions(const Document& document, Kind kind, const std::set<std::strin
   for (const Mention& each : mentions(document, kind)) {
     if (each.defines || !names.contains(each.name)) continue;
     const int found = dependent(document, each.element);
-    // By its tip; its base may carry other limbs.
+    // A limb depends on its tip; its base may carry other limbs.
     const Element& element = document.markup()[each.element];
     const Attribute* base = element.attribute("base");
     if (base != nullptr && base->value_at.begin == each.at.begin) {

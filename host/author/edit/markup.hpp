@@ -40,7 +40,8 @@ class Markup {
   const std::vector<Element>& elements() const { return elements_; }
   const Element& operator[](int index) const { return elements_[std::size_t(index)]; }
   int root() const { return 0; }
-  /// Without surrounding spaces and comments; else empty, at its content's end. `of`: scanned text.
+  /// Text without surrounding spaces and comments; else empty, at its content's end. `of`: scanned
+  /// text.
   Range text_at(int index, std::string_view of) const;
   /// That text, unescaped.
   std::string text(int index, std::string_view of) const;
@@ -49,7 +50,7 @@ class Markup {
   std::vector<Element> elements_;
 };
 
-/// For an attribute or between tags.
+/// Escapes for an attribute or between tags.
 std::string escaped(std::string_view value);
 int line_at(std::string_view text, std::size_t byte);
 

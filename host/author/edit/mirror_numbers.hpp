@@ -10,7 +10,7 @@ namespace verp::edit {
 /// normal to it.
 bool angle_changes_sign(const Document& document, int joint);
 
-/// For y -> -y. `sign_changes`: joints whose angles do; `joints`: all mirrored.
+/// Changes for y -> -y. `sign_changes`: joints whose angles do; `joints`: all mirrored.
 std::vector<Splice> mirrored_numbers(const Document& document, int element,
                                      const std::set<std::string>& sign_changes,
                                      const std::set<std::string>& joints);

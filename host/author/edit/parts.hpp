@@ -32,19 +32,19 @@ struct Body {
   double mass_kg = 0;
   Vec3 com_m = Vec3::Zero();
   Mat3 inertia_kg_m2 = Mat3::Zero();  ///< about the centre of mass
-  std::optional<Solid> solid;         ///< for collisions; drawn without a mesh
+  std::optional<Solid> solid;         ///< collision shape; drawn if there is no mesh
   std::optional<Mesh> mesh;           ///< drawn
 };
 Body body_of(const Solid& solid, double mass_kg);
 
 /// Lines of a <link>; `name`: of the shapes.
 std::string link_content(const Document& document, const std::string& name, const Body& body);
-/// On a joint or frame (SDF; empty: on the model).
+/// The link is on a joint or frame (SDF; empty: on the model).
 Edit add_link(const Document& document, const std::string& name, const Body& body,
               const std::string& on);
 
-/// "link", "joint", "servo", ... from name=value words. Throws model::LoadError for a missing or
-/// unknown word.
+/// Adds "link", "joint", "servo", ... from name=value words. Throws model::LoadError for a missing
+/// or unknown word.
 using Words = std::map<std::string, std::string>;
 Edit add(const Document& document, const std::string& kind, const Words& words);
 std::vector<std::string> kinds();

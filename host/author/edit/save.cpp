@@ -27,7 +27,7 @@ std::string write(const fs::path& file, const std::string& text) {
   return why;
 }
 
-/// Into a new file; says which.
+/// Writes into a new file and says which.
 std::string keep(const fs::path& file, const std::string& text) {
   const char* temporary = std::getenv("TMPDIR");
   for (const fs::path& folder : {file.parent_path(), fs::path(temporary ? temporary : "/tmp")}) {

@@ -3,8 +3,8 @@
 
 namespace verp::edit {
 
-/// By the path's last part: "kg" for link:trunk/inertial/mass, "rad" for servo:l_knee@lower_rad.
-/// Empty: none, or unknown.
+/// The unit follows from the path's last part: "kg" for link:trunk/inertial/mass, "rad" for
+/// servo:l_knee@lower_rad. Empty: none, or unknown.
 std::string unit_of(const std::string& path);
 
 }  // namespace verp::edit

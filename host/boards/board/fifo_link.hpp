@@ -24,11 +24,12 @@ class FifoLink {
   std::filesystem::path to_board() const { return directory_.path() / "to_board"; }
   std::filesystem::path from_board() const { return directory_.path() / "from_board"; }
 
-  /// Until the firmware opened both, to_board() first. Throws BoardError if it ends or exceeds
-  /// `limit`.
+  /// Waits until the firmware opened both, to_board() first. Throws BoardError if it ends or
+  /// exceeds `limit`.
   void connect(QemuProcess& firmware, std::chrono::seconds limit);
 
-  /// At least one byte, at most capacity; 0: the firmware closed. Throws BoardError after `limit`.
+  /// Reads at least one byte, at most capacity; 0: the firmware closed. Throws BoardError after
+  /// `limit`.
   std::size_t read_some(void* data, std::size_t capacity, std::chrono::milliseconds limit);
   /// All bytes; false: the firmware closed. Throws like read_some().
   bool read(void* data, std::size_t size, std::chrono::milliseconds limit);

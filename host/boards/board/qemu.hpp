@@ -32,7 +32,7 @@ class QemuProcess {
   /// Throws BoardError without QEMU; $VERP_QEMU names another emulator.
   explicit QemuProcess(const Launch& launch);
 
-  /// After its end; 128 + signal if killed.
+  /// The status after its end; 128 + signal if killed.
   std::optional<int> poll_status() { return child_->status(); }
 
   /// Waits for the end. Throws BoardError with the last output after `limit`.

@@ -9,7 +9,7 @@ namespace verp::flash {
 /// Throws FlashError unless kCheckChip's output names the board's chip.
 void check_chip(const Job& job, const std::string& output);
 
-/// For a failed step; unknown output gives the tool's last line.
+/// The error of a failed step; unknown output gives the tool's last line.
 FlashError diagnose(const Job& job, const Step& step, const std::string& output);
 
 /// udev rule for the devices of `tool`, and how to install it.

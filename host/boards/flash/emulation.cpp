@@ -32,7 +32,7 @@ bool is_emulated(const std::string& name) {
                      [&](const board::EmulatedBoard& each) { return each.name == name; });
 }
 
-/// For QEMU's options and a socket's name.
+/// The path must suit QEMU's options and a socket's name.
 void require_plain(const fs::path& path) {
   if (path.string().size() < sizeof(sockaddr_un::sun_path) &&
       path.string().find_first_of(" ,") == std::string::npos) {

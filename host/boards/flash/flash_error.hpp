@@ -16,8 +16,8 @@ class FlashError : public std::runtime_error {
     kBusy,        ///< another program uses it
     kWrongChip,   ///< not the board's chip
     kProtected,
-    kRefused,  ///< the chip refused
-    kLost,     ///< during the operation
+    kRefused,  ///< the chip refused to erase or write
+    kLost,     ///< connection lost during the operation
     kVerify,
     kInterrupted,
     kOther,

@@ -8,12 +8,12 @@
 namespace verp::flash {
 
 struct FlashHooks {
-  /// Before each step and at its progress; share 0..1.
+  /// Called before each step and at its progress; share 0..1.
   std::function<void(const Step&, double)> progress = [](const Step&, double) {};
   std::function<bool()> stop = [] { return false; };
 };
 
-/// Until a step fails. Throws FlashError; unless it says otherwise, nothing was written.
+/// Runs until a step fails. Throws FlashError; unless it says otherwise, nothing was written.
 void run(const Job& job, const std::vector<Step>& steps, const FlashHooks& hooks);
 
 /// $VERP_FLASH_DIR, or build/flash.
@@ -30,7 +30,7 @@ class Workspace {
   Workspace& operator=(const Workspace&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// For the program that this process becomes.
+  /// Hands the lock to the program that this process becomes.
   void hand_over() const;
 
  private:

@@ -12,7 +12,7 @@ struct MemoryMap {
   Span params = {}, actions = {};  ///< empty: not in flash
 };
 
-/// boards/<board>/memory.ld. Throws FlashError if missing or not understood.
+/// Reads boards/<board>/memory.ld. Throws FlashError if missing or not understood.
 MemoryMap read_memory_map(const std::string& board);
 
 /// Symbols verp_{params,actions}_{begin,bytes}, and FLASH and RAM of MEMORY: a number, a name or

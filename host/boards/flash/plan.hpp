@@ -27,9 +27,9 @@ struct Job {
 struct Step {
   enum class Kind {
     kCheckChip,  ///< read-only
-    kRead,       ///< a sector with a part to keep
-    kCompose,    ///< old and new contents
-    kWrite,      ///< and verifies if the tool can
+    kRead,       ///< reads a sector of which a part is kept
+    kCompose,    ///< combines old and new contents
+    kWrite,      ///< erases, writes and, if the tool can, verifies
     kReadBack,
     kCompare,
   };
@@ -38,7 +38,8 @@ struct Step {
   std::vector<std::string> command;
   std::filesystem::path file = {};  ///< kRead, kReadBack: must exist then, `bytes` long
   std::uint32_t bytes = 0;
-  /// For kWrite of a read sector: its other contents, and files to save them in after a failure.
+  /// For kWrite of a sector that was read: its other contents, and files to save them in after a
+  /// failure.
   std::vector<Piece> neighbours = {};
   Span sectors = {};  ///< the erased region
 };
@@ -47,8 +48,9 @@ struct Step {
 /// FlashError if they do not fit together.
 Tool choose_tool(const Recipe& recipe, const std::string& asked, const std::string& port);
 
-/// In order. The chip erases whole sectors. A sector shared with another region is read first and
-/// written back with the new piece. Throws FlashError for a port or path that the tool misreads.
+/// Steps in order. The chip erases whole sectors. A sector shared with another region is read first
+/// and written back with the new piece. Throws FlashError for a port or path that the tool
+/// misreads.
 std::vector<Step> plan(const Job& job);
 
 }  // namespace verp::flash

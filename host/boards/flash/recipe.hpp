@@ -30,7 +30,7 @@ struct Recipe {
   const Chip* chip;          ///< null: emulation only
   std::vector<Tool> tools;   ///< default first
   const char* probe;         ///< OpenOCD configuration
-  const char* serial_pins;   ///< of the boot loader
+  const char* serial_pins;   ///< serial port of the boot loader
   const char* replay_board;  ///< emulated, same core
   bool can_image = false;    ///< a second image for CAN
 };

@@ -19,7 +19,7 @@ namespace verp::flash {
 namespace {
 
 constexpr int kLook_ms = 50;
-constexpr int kGrace_looks = 60;  ///< from SIGINT to SIGKILL, 3 s
+constexpr int kGrace_looks = 60;  ///< 3 s between SIGINT and SIGKILL
 
 /// Both streams in one pipe; ends with this object.
 class StartedTool {
@@ -70,7 +70,7 @@ class StartedTool {
   std::optional<process::Child> child_;
 };
 
-/// Before the last percent sign; negative: none.
+/// The number before the last percent sign; negative: none.
 double last_share(const std::string& output) {
   const std::size_t sign = output.rfind('%');
   if (sign == output.npos) return -1;

@@ -18,7 +18,8 @@ struct ToolHooks {
   std::function<bool()> stop = [] { return false; };
 };
 
-/// Without terminal, shielded from our Ctrl-C. Throws FlashError if missing; `package`: Debian's.
+/// Runs without a terminal, shielded from our Ctrl-C. Throws FlashError if missing; `package`:
+/// Debian's.
 ToolRun run_tool(const std::vector<std::string>& command, const std::string& package,
                  const ToolHooks& hooks);
 

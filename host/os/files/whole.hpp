@@ -16,8 +16,8 @@ std::optional<std::string> read(const std::filesystem::path& file);
 
 bool write(const std::filesystem::path& file, std::string_view bytes);
 
-/// Through a temporary file that is then renamed: a reader never sees half a file, and a failed
-/// write leaves nothing. A link stays a link, to the new bytes; a device or pipe is written
+/// Writes through a temporary file that is then renamed: a reader never sees half a file, and a
+/// failed write leaves nothing. A link stays a link, to the new bytes; a device or pipe is written
 /// directly.
 bool replace(const std::filesystem::path& file, std::string_view bytes);
 

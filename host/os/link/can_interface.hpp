@@ -15,7 +15,7 @@ struct CanInterface {
   bool up = false;
   bool fd = false;
   std::uint32_t bitrate = 0;     ///< bit/s; 0: unknown or none
-  std::uint32_t restart_ms = 0;  ///< after bus-off; 0: never
+  std::uint32_t restart_ms = 0;  ///< delay after a bus-off; 0: no restart
 };
 
 /// This PC's interfaces, CAN or not. Throws LinkError if the kernel does not answer.
@@ -24,7 +24,7 @@ std::vector<CanInterface> network_interfaces();
 /// Ready to be opened. Throws LinkError with the remedy if missing, down or not CAN.
 CanInterface find_can_interface(const std::string& name);
 
-/// For a usable interface; may be empty.
+/// Advice for a usable interface; may be empty.
 std::string advice(const CanInterface& interface);
 
 /// Why the interface cannot carry `baud` bit/s, with the remedy. Empty: it can, or its rate is

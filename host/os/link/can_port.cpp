@@ -82,7 +82,7 @@ void CanPort::set_up(int socket, const std::vector<CanFilter>& filters) {
   if (stamps_) set_option(socket, SOL_SOCKET, SO_TIMESTAMPNS, on);
   set_option(socket, SOL_SOCKET, SO_RXQ_OVFL, on);
   set_option(socket, SOL_SOCKET, SO_RCVBUF, kReceiveBuffer);
-  set_option(socket, SOL_SOCKET, SO_RCVBUFFORCE, kReceiveBuffer);  // root only
+  set_option(socket, SOL_SOCKET, SO_RCVBUFFORCE, kReceiveBuffer);  // root gets the full size
   set_option(socket, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, can_err_mask_t{CAN_ERR_MASK});
   if (interface_.fd) set_option(socket, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, on);
   if (filters.empty()) {
@@ -178,7 +178,7 @@ void CanPort::take(CanBatch& batch, std::size_t index, std::uint64_t now_ns,
   // Only the stamp's age counts: the wall clock may be set.
   const std::uint64_t age_ns = now_wall_ns > beside.wall_ns ? now_wall_ns - beside.wall_ns : 0;
   const std::uint64_t time_us = us_since_opened(now_ns > age_ns ? now_ns - age_ns : 0);
-  bus_off_ = false;  // it receives
+  bus_off_ = false;  // a node that receives is not bus-off
   if ((message.msg_hdr.msg_flags & MSG_CONFIRM) != 0) {
     if (in_kernel_ > 0) --in_kernel_;
     anchor_us_ = std::max(anchor_us_, time_us);

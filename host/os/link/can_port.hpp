@@ -38,15 +38,15 @@ class CanPort {
   // CanBus
   bool send(const CanFrame& frame);
   bool poll(CanFrame& frame, std::uint32_t timeout_us);
-  /// In one kernel call if possible, in this order. Returns the number before the first refused
-  /// frame.
+  /// Sends in one kernel call if possible, in this order. Returns the number before the first
+  /// refused frame.
   std::size_t send_all(const CanFrame* frames, std::size_t count);
   /// Like poll(), but the timeout starts now.
   bool await(CanFrame& frame, std::uint32_t wait_us);
   std::uint64_t now_us();
   hal::CanErrors errors() const;
 
-  /// By kind; updated by each send and poll.
+  /// Errors by kind; updated by each send and poll.
   const CanTrouble& trouble() const { return trouble_; }
   /// Interface up and this node on the bus, as of the last send or poll.
   bool connected() const { return !away_ && !bus_off_; }
@@ -64,7 +64,7 @@ class CanPort {
   void look_for_it();
   void lose(int error);
   void drop_what_waits();
-  /// As far as there is room.
+  /// Reads frames as far as there is room.
   void drain();
   /// False: no more for now.
   bool receive_some();
@@ -72,7 +72,7 @@ class CanPort {
   bool take_from_inbox(CanFrame& frame);
   void take_error_frame(const std::uint8_t* data, std::uint32_t kinds);
   bool may_leave(const CanFrame& frame) const;
-  /// While the kernel accepts frames.
+  /// Sends while the kernel accepts frames.
   void push();
   /// Frames that have not waited; returns the number accepted.
   std::size_t push_at_once(const CanFrame* frames, std::size_t count);
@@ -87,9 +87,9 @@ class CanPort {
   CanInterface interface_;
   Descriptor socket_;
   std::uint64_t opened_ns_;
-  std::uint64_t anchor_us_ = 0;  ///< last accepted frame left
+  std::uint64_t anchor_us_ = 0;  ///< when the last accepted frame left
   std::uint64_t last_us_ = 0;
-  bool stands_ = false;  ///< since a poll returned a frame
+  bool stands_ = false;  ///< now_us() is frozen since a poll returned a frame
   bool away_ = false;
   bool bus_off_ = false;
   std::uint64_t looked_ns_ = 0;

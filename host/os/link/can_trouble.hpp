@@ -10,7 +10,7 @@ struct CanTrouble {
   std::uint32_t bus_offs = 0;
   std::uint32_t restarts = 0;  ///< after a bus-off
   std::uint32_t lost_arbitrations = 0;
-  std::uint32_t unacknowledged = 0;  ///< no other node, or another rate
+  std::uint32_t unacknowledged = 0;  ///< no other node, or rates differ
   std::uint32_t protocol = 0;        ///< bit, form, stuff errors, overload
   std::uint32_t bus_errors = 0;
   std::uint32_t transceiver = 0;  ///< broken or shorted wire
@@ -21,7 +21,7 @@ struct CanTrouble {
   std::uint32_t socket_overruns = 0;      ///< read too late
   std::uint32_t send_overflows = 0;
   std::uint32_t losses = 0;   ///< interface down or gone
-  std::uint32_t dropped = 0;  ///< by bus-off or loss
+  std::uint32_t dropped = 0;  ///< frames dropped by bus-off or loss
 };
 
 /// `kinds`: identifier without the flag; `data`: 8 bytes.

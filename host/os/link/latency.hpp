@@ -9,7 +9,7 @@ namespace verp::link {
 std::optional<int> latency_timer_ms(const std::string& device,
                                     const std::string& system_folder = "/sys");
 
-/// If `device` holds bytes back for more than 1 ms; else empty.
+/// One line if `device` holds bytes back for more than 1 ms; else empty.
 std::string latency_advice(const std::string& device, const std::string& system_folder = "/sys");
 
 }  // namespace verp::link

@@ -97,7 +97,7 @@ class PtyPort final : public Port {
     const int error = link();
     if (error == 0) return;
     if (error != EEXIST || !is_terminal_name(target())) refuse_link(error);
-    // Of two programs that find a killed program's link, the second must see the first one's.
+    // If two programs find a killed program's link, the second must see the first one's.
     const Descriptor folder(::open(folder_of(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (folder.get() >= 0) ::flock(folder.get(), LOCK_EX);
     const std::string other = target();

@@ -7,7 +7,7 @@ namespace {
 
 constexpr char kFirst = '0';
 constexpr std::uint32_t kSixBits = 0x3F;
-// 1128 steps of 3 characters, plus 53 sums and line ends.
+// The longest scan: 1128 steps of 3 characters, plus 53 sums and line ends.
 constexpr std::size_t kLongest = 8192;
 
 /// Nothing: a wrong checksum.

@@ -38,7 +38,7 @@ class Replies {
   std::uint32_t damaged_ = 0;
 };
 
-/// From a reply to MD with status 99. False: another reply; `scan` is unchanged. Ranges below
+/// Reads a reply to MD with status 99. False: another reply; `scan` is unchanged. Ranges below
 /// `least_mm` are errors (section 8) and become 0.
 bool read_scan(const Replies::Reply& reply, std::uint16_t least_mm, hal::RangeScan& scan);
 

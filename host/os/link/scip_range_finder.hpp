@@ -56,14 +56,14 @@ class ScipRangeFinder {
     while ((size = line_.read(bytes, sizeof bytes, 0)) > 0) replies_.add(bytes, size);
   }
   bool is_ill(const scip::Replies::Reply& reply) {
-    // 02: already on.
+    // Status 02: the laser is already on.
     if (reply.status == "00" || reply.status == "99" ||
         (reply.echo.starts_with("BM") && reply.status == "02"))
       return false;
     complaint_ = reply.echo + " " + reply.status;
     return reply.echo.starts_with("MD");
   }
-  /// To SCIP 2.0 from 1.1, laser on, endless scans of single steps.
+  /// Switches from SCIP 1.1 to 2.0, laser on, endless scans of single steps.
   void ask() {
     const auto digits = [](int value) {
       const std::string text = std::to_string(value);

@@ -204,7 +204,7 @@ class SerialPort final : public Port {
     serial_icounter_struct count{};
     if (!port_ || !port_->IsOpen() ||
         ::ioctl(port_->GetFileDescriptor(), TIOCGICOUNT, &count) != 0) {
-      return at_open_;  // no counters on these
+      return at_open_;  // these devices have no counters
     }
     const auto sum = [](int a, int b) { return static_cast<std::uint32_t>(a + b); };
     return {.overruns = sum(count.overrun, count.buf_overrun),

@@ -139,7 +139,7 @@ class Listener final : public Port {
     sockaddr_storage name{};
     socklen_t size = sizeof name;
     ::getsockname(listening_.get(), reinterpret_cast<sockaddr*>(&name), &size);
-    // At the same offset in both families.
+    // The port is at the same offset in both families.
     endpoint_.port = ntohs(reinterpret_cast<const sockaddr_in*>(&name)->sin_port);
   }
   ~Listener() override {

@@ -16,7 +16,7 @@ struct VideoFormat {
   hal::PixelFormat format = hal::PixelFormat::kNone;  ///< kNone: not supported here
 };
 
-/// 0 and kNone: the device's own.
+/// The request; 0 and kNone: the device's own.
 struct VideoWish {
   std::uint32_t width_px = 0, height_px = 0;
   double rate_hz = 0;

@@ -14,7 +14,7 @@ class VideoCalls {
   virtual int ioctl(int descriptor, unsigned long request, void* argument) = 0;
   virtual std::uint8_t* map(int descriptor, std::size_t size, std::int64_t offset) = 0;
   virtual void unmap(std::uint8_t* bytes, std::size_t size) = 0;
-  /// 1; 0: timeout; -1: errno.
+  /// 1: a picture; 0: timeout; -1: errno.
   virtual int wait(int descriptor, int time_ms) = 0;
 };
 

@@ -16,7 +16,7 @@
 namespace verp::process {
 namespace {
 
-constexpr int kFirstFree = STDERR_FILENO + 1;  // below: standard streams
+constexpr int kFirstFree = STDERR_FILENO + 1;  // lower numbers are standard streams
 
 /// A failed start writes its error; exec closes the pipe.
 struct Report {
@@ -37,7 +37,7 @@ struct Report {
   Report(const Report&) = delete;
   Report& operator=(const Report&) = delete;
 
-  /// Or 0; waits for either.
+  /// The error, or 0; waits for either.
   int read() {
     ::close(std::exchange(write_end, -1));
     int error = 0;
@@ -49,9 +49,8 @@ struct Report {
   }
 };
 
-/// In PATH; else `program` itself. execvp() would pass a file that is no program to a shell.
-/// `program` itself if it contains a slash or is not found. execvp() would pass a file that is no
-/// program to a shell, whose message is misleading.
+/// The program's path in PATH; `program` itself if it contains a slash or is not found. execvp()
+/// would pass a file that is no program to a shell, whose message is misleading.
 std::string place_of(const std::string& program) {
   const char* path = std::getenv("PATH");
   if (path == nullptr || program.find('/') != std::string::npos) return program;

@@ -15,7 +15,7 @@ struct Stream {
 };
 
 struct Command {
-  std::vector<std::string> words;  ///< found in PATH, with arguments
+  std::vector<std::string> words;  ///< the program, searched in PATH, and arguments
   Stream input, output;
   std::optional<Stream> error = {};   ///< none: as the output
   std::filesystem::path folder = {};  ///< working directory; empty: ours
@@ -24,9 +24,9 @@ struct Command {
   bool ends_with_thread = true;
 };
 
-/// In its own process group: Ctrl-C reaches only us, and we end it in order. It ends with this
-/// object or process, even a killed one. Create it on the main thread unless the command says
-/// otherwise: to the kernel, an ending thread is a dead parent.
+/// The child has its own process group: Ctrl-C reaches only us, and we end it in order. It ends
+/// with this object or process, even a killed one. Create it on the main thread unless the command
+/// says otherwise: to the kernel, an ending thread is a dead parent.
 class Child {
  public:
   /// Throws std::system_error if it cannot start; ENOENT: no such program.
@@ -38,7 +38,7 @@ class Child {
   pid_t id() const { return pid_; }
   /// Sends a signal to the process group.
   void tell(int signal) const;
-  /// 128 + signal if killed; does not wait.
+  /// Exit status, or 128 + signal; nothing while it runs; does not wait.
   std::optional<int> status();
   int wait();
 

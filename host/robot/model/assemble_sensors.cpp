@@ -54,7 +54,7 @@ class SensorAssembler {
     }
   }
 
-  /// On a link, or an SDF sensor.
+  /// The IMU is on a link, or an SDF sensor.
   void require_imu() {
     if (facts_.imu && facts_.imu->sensor.empty()) {
       const LinkTree::Located place = tree_.locate(facts_.imu->link, facts_.imu->at);

@@ -9,10 +9,10 @@ constexpr double kMostMass_kg = 1000;
 constexpr double kLeastMass_kg = 1e-6;
 constexpr double kMostLength_m = 10;
 constexpr double kLeastLength_m = 1e-4;
-constexpr double kMostAngle = 1000;  ///< degrees and whole turns
+constexpr double kMostAngle = 1000;  ///< for degrees and whole turns
 /// For kLeastMass_kg or more: a 1 mg ball of tungsten has 0.15 mm.
 constexpr double kLeastGyration_m = 1e-4;
-constexpr double kLeastSpeed_rad_s = 0.01;  ///< meant to move
+constexpr double kLeastSpeed_rad_s = 0.01;  ///< a joint that is meant to move
 constexpr double kMostFriction = 100;
 constexpr double kMostStiffness_n_m = 1e12;  ///< SDF's default
 constexpr double kMostDamping_n_s_m = 1e9;

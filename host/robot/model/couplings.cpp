@@ -29,7 +29,7 @@ const Joint& driver_of(const Entity& entity, const Joint& follower) {
   return entity.joints[static_cast<std::size_t>(follower.follows)];
 }
 
-/// 0 at the hip; -1: not in the leg.
+/// Place in the leg, 0 at the hip; -1: not in the leg.
 int place_in_leg(const Entity& entity, const char* name, int joint) {
   const Limb* const leg = find_limb(entity, name);
   if (leg == nullptr) return -1;
@@ -37,7 +37,7 @@ int place_in_leg(const Entity& entity, const char* name, int joint) {
   return found == leg->joints.end() ? -1 : static_cast<int>(found - leg->joints.begin());
 }
 
-/// In the driver's angle; applies to both joints.
+/// Limits in the driver's angle; applies to both joints.
 void join_limits(const MimicFact& mimic, Joint& driver, Joint& follower) {
   double low = (follower.lower_rad - follower.offset_rad) / follower.ratio;
   double high = (follower.upper_rad - follower.offset_rad) / follower.ratio;

@@ -36,7 +36,7 @@ struct Visual {
   Transform pose = Transform::Identity();  ///< in the link frame
   Vec3 size_m = Vec3::Zero();              ///< as Collision's; mesh: scale per axis
   std::string name;
-  std::string mesh;                          ///< empty: missing
+  std::string mesh;                          ///< file; empty: it is missing
   std::string mesh_uri;                      ///< as in the robot's file
   std::optional<std::array<float, 4>> rgba;  ///< sRGB; none: not given
   std::optional<std::array<float, 3>> emissive_rgb;
@@ -76,10 +76,10 @@ struct Servo {
   double stall_torque_n_m = 0;
   double no_load_speed_rad_s = 0;
   double stall_current_a = 0;
-  double nominal_v = 12;  ///< of the values above
+  double nominal_v = 12;  ///< supply of the values above
   double counts_per_rev = 4096;
   double encoder_noise_deg = 0.03;  ///< rms
-  double loop_s = 0.001;            ///< firmware's position loop
+  double loop_s = 0.001;            ///< period of the firmware's position loop
   double loop_delay_s = 0;          ///< age of the loop's angle
   double goal_delay_s = 0;          ///< from arrival to action
   Gearbox gearbox;
@@ -170,13 +170,13 @@ struct CameraSensor {
   double horizontal_fov_rad() const { return 2 * std::atan(width_px / (2 * fx_px)); }
 };
 
-/// Between a link and its parent, about the sensor's origin, in its axes.
+/// Force and torque between a link and its parent, about the sensor's origin, in its axes.
 struct ForceTorqueSensor {
   std::string name, topic;
   int node = 0;                            ///< on this node's joint
   Transform pose = Transform::Identity();  ///< in that link's frame
   double rate_hz = 100, latency_s = 0;
-  bool on_child = false;  ///< the load on the link, else by it
+  bool on_child = false;  ///< the load on the link; else the one that it exerts
   Vec3 force_mean_n = Vec3::Zero(), force_stddev_n = Vec3::Zero();  ///< noise per axis
   Vec3 torque_mean_n_m = Vec3::Zero(), torque_stddev_n_m = Vec3::Zero();
 };
@@ -228,9 +228,9 @@ struct Entity {
   std::vector<ForceTorqueSensor> force_torques;
   std::vector<ContactSensor> contacts;  ///< recorded ones
   std::vector<TruthSensor> truths;
-  std::string bus;  ///< in use
+  std::string bus;  ///< name of the bus in use
   std::string bus_file;
-  int bus_line = 1;                ///< in bus_file
+  int bus_line = 1;                ///< its line in bus_file
   std::vector<std::string> buses;  ///< in file order
   BusProtocol protocol = BusProtocol::kDynamixel2;
   std::uint32_t baud = 2000000;

@@ -109,7 +109,7 @@ struct Facts {
   std::optional<BodyFact> body;
   std::vector<LimbFact> limbs;
   std::vector<BusFact> buses;  ///< at least one
-  std::size_t used = 0;        ///< in use
+  std::size_t used = 0;        ///< index of the bus in use
   std::optional<ImuFact> imu;
   std::optional<FeetFact> feet;
   std::vector<LatencyFact> latencies;

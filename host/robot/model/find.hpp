@@ -9,11 +9,11 @@ namespace verp::model {
 /// LoadError with the existing names.
 std::string find_model(const std::string& name_or_path);
 
-/// In those places, sorted.
+/// Names in those places, sorted.
 std::vector<std::string> model_names();
 
-/// For model:// addresses: VERP_MODEL_PATH (separated by ':'), by default ../shared/models beside
-/// the source tree.
+/// Folders for model:// addresses: VERP_MODEL_PATH (separated by ':'), by default ../shared/models
+/// beside the source tree.
 std::vector<std::string> model_path();
 std::string model_path_text();
 

@@ -13,7 +13,7 @@ struct LegGeometry {
   std::string reason;         ///< against closed form; empty: closed form
   double residual_m = 0;      ///< distance of an axis from its common point, or the lateral offset
   Vec3 hip_m = Vec3::Zero();  ///< body frame: meeting point of the hip axes
-  Vec3 ankle_m = Vec3::Zero();      ///< of the ankle axes
+  Vec3 ankle_m = Vec3::Zero();      ///< the same for the ankle axes
   double thigh_m = 0, shank_m = 0;  ///< in the sagittal plane
   std::array<int, 6> direction{};   ///< joint angle = direction * (canonical - offset)
   std::array<double, 6> offset_rad{};
@@ -28,7 +28,7 @@ const Limb* find_limb(const Entity& entity, const std::string& name);
 /// `leg` has six joints (the loader checks).
 LegGeometry classify_leg(const Entity& entity, const Limb& leg);
 
-/// In the body frame at the zero pose.
+/// Origins in the body frame at the zero pose.
 std::vector<Vec3> node_origins(const Entity& entity);
 
 /// Moves closed-form legs' joint frames along their axes to the meeting points. The links' motion

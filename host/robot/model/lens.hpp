@@ -16,7 +16,7 @@ std::optional<Eigen::Vector2d> direction_of(const CameraSensor& camera,
 /// Square pixels, centred, no distortion.
 bool is_plain(const CameraSensor& camera);
 
-/// From the link frame: x right, y down, z ahead.
+/// From the link frame to lens axes: x right, y down, z ahead.
 Vec3 in_lens(const CameraSensor& camera, const Vec3& point_link_m);
 
 }  // namespace verp::model

@@ -15,7 +15,7 @@ namespace verp::model {
 
 class PictureFiles;
 
-/// At the definition of `about`.
+/// Throws at the definition of `about`.
 [[noreturn]] void fail_at(const XmlSource& source, const std::string& about,
                           const std::string& message, const std::string& fix);
 
@@ -38,7 +38,7 @@ class LinkTree {
   Located locate(const std::string& name, const XmlElement& at) const;
 
  private:
-  /// Before lumping, body frame, zero pose.
+  /// A link before lumping, body frame, zero pose.
   struct RawLink {
     const sdf::Link* sdf = nullptr;
     Transform pose = Transform::Identity();

@@ -16,7 +16,7 @@ Params make_params(const Entity& entity);
 /// N m/rad: duty grows by p/128 of 1/885 a count, and torque follows.
 double servo_stiffness_n_m_rad(const Servo& servo);
 
-/// By name ("gait.lift_m"), in field order (tuning_ranges.hpp).
+/// Index by name ("gait.lift_m"), in field order (tuning_ranges.hpp).
 std::optional<int> tuning_id(const std::string& name);
 /// All names in that order.
 const std::vector<std::string>& tuning_names();

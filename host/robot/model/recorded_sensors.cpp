@@ -8,7 +8,7 @@
 namespace verp::model {
 namespace {
 
-/// For all sensors of that name; false: there are none.
+/// Sets all sensors of that name; false: there are none.
 template <class Sensors>
 bool give_latency(Sensors& sensors, const LatencyFact& fact) {
   bool found = false;

@@ -20,9 +20,9 @@ class RobotTable {
   std::string part(const std::string& key, std::size_t which);
   std::vector<double> numbers(const std::string& key, std::size_t which, std::size_t count);
   bool has(const std::string& key) const { return entries_.contains(key); }
-  /// With this prefix, in table order.
+  /// Keys with this prefix, in table order.
   std::vector<std::string> keys(const std::string& beginning) const;
-  /// At the key's line.
+  /// Throws LoadError at the key's line.
   [[noreturn]] void fail(const std::string& key, const std::string& message,
                          const std::string& fix) const;
   /// Throws LoadError with the first.

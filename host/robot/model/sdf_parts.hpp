@@ -12,7 +12,7 @@
 
 #include "host/robot/model/entity.hpp"
 
-/// From libsdformat's types, and geometry checks without a file.
+/// Conversions from libsdformat's types, and geometry checks without a file.
 namespace verp::model {
 
 Vec3 to_vector(const ignition::math::Vector3d& v);
@@ -63,7 +63,7 @@ double least_measure(const Collision& collision);
 /// gyration radii.
 std::string implausible(const Node& node, double extent_m);
 
-/// By a box's lower face (sole's frame) that lies in the sole's plane.
+/// Extends the sole by a box's lower face (sole's frame) that lies in the sole's plane.
 void extend_sole(Eigen::AlignedBox3d& sole, const Transform& box_sole, const Vec3& size_m);
 
 }  // namespace verp::model

@@ -16,7 +16,7 @@ struct Overlap {
   double depth_m = 0;
 };
 
-/// At these angles, without neighbours.
+/// Links that overlap at these angles, without neighbours.
 std::vector<Overlap> overlaps(const Entity& entity, const std::vector<double>& joint_rad);
 
 /// kMaxJoints: neither carries the other.

@@ -12,7 +12,7 @@ namespace verp::model {
 namespace {
 
 constexpr double kFastest_hz = 1000;
-constexpr double kWidest = 11.5;  // tangent of 85 degrees
+constexpr double kWidest = 11.5;  // tangent of 85 degrees, half of the widest lens
 
 double rate_of(const sdf::Sensor& sensor, double if_none_hz, const WrongSensor& wrong) {
   const double rate_hz = sensor.UpdateRate() == 0 ? if_none_hz : sensor.UpdateRate();
@@ -66,7 +66,7 @@ void read_lens(const sdf::Camera& lens, CameraSensor& camera, const WrongSensor&
     wrong("its <clip> is none", "give <near> of at least 0.001 m and a <far> beyond it");
 }
 
-/// At the edge, where distortion is strongest.
+/// Checks the edge, where distortion is strongest.
 void check_distortion(const CameraSensor& camera, const WrongSensor& wrong) {
   constexpr int kParts = 64;
   const double right = camera.width_px - 1.0, bottom = camera.height_px - 1.0;

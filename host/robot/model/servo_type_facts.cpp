@@ -12,10 +12,10 @@ namespace verp::model {
 namespace {
 
 constexpr double kRevMin = 60 / (2 * std::numbers::pi);
-// From watch servos to horse-sized ones.
+// Bounds from watch servos to horse-sized ones.
 constexpr double kMostTorque_n_m = 1e4;
 constexpr double kMostArmature_kg_m2 = 100;
-constexpr double kMostLoad = 0.99;  // at 1 the gears would lock
+constexpr double kMostLoad = 0.99;  // share lost to friction: at 1 the gears would lock
 constexpr double kMostSpeed_rev_min = 1e5;
 
 /// Missing ones come from the type it is like.

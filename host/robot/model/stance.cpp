@@ -22,9 +22,9 @@ constexpr double kItsLeg_m = 0.186;
 constexpr double kUsual_v = 12;  // of its servos
 constexpr double kHipShare = 0.808;
 constexpr double kFeetInside = 0.0014 / kItsLeg_m;
-// Between inner edges of passing soles.
+// Gap between inner edges of passing soles.
 constexpr double kSolesApart_m = 0.005;
-// Over weight times leg, 1/rad. Tuned: generic21 9.0, op3 12.5, darwin_op 7.4.
+// Stiffness over weight times leg, 1/rad. Tuned: generic21 9.0, op3 12.5, darwin_op 7.4.
 constexpr double kStiffness = 9.03;
 // Above it a servo buzzes; the table ends at 16383.
 constexpr double kMostGain = 8000;
@@ -41,7 +41,7 @@ const char* leg_name(int side) {
   return side == 0 ? "left_leg" : "right_leg";
 }
 
-/// In the body frame, hip to ankle, standing.
+/// Poses in the body frame, hip to ankle, standing.
 std::vector<Transform> standing_links(const Entity& entity, const Limb& leg) {
   std::vector<int> chain;
   for (int node = leg.joints.back() + 1; node != 0;
@@ -61,7 +61,7 @@ std::vector<Transform> standing_links(const Entity& entity, const Limb& leg) {
   return links;
 }
 
-/// Under the hip, at the walk's lateral distance.
+/// A sole under the hip, at the walk's lateral distance.
 Pose sole_at(const Params& params, int side, double height_m) {
   const LegParams& leg = params.leg[side];
   Pose sole;
@@ -142,7 +142,7 @@ class Settler {
     e_.defaults.push_back(fmt::format("{} {:.4g}, from its {}", name, value, from));
   }
 
-  /// From the file's standing pose, or the usual share of the leg.
+  /// Height of the file's standing pose, or the usual share of the leg.
   double hip_height() const {
     if (given("gait.hip_height_m")) return tuned("gait.hip_height_m");
     if (poses_leg("stand")) return stand_of(e_, *leg_[0]).hip_height_m;
@@ -287,7 +287,7 @@ class Settler {
                   "correct its angles, or leave the legs out: they are found");
   }
 
-  /// From the standing pose to the gait's.
+  /// Checks the way from the standing pose to the gait's.
   void check_stand() const {
     const Params params = make_params(e_);
     if (!can_stand(params)) refuse_height(static_cast<double>(params.tuning.gait.hip_height_m));

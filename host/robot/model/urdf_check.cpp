@@ -78,7 +78,7 @@ void refuse_no_ratio(const XmlElement& robot) {
   }
 }
 
-/// Only the trunk's root has no parent joint.
+/// Only the root of the trunk has no parent joint.
 void refuse_second_root(const XmlElement& robot, const Facts& facts) {
   std::map<std::string, std::string> parent;
   for (const XmlElement& joint : robot.children("joint")) {

@@ -5,8 +5,8 @@
 
 #include "host/robot/model/xml_source.hpp"
 
-/// For libsdformat's import, which drops links without mass and everything beyond, forgets names of
-/// fixed links, and has one name space for links and joints.
+/// Prepares URDF files for libsdformat's import, which drops links without mass and everything
+/// beyond, forgets names of fixed links, and has one name space for links and joints.
 namespace verp::model {
 
 struct UrdfNames {
@@ -21,7 +21,7 @@ struct UrdfNames {
 /// The copies are deleted with this object.
 class PreparedUrdfs {
  public:
-  /// If a copy cannot be written.
+  /// Throws LoadError if a copy cannot be written.
   explicit PreparedUrdfs(const XmlSource& source);
   ~PreparedUrdfs();
   PreparedUrdfs(const PreparedUrdfs&) = delete;

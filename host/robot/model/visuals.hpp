@@ -19,7 +19,7 @@ class PictureFiles {
   std::vector<std::string> from_;
 };
 
-/// In the SDF link's frame. Omits unsupported shapes: only pictures need them.
+/// Poses in the SDF link's frame. Omits unsupported shapes: only pictures need them.
 std::vector<Visual> read_visuals(const sdf::Link& link, const PictureFiles& files);
 
 }  // namespace verp::model

@@ -53,7 +53,7 @@ struct Shape {
 
 struct ContactSurface {
   double friction = 1.0;
-  double restitution = 0;    ///< 0 to 1
+  double restitution = 0;    ///< of speed, 0 to 1
   double stiffness_n_m = 0;  ///< <ode><kp>; 0: rigid
   double damping_n_s_m = 0;  ///< <ode><kd>
 };
@@ -73,7 +73,8 @@ struct WorldVisual {
   bool casts_shadows = true;
 };
 
-/// On a moving obstacle's path; it pushes what is in its way. Constant speed between waypoints.
+/// A point on a moving obstacle's path; it pushes what is in its way. Constant speed between
+/// waypoints.
 struct Waypoint {
   double t_s = 0;
   Transform pose = Transform::Identity();  ///< in the world
@@ -91,7 +92,7 @@ struct WorldObject {
   std::vector<WorldCollision> collisions;
   std::vector<WorldVisual> visuals;
   std::vector<Waypoint> waypoints;  ///< at least two, rising times
-  bool loops = false;               ///< from the first waypoint
+  bool loops = false;               ///< repeats from the first waypoint
 };
 
 struct Light {

@@ -73,7 +73,7 @@ void check_joint_type(const std::string& path, const tinyxml2::XMLElement& joint
                   "write revolute, or fixed");
 }
 
-/// Before each child is visited.
+/// Called before each child is visited.
 void refuse_many(const std::string& path, const tinyxml2::XMLElement& element) {
   std::map<std::string_view, std::size_t> count;
   for (const auto* child = element.FirstChildElement(); child;
@@ -130,7 +130,7 @@ void XmlElement::allow(std::initializer_list<const char*> attributes,
   }
   for (const auto* inside = element_->FirstChild(); inside; inside = inside->NextSibling()) {
     if (inside->ToText() == nullptr) continue;
-    std::string word;  // of many lines
+    std::string word;  // first of many lines
     std::istringstream(inside->Value()) >> word;
     fail("<" + name() + "> has text inside, '" + word.substr(0, 40) + "', which nobody reads",
          "leave it out");

@@ -60,7 +60,7 @@ class XmlSource {
   const std::string& path() const { return files_.front()->path; }
   /// Throws LoadError unless there is exactly one.
   XmlElement model() const;
-  /// In any working directory; empty: none.
+  /// Found from any working directory; empty: not found.
   std::string included(const std::string& uri) const;
   /// <robot> of included URDF files.
   std::vector<XmlElement> urdfs() const;

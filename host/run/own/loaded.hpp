@@ -23,8 +23,8 @@ class Loaded {
   Loaded(const Loaded&) = delete;
   Loaded& operator=(const Loaded&) = delete;
 
-  /// For one run; keeps `loaded` alive. The call throws OwnError for a refused goal; a crash in it
-  /// prints one line and exits with 1.
+  /// A controller for one run; it keeps `loaded` alive. The call throws OwnError for a refused
+  /// goal; a crash in it prints one line and exits with 1.
   static session::Decide controller(const std::shared_ptr<const Loaded>& loaded);
 
   const std::string& folder() const { return folder_; }

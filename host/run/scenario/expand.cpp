@@ -28,7 +28,7 @@ using session::WalkPlan;
 constexpr double kBeforeAndAfter_s = 10;
 constexpr double kGetUps_s = 60;
 
-/// 0.06 for 0.06F.
+/// The decimal number behind a float: 0.06 for 0.06F.
 double decimal(float value) {
   return std::stod(fmt::format("{:g}", value));
 }

@@ -28,7 +28,7 @@ struct Expanded {
   sim::WorldOptions world = {};
   /// Robots with a controller elsewhere come last. Reports show the first robot.
   std::vector<session::WalkPlan> plans = {};
-  /// By Robot::vary, for the first robot and the floor.
+  /// Drawn by Robot::vary, for the first robot and the floor.
   std::vector<std::pair<std::string, double>> drawn = {};
 };
 
@@ -44,14 +44,14 @@ sim::WorldOptions world_of(const World& world);
 session::WalkPlan plan_of(const Robot& robot, double length_s);
 session::WalkPlan plan_of(const Robot& robot, double length_s, model::Entity entity);
 
-/// In the controller's units, for this gait.
+/// Velocity in the controller's units, for this gait.
 Command velocity_of(const Orders& orders, const GaitTuning& gait);
 /// Reduced to what the servos can follow; needs plan.params.
 void give_orders(const Orders& orders, session::WalkPlan& plan);
 /// Throws std::out_of_range for an unknown name.
 void tune(const std::map<std::string, double>& values, Tuning& tuning);
 
-/// For a trace: the plan's robot, and with a scenario the walk.
+/// Metadata for a trace: the plan's robot, and with a scenario the walk.
 record::mcap::StringMap metadata_of(const session::WalkPlan& plan);
 record::mcap::StringMap metadata_of(const session::WalkPlan& plan, const Scenario& scenario);
 /// "0.1,0,0.2"; empty for other orders.

@@ -68,7 +68,7 @@ struct Robot {
   bool vary = false;       ///< domain randomization by the seed (sim/vary.hpp)
   Place at;
   sim::Lies lies = sim::Lies::kNo;  ///< pose at the start
-  bool get_up = false;              ///< after a fall
+  bool get_up = false;              ///< a fall does not end its run
   std::vector<session::Intervention> disturbances;
 
   bool operator==(const Robot&) const = default;
@@ -88,8 +88,8 @@ struct Scenario {
   std::optional<Radio> radio;
   double length_s = 20;  ///< all three phases of the gait
   bool real_time = false;
-  bool if_lost_go_on = false;  ///< after a lost controller, for the other robots
-  double patience_s = 10;      ///< for a controller on a link
+  bool if_lost_go_on = false;  ///< a lost controller ends only its robot's run
+  double patience_s = 10;      ///< the world waits so long for a controller on a link
 
   bool operator==(const Scenario&) const = default;
 };

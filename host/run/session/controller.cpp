@@ -104,7 +104,7 @@ class BoardController final : public Controller {
   }
 
   Robot& robot_;
-  State state_;  ///< the copy here
+  State state_;  ///< of the core that runs here
   std::string failure_;
   Flow flow_;
 };

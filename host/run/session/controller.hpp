@@ -15,12 +15,13 @@ class Controller {
   virtual bool tick() = 0;
   /// Sends last messages to the controller.
   virtual void finish() {}
-  /// In a session of `session_s`.
+  /// Wall time in a session of `session_s`.
   virtual double wall_s(double session_s) const { return session_s; }
 };
 
-/// As robot.plan() asks: the firmware/app loop in this process, or on an emulated board. For a
-/// board, the core also runs here, for State and Outputs and to compare digests.
+/// The controller that robot.plan() asks for: the firmware/app loop in this process, or on an
+/// emulated board. For a board, the core also runs here, for State and Outputs and to compare
+/// digests.
 std::unique_ptr<Controller> make_controller(Robot& robot);
 
 using MakeController = std::function<std::unique_ptr<Controller>(Robot& robot)>;

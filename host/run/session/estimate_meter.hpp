@@ -8,16 +8,16 @@
 /// Controller's estimates against the twin's truth.
 namespace verp::session {
 
-/// Over the gait up to a fall: root mean squares and maxima.
+/// Errors over the gait up to a fall: root mean squares and maxima.
 struct EstimateErrors {
   std::uint64_t ticks = 0;                     ///< 0: no result
   double attitude_rms_deg = 0;                 ///< between true and estimated "up"
   double roll_rms_deg = 0, pitch_rms_deg = 0;  ///< about the body's axes
   double attitude_worst_deg = 0;
-  /// Over three axes in the body's heading; odometry covers the heading's error.
+  /// Norm over three axes in the body's heading; odometry covers the heading's error.
   double com_velocity_rms_m_s = 0;
   double com_velocity_worst_m_s = 0;
-  double dcm_rms_m = 0;  ///< along the body's heading
+  double dcm_rms_m = 0;  ///< from the supporting sole, along the heading
   /// End pose relative to the gait's start.
   double odometry_off_m = 0;
   double odometry_turned_off_deg = 0;

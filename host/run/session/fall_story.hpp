@@ -10,7 +10,7 @@ namespace verp::session {
 /// Falls and recoveries, by the controller's outputs.
 class FallStory {
  public:
-  /// In a row; 0: unknown.
+  /// `tries` in a row; 0: unknown.
   explicit FallStory(int tries = 0) : most_(tries) {}
 
   /// News as text, or empty.

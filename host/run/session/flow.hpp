@@ -21,10 +21,10 @@ class Flow {
 
   /// Rethrows the body's exception. False: it has ended.
   bool resume();
-  /// By the body: until the next resume().
+  /// The body pauses until the next resume().
   void pause();
-  /// By the body: runs `call` on the stack of resume()'s caller, because garbage-collected
-  /// languages identify a thread by its stack.
+  /// The body runs `call` on the stack of resume()'s caller, because garbage-collected languages
+  /// identify a thread by its stack.
   void outside(const std::function<void()>& call);
 
  private:

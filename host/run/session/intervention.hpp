@@ -9,8 +9,8 @@ namespace verp::session {
 /// The user's push or new value of a quantity. It is part of the run: the trace records it.
 struct Intervention {
   enum class Kind { kPush, kSet } kind = Kind::kSet;
-  /// In the robot's run, as WalkPlan::walk_s: applied after the tick that reaches it. 0: after the
-  /// first tick.
+  /// Time in the robot's run, as WalkPlan::walk_s: applied after the tick that reaches it. 0: after
+  /// the first tick.
   double at_s = 0;
   std::string name;  ///< link or object; quantity
   sim::Vec3 force_world_n = sim::Vec3::Zero();
@@ -27,7 +27,7 @@ Intervention read_setting(const std::string& text);
 /// "push body 0,30,0 N for 0.1 s", without the time.
 std::string in_words(const Intervention& intervention);
 
-/// For an unknown name or a value out of range.
+/// Throws std::invalid_argument for an unknown name or a value out of range.
 void check(const Intervention& intervention, const sim::Quantities& quantities);
 void apply(const Intervention& intervention, sim::Quantities& quantities);
 

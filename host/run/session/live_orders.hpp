@@ -43,7 +43,7 @@ class LiveOrders {
   std::uint8_t sequence_ = 0;
   std::deque<std::pair<int, float>> writes_;
   bool driving_ = false, stopped_ = false, changed_ = false;
-  bool by_itself_ = false, asked_ = false;  ///< after every fall; now
+  bool by_itself_ = false, asked_ = false;  ///< gets up after every fall; now
   GetUp get_up_{kGetUpTries};
 };
 

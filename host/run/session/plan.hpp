@@ -32,7 +32,7 @@ struct WalkPlan {
   std::string remark;                  ///< deviation from the user's order
   double walk_s = 20;                  ///< gait; whole run if Hooks::order gives the orders
   sim::TwinOptions twin;               ///< seed, start pose, variation
-  /// In a row after a fall, by an action of `actions`. 0: a fall ends the walk.
+  /// Attempts in a row after a fall, by an action of `actions`. 0: a fall ends the walk.
   int get_ups = 0;
   bool stands = false;  ///< steps only to keep its balance
   std::string board;    ///< emulated; empty: this process
@@ -63,8 +63,8 @@ struct RunEvent {
   std::string what;
 };
 
-/// For one robot's run; all may be empty. Called in the thread of Session::tick(), one at a time.
-/// With several robots, `order` and `amend` run on the robot's own stack (Flow).
+/// Callbacks for one robot's run; all may be empty. Called in the thread of Session::tick(), one at
+/// a time. With several robots, `order` and `amend` run on the robot's own stack (Flow).
 struct Hooks {
   /// Replaces the walk's operator, once per tick. `tick`: last begun tick.
   std::function<app::OperatorOrder(std::uint32_t tick)> order;
@@ -82,7 +82,7 @@ struct Hooks {
   std::function<void(const sim::Scan&, std::uint64_t stamp_ns)> scanned;
   record::TraceWriter* trace = nullptr;  ///< every tick; must outlive the run
   bool keep_series = false;              ///< fills WalkResult::series
-  bool open_end = false;                 ///< only the caller ends the run
+  bool open_end = false;                 ///< only the caller ends the run, no fall or length
 };
 
 /// From the first tick on.
@@ -100,15 +100,15 @@ struct WalkResult {
   std::uint32_t faults = 0;          ///< at the end
   int falls = 0, get_ups = 0;        ///< counted by the controller
   std::vector<RunEvent> fall_story;  ///< falls and recoveries
-  double longest_step_m = 0;         ///< after its limits
+  double longest_step_m = 0;         ///< of the gait, after its limits
   double simulated_s = 0, wall_s = 0;
-  sim::Vec2 end_m{0, 0};                           ///< body, world
+  sim::Vec2 end_m{0, 0};                           ///< the body's end position in the world
   std::vector<double> set_upright_s;               ///< simulated times, by the user
   std::vector<AppliedIntervention> interventions;  ///< the plan's and others
   bool interrupted = false;
   std::optional<CanTraffic> can;  ///< only over CAN
-  std::string trace_failure;      ///< the walk went on
-  std::string failure;            ///< empty: success
+  std::string trace_failure;      ///< why the trace ended early; the walk went on
+  std::string failure;            ///< why the walk failed; or empty
   std::string remark;             ///< a good walk's deviation
 
   bool good() const { return failure.empty() && !interrupted; }

@@ -16,7 +16,7 @@ ros::BodyPose pose_in_ros(const sim::Transform& pose) {
   return {three(pose.translation()), {q.x(), q.y(), q.z(), q.w()}};
 }
 
-/// For measurements after the trace began.
+/// Stamps of measurements after the trace began.
 class Stamps {
  public:
   Stamps(std::uint64_t tick_ns, std::uint64_t now_us) : tick_ns_(tick_ns), now_us_(now_us) {}

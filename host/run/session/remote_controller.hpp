@@ -32,17 +32,17 @@ struct ServeOptions {
   bool ends_with_controller = false;
   // Functions may be empty.
   std::function<void(const std::string&)> told = {};  ///< receives events as text
-  /// Before anything is sent on CAN; may throw.
+  /// Called before anything is sent on CAN; may throw.
   std::function<void(const link::CanInterface&)> check = {};
   std::function<void()> real_time_begins = {};               ///< raise the thread's priority
   std::function<void()> cannot_keep_up = {};                 ///< give it back
-  std::function<void(const std::string& why)> gave_up = {};  ///< this robot is over
+  std::function<void(const std::string& why)> gave_up = {};  ///< why this robot is over
 };
 
 struct CanFrames {
   std::uint64_t heard = 0;
   std::uint32_t dropped = 0;  ///< of these, or before: too fast for the simulated wire or this PC
-  std::uint64_t skipped_us = 0;  ///< this PC was slower
+  std::uint64_t skipped_us = 0;  ///< clock time skipped by a slow PC
 };
 
 struct RemoteResult {
@@ -52,8 +52,8 @@ struct RemoteResult {
   bool real_time = false;
   std::uint64_t compared = 0;  ///< ticks with equal digests
   std::uint32_t losses = 0;    ///< losses of the link
-  std::uint32_t overruns = 0;  ///< bytes or frames, for lack of room
-  std::uint32_t resets = 0;    ///< of the controller
+  std::uint32_t overruns = 0;  ///< bytes or frames lost for lack of room
+  std::uint32_t resets = 0;    ///< restarts of the controller
   bus::LockstepSession::Counters lockstep;
   bus::RealtimeServer::Counters realtime;
   std::optional<CanFrames> can;  ///< CAN in real time
@@ -69,7 +69,7 @@ class RemoteController : public Controller {
   double wall_s(double session_s) const final;
   /// Reports, once, whom it waits for.
   void introduce();
-  /// By the user; false: a servo has torque.
+  /// The user sets it upright; false: a servo has torque.
   bool set_upright();
   /// Call once.
   virtual RemoteResult result() const;
@@ -93,8 +93,8 @@ class RemoteController : public Controller {
   bool over() const;
   bool shadows() const { return shadow_ != nullptr; }
   bool may_run_in_real_time() const;
-  /// For a controller that looks around before it asks for a twin. `heard`: something other than
-  /// clock requests came.
+  /// Leaves time to a controller that looks around before it asks for a twin. `heard`: something
+  /// other than clock requests came.
   static constexpr std::uint64_t kListen_ns = 1'000'000'000;
   bool still_listening(bool heard, std::uint64_t listen_ns = kListen_ns);
   void begin_real_time();
@@ -134,11 +134,11 @@ class RemoteController : public Controller {
   std::string failure_;
   std::uint64_t compared_ = 0;
   std::uint64_t start_ns_ = 0;  ///< monotonic clock; 0: not yet
-  std::uint64_t drive_ns_ = 0;  ///< first torque
+  std::uint64_t drive_ns_ = 0;  ///< first torque of a servo
   std::uint64_t heard_ns_ = 0;  ///< first traffic but clock requests
-  std::uint64_t alone_ns_ = 0;  ///< without a controller since; 0: not yet
-  std::uint64_t idle_ns_ = 0;   ///< no clock request since; 0: it is not waiting
-  std::uint64_t asked_ = 0;     ///< last seen clock requests
+  std::uint64_t alone_ns_ = 0;  ///< no controller since then; 0: not yet
+  std::uint64_t idle_ns_ = 0;   ///< no clock request since then; 0: it is not waiting
+  std::uint64_t asked_ = 0;     ///< clock requests so far
   std::uint64_t strange_ = 0;   ///< since the last clock request
   std::uint64_t next_us_ = 0;   ///< next tick to watch
   std::uint32_t resets_ = 0;

@@ -48,7 +48,7 @@ class Robot {
   /// The walk ended, failed or was interrupted.
   bool over() const;
   bool interrupted() const { return interrupted_ && interrupted_(); }
-  /// For a reason outside the walk. The first reason counts.
+  /// Ends the run for a reason outside the walk. The first reason counts.
   void fail(const std::string& why);
 
   /// take() stores a controller's tick. see() passes it to meter, trace and hooks, once.
@@ -67,11 +67,12 @@ class Robot {
   void set_quantities(std::function<sim::Quantities&()> quantities) {
     quantities_ = std::move(quantities);
   }
-  /// After the last tick; recorded. Throws std::invalid_argument, without effect, for an unknown
-  /// name or a value out of range.
+  /// Acts after the last tick and is recorded. Throws std::invalid_argument, without effect, for an
+  /// unknown name or a value out of range.
   void intervene(const Intervention& intervention);
 
-  /// By the user (sim::TwinRobot); the result keeps the time. False: a servo has torque.
+  /// The user sets it upright (sim::TwinRobot); the result keeps the time. False: a servo has
+  /// torque.
   bool set_upright();
 
   std::uint32_t tick() const { return tick_.inputs.tick; }
@@ -120,10 +121,10 @@ class Robot {
   State state_;
   Outputs outputs_;
   FallStory story_;
-  bool taken_ = false;                                    ///< but not seen
+  bool taken_ = false;                                    ///< by take(), but not by see()
   std::uint64_t bits_before_ = 0, bare_bits_before_ = 0;  ///< at the first tick
   FallVerdict verdict_;
-  double begun_s_ = 0;  ///< first tick or torque
+  double begun_s_ = 0;  ///< simulated time of the first tick or torque
   double after_s_ = 0;
   bool over_ = false;
   bool watched_ = false;

@@ -87,7 +87,7 @@ class ServedOnSerial final : public RemoteController {
     rest_after_loss();
   }
 
-  // For a client that hangs up repeatedly; the first loss costs no time.
+  // Pauses for a client that hangs up repeatedly; the first loss costs no time.
   void rest_after_loss() {
     if (link_.errors().losses == losses_) return;
     losses_ = link_.errors().losses;

@@ -22,7 +22,7 @@ struct Session::Seat final : sim::TimeSource {
     robot.twin().set_time(*this);
   }
 
-  /// On the stack of tick()'s caller.
+  /// Runs on the stack of tick()'s caller.
   Hooks with_decide_outside(Hooks hooks) {
     if (!hooks.decide) return hooks;
     hooks.decide = [this, decide = std::move(hooks.decide)](const Params& params, State& state,
@@ -132,7 +132,7 @@ Session::Seat* Session::next() {
   return first;
 }
 
-/// Until its controller did a tick or its bus requests a time. False: it has finished.
+/// Runs until its controller did a tick or its bus requests a time. False: it has finished.
 bool Session::go_on(Seat& seat) {
   seat.finished = true;  // if the controller throws
   if (seat.flow) {

@@ -42,12 +42,12 @@ class Session {
   explicit Session(Options options = {});
   ~Session();
 
-  /// Before the first tick. Throws NoRoom within 0.1 m of another start, and what TwinRobot's
-  /// constructor and `make` throw.
+  /// Add robots before the first tick. Throws NoRoom within 0.1 m of another start, and what
+  /// TwinRobot's constructor and `make` throw.
   Robot& add(const WalkPlan& plan, Hooks hooks = {}, const MakeController& make = make_controller);
 
-  /// Until one robot did a control tick, or its controller kept the session waiting for some ms.
-  /// Null: the run is over.
+  /// Runs until one robot did a control tick, or its controller kept the session waiting for some
+  /// ms. Null: the run is over.
   Robot* tick();
   /// It ends every robot's run; empty: no.
   const std::string& diverged() const { return diverged_; }
@@ -93,7 +93,7 @@ class Observer {
   virtual void join(std::size_t, const WalkPlan&, Hooks&) {}
   /// Before the first tick.
   virtual void begin(Session&) {}
-  /// Or its controller keeps the world waiting.
+  /// A robot's tick, or its controller keeps the world waiting.
   virtual void tick(std::size_t, Robot&) {}
   /// The run is over.
   virtual void end(Session&) {}

@@ -8,7 +8,7 @@
 /// ignores servo speed. Beyond that speed, joints lag until the robot falls.
 namespace verp::session {
 
-/// In a steady walk, as a share of its speed limit.
+/// The fastest joint of a steady walk, as a share of its speed limit.
 struct Fastest {
   double share = 0;
   std::string joint;
@@ -22,7 +22,7 @@ inline constexpr double kMostSpeedShare = 1.25;
 /// Longest straight steps of the tuning.
 Command longest_order(const Params& params);
 
-/// `velocity` for the servos; `remark`: a reduction, or empty.
+/// `velocity` reduced for the servos; `remark`: a reduction, or empty.
 struct FeasibleVelocity {
   Command velocity;
   std::string remark;

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kSettle_s = 0.5;          // stands quietly before the walk
 constexpr double kStandUp_s = 15.0;        // pose, rise and gyro calibration take seconds
-constexpr double kLearns_s = 2.0;          // a core begins to learn its gyro's bias
-constexpr double kPatience_s = 8.0;        // a trembling robot's bias will not improve
+constexpr double kLearns_s = 2.0;          // then a core begins to learn its gyro's bias
+constexpr double kPatience_s = 8.0;        // then the robot trembles, and the bias will not improve
 constexpr double kIdle_s = 1.0;            // then a gait has given up
 constexpr double kOverrun_s = 5.0;         // then a gait never ends
 constexpr std::uint32_t kFrameTicks = 10;  // lowest frame rate
@@ -76,7 +76,7 @@ double WalkOperator::lead_s(const State& state, bool one_more) const {
   return 1e-6 * rest_us;
 }
 
-/// Before the step that would exceed walk_s.
+/// Stops before the step that would exceed walk_s.
 void WalkOperator::stop_in_time(const State& state) {
   if (state.gait.queued == 0 || state.gait.queue[state.gait.queued - 1].ends_walk()) return;
   if (walked_s_ + lead_s(state, true) <= walk_s_) {

@@ -49,8 +49,8 @@ class WalkOperator {
   double walked_s_ = 0;
   double waited_s_ = 0;    ///< before the gait
   double standing_s_ = 0;  ///< before the gait
-  double stood_s_ = 0;     ///< before the gait, gyro calibrated
-  double idle_s_ = 0;      ///< before the stop
+  double stood_s_ = 0;     ///< standing with a calibrated gyro, before the gait
+  double idle_s_ = 0;      ///< without gait, before the stop
   double stopping_s_ = 0;
   double lead_s_ = 0;  ///< remaining gait at the stop
   bool gait_seen_ = false, stopping_ = false, done_ = false;

@@ -15,8 +15,8 @@ class Check {
  public:
   enum class State {
     kAsking,     ///< for the initial State
-    kFollowing,  ///< with its Inputs
-    kReading,    ///< records, after a differing digest
+    kFollowing,  ///< steps with the controller's Inputs
+    kReading,    ///< reads records after a differing digest
     kDiffers,    ///< final: see divergence()
     kRefused,    ///< final: see refusal()
   };

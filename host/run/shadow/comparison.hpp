@@ -29,8 +29,8 @@ std::vector<TickRecord> ticks_of(const std::uint8_t* image, std::size_t size,
                                  const app::HeldTick& held);
 
 enum class Verdict {
-  kDifference,  ///< with tick, stage and field
-  kMisheard,    ///< equal for the controller's Inputs; this PC's were wrong
+  kDifference,  ///< other results; the divergence names tick, stage and field
+  kMisheard,    ///< equal results for the controller's Inputs
   kTooLate,     ///< dropped by the controller
 };
 

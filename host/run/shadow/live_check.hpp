@@ -41,7 +41,7 @@ class LiveCheck final : public Check {
     kReleaseLast,
     kDone,
   };
-  static constexpr int kMostHeard = 4096;  ///< during a State's transfer
+  static constexpr int kMostHeard = 4096;  ///< ticks kept during a State's transfer
   static constexpr std::size_t kMostReadings = 4096;
   static constexpr std::uint64_t kPause_us = 200'000;  ///< before a retry
   static constexpr std::uint64_t kTurn_us = 50'000;    ///< until a new tick after a release
@@ -66,7 +66,7 @@ class LiveCheck final : public Check {
   std::uint8_t number_[4] = {};      ///< short transfer
   std::vector<std::uint8_t> bytes_;  ///< long transfer
   std::uint32_t crc_ = 0;            ///< of the controller's Params
-  bool begun_ = false;               ///< with a State
+  bool begun_ = false;               ///< there is a State to step from
   Inputs inputs_;
   std::deque<HeardTick> heard_;
   std::unique_ptr<Suspicion> suspicion_;

@@ -31,7 +31,7 @@ class PolledCheck final : public Check {
   bool settle(const TickRecord& record);
 
   TickPort& port_;
-  std::uint32_t next_ = 0;  ///< to fetch
+  std::uint32_t next_ = 0;  ///< the next tick to fetch
   std::uint64_t now_us_ = 0;
 };
 

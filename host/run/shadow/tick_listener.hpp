@@ -75,7 +75,7 @@ class TickListener {
   app::CanNodes nodes_;
   std::deque<Round> rounds_;  ///< the last one is under way
   std::deque<HeardTick> ticks_;
-  HeardTick early_;   ///< between two rounds
+  HeardTick early_;   ///< heard between two rounds
   bool told_ = true;  ///< of the newest round
   Asked asked_;
   Said<SlowReport> slow_;

@@ -24,8 +24,8 @@ std::filesystem::path find_program();
 class DrawingProgram {
  public:
   enum class Life {
-    kOfThread,  ///< with its starting thread: the main thread
-    kOfSocket   ///< with the socket: any thread
+    kOfThread,  ///< ends with its starting thread: use the main thread
+    kOfSocket   ///< ends when the socket closes: any thread
   };
   using Seconds = std::chrono::seconds;
   /// Waits until it can draw. Throws CameraError. `patience`: 0: no limit.
@@ -39,7 +39,7 @@ class DrawingProgram {
   /// A run in real time must not wait for it.
   void step_back();
   pid_t process() const { return child_->id(); }
-  /// For a silent socket, errno set. Returns whether it hung or had ended.
+  /// Call it for a silent socket, errno set. Returns whether it hung or had ended.
   std::string end();
 
  private:

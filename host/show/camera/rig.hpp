@@ -25,10 +25,10 @@ class Rig {
   Rig(const Rig&) = delete;
   Rig& operator=(const Rig&) = delete;
 
-  /// If the program has ended.
+  /// Throws CameraError if the program has ended.
   void expose(const Moment& moment);
-  /// For the next due moment, else empty. kEveryPicture: kAhead before the last; otherwise any that
-  /// is done.
+  /// Pictures of the next due moment, else empty. kEveryPicture: kAhead before the last; otherwise
+  /// any that is done.
   std::vector<Picture> take();
   /// Waits; empty after the last moment.
   std::vector<Picture> take_last();

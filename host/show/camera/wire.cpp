@@ -35,7 +35,7 @@ class Packer {
   std::string data_;
 };
 
-/// Beyond the end: zeros, and whole() is false.
+/// Gives zeros beyond the end, and whole() is false.
 class Unpacker {
  public:
   explicit Unpacker(std::string_view data) : data_(data) {}

@@ -49,13 +49,13 @@ struct Picture {
 
 enum class Kind : std::uint32_t {
   kStage,    ///< to the program, first
-  kReady,    ///< it can draw
-  kFailed,   ///< one line
+  kReady,    ///< from it: it can draw
+  kFailed,   ///< from it: the reason, in one line
   kMoment,   ///< to it
-  kPicture,  ///< one or two per camera that looked
-  kDone,     ///< after a moment's pictures: processor time so far, us
-  kOutside,  ///< moment and viewpoint; then kPicture and kDone, or kRefused
-  kRefused   ///< one line; it still works
+  kPicture,  ///< from it: one or two per camera that looked
+  kDone,     ///< from it, after a moment's pictures: processor time so far, us
+  kOutside,  ///< to it: moment and viewpoint; then kPicture and kDone, or kRefused
+  kRefused   ///< from it: the reason, in one line; it still works
 };
 
 struct Message {

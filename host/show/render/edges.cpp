@@ -53,7 +53,7 @@ class Smoother {
     if (share > 0) mix(at, other, share);
   }
 
-  /// Behind its edge to `other`.
+  /// Share of a pixel behind its edge to `other`.
   float hidden(int at, int other, int along, const int (&room)[2]) const {
     const int jump = luma(other) - luma(at), middle = luma(at) + luma(other);
     int steps[2], change[2];

@@ -7,7 +7,8 @@
 
 namespace verp::render {
 
-/// By assimp (STL, OBJ, DAE, glTF), file's units. Throws RenderError with file, fault and remedy.
+/// Reads files of assimp (STL, OBJ, DAE, glTF), file's units. Throws RenderError with file, fault
+/// and remedy.
 scene::Triangles read_mesh(const std::string& file);
 
 /// Throws RenderError.

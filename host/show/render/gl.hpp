@@ -82,7 +82,7 @@ class GpuMesh {
   Eigen::AlignedBox3f around_;
 };
 
-/// With colour and depth, to be read back.
+/// A target with colour and depth, to be read back.
 class Canvas {
  public:
   Canvas() = default;

@@ -19,9 +19,9 @@ class Lighting {
 
   /// The light that casts shadows, or -1.
   static int shadow_light(const scene::Scene& scene, const Effects& effects);
-  /// As the sun sees solid items.
+  /// Draws solid items as the sun sees them.
   void draw_shadows(const std::vector<Placed>& placed, const Mat4& sun, const Effects& effects);
-  /// In use, with a picture's shared uniforms.
+  /// The program in use, with a picture's shared uniforms.
   Program& program(const scene::Scene& scene, const View& view, const Effects& effects,
                    bool of_floor, bool textured);
 

@@ -2,7 +2,7 @@
 
 namespace verp::render {
 
-/// Without window or display (EGL surfaceless), current in the constructor's thread.
+/// A context without window or display (EGL surfaceless), current in the constructor's thread.
 class OffscreenContext {
  public:
   /// Throws RenderError without a driver.

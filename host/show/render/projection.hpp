@@ -1,10 +1,10 @@
 #pragma once
 #include "host/show/render/stage.hpp"
 
-/// To the picture and the sun's view; private to this folder.
+/// Projections to the picture and the sun's view; private to this folder.
 namespace verp::render {
 
-inline constexpr double kFloor_m = 120;  // edge; beyond it all is horizon
+inline constexpr double kFloor_m = 120;  // edge length; beyond it all looks like the horizon
 
 /// World to eye: right, up, back.
 Mat4 look_at(const scene::Vec3& eye_m, const scene::Vec3& target_m, const scene::Vec3& up);

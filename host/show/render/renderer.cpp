@@ -166,7 +166,7 @@ struct Renderer::Impl {
                  marks.vertices.data(), GL_STREAM_DRAW);
     const auto count = static_cast<GLsizei>(marks.vertices.size());
     glDepthMask(GL_FALSE);
-    glDepthFunc(GL_GREATER);  // hidden marks are faint
+    glDepthFunc(GL_GREATER);  // marks behind something are faint
     mark.set("opacity", 0.3F);
     glDrawArrays(GL_TRIANGLES, 0, count);
     glDepthMask(GL_TRUE);

@@ -84,7 +84,7 @@ class Renderer {
   Measured measure(const scene::Snapshot& now, const scene::Camera& camera, Size size,
                    const Effects& effects = {});
 
-  /// At a pixel from the top left: index into Scene::items, or -1, and point.
+  /// The item at a pixel from the top left: index into Scene::items, or -1, and point.
   struct Hit {
     int item = -1;
     scene::Vec3 point_world_m = scene::Vec3::Zero();

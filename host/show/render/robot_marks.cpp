@@ -16,7 +16,7 @@ constexpr Colour kCom{0.98F, 0.78F, 0.12F, 1}, kForce{0.16F, 0.62F, 0.34F, 1};
 constexpr Colour kSupport{0.16F, 0.62F, 0.34F, 0.30F}, kSupportEdge{0.10F, 0.48F, 0.26F, 0.9F};
 constexpr Colour kLeft{0.10F, 0.45F, 0.85F, 0.75F}, kRight{0.80F, 0.30F, 0.62F, 0.75F};
 constexpr Colour kRay{0.92F, 0.16F, 0.14F, 0.75F};
-constexpr double kOver_m = 0.0015;  // above the floor and each other
+constexpr double kOver_m = 0.0015;  // marks lie so far above the floor and each other
 
 /// Scaled to the robot.
 class RobotMarks {

@@ -7,7 +7,7 @@ extern const char* const kSolidVertex;  ///< position, normal, texture coordinat
 /// lit_header() leaves out unused parts: a software driver runs both sides of every `if` and looks
 /// up what a loop indexes.
 extern const char* const kLitFragment;
-extern const char* const kShadowVertex;  ///< from the sun
+extern const char* const kShadowVertex;  ///< depth from the sun
 extern const char* const kShadowFragment;
 extern const char* const kSkyVertex;  ///< one triangle
 extern const char* const kSkyFragment;

@@ -28,7 +28,7 @@ void add_grid(Triangles& mesh, std::uint32_t first, std::uint32_t rows, std::uin
   }
 }
 
-/// -half to half: arcs in steps, the flat part in one.
+/// From -half to half: arcs in steps, the flat part in one.
 std::vector<float> ticks(float half, float round) {
   constexpr int kArc = 2;
   std::vector<float> at;
@@ -99,7 +99,7 @@ Triangles turned(const std::vector<Vector2f>& profile, const std::vector<Vector2
                      static_cast<float>(std::max<std::size_t>(profile.size(), 2) - 1)});
     }
   }
-  // From the top down: triangles face outward.
+  // Profiles run down, so triangles face outward.
   add_grid(mesh, 0, static_cast<std::uint32_t>(profile.size()),
            static_cast<std::uint32_t>(around + 1));
   return mesh;

@@ -25,7 +25,7 @@ class Stage {
   const scene::Scene& scene() const { return scene_; }
   const std::vector<std::string>& notes() const { return notes_; }
 
-  /// Without missing robots and bodies, and poses that are not finite.
+  /// Leaves out missing robots and bodies, and poses that are not finite.
   std::vector<Placed> place(const scene::Snapshot& now, const Effects& effects) const;
 
   /// The sun's shadows must cover it.

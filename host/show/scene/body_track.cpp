@@ -53,7 +53,7 @@ Transform BodyTrack::by_feet(const Inputs& inputs, const State& state, const Out
     return body;
   }
   const int low = feet.foot[0].centroid_world_m.z() <= feet.foot[1].centroid_world_m.z() ? 0 : 1;
-  if (standing_ < 0) standing_ = low;  // it is at the origin
+  if (standing_ < 0) standing_ = low;  // the first foot to stand is at the origin
   const auto seen_m = [&](int side) {
     return Vec2(feet.foot[static_cast<std::size_t>(side)].centroid_world_m.head<2>());
   };

@@ -5,7 +5,7 @@
 
 namespace verp::scene {
 
-/// At a tick's measured angles.
+/// Poses at a tick's measured angles.
 class TickPoses {
  public:
   TickPoses(const Entity& entity, const Params& params) : entity_(entity), params_(params) {}

@@ -152,7 +152,7 @@ class RobotBuilder {
         .colour = {0.03F, 0.05F, 0.09F, 1}, .roughness = 0.08F};
   }
 
-  /// Else boxes without colour hang in the air.
+  /// Without an axle, boxes would hang in the air.
   void add_hub(const model::Joint& joint) {
     const int node = static_cast<int>(&joint - e_.joints.data()) + 1;
     double least_m = 1;

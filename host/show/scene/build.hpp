@@ -17,10 +17,10 @@ enum class Meshes { kFromFiles, kNone };
 /// Returns the robot's index. Without a drawable visual, a link shows collision shapes.
 int add_robot(Scene& scene, const Entity& entity, Meshes meshes = Meshes::kFromFiles);
 
-/// To tell robots of one model apart.
+/// Distinguishes robots of one model.
 void tint(Scene& scene, int robot, const Colour& colour);
 
-/// In its own stance at start_m, as the twin begins.
+/// A robot in its own stance at start_m, as the twin begins.
 RobotView standing(const Entity& entity, const Vec3& start_m = Vec3::Zero(), double yaw_rad = 0);
 
 RobotView posed(const Entity& entity, const Transform& body_world,

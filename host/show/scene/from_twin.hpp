@@ -5,7 +5,7 @@
 
 namespace verp::scene {
 
-/// For session::Hooks::ticked. Changes no bit of the run.
+/// Call it in session::Hooks::ticked. It changes no bit of the run.
 RobotView look(const session::Tick& tick, const Entity& entity, const Params& params);
 
 Snapshot snapshot(const session::Tick& tick, const Entity& entity, const Params& params);

@@ -3,7 +3,7 @@
 
 namespace verp::scene {
 
-/// For a visual without colour, by its place.
+/// A material for a visual without colour.
 Material default_material(const Entity& entity, int node, const Vec3& extent_m);
 
 /// Light shows rounded edges.

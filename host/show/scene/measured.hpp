@@ -6,7 +6,7 @@
 #include "host/show/scene/snapshot.hpp"
 #include "host/twin/sim/truth.hpp"
 
-/// By the robot's sensors, where the truth is unknown.
+/// Values of the robot's sensors, where the truth is unknown.
 namespace verp::scene {
 
 /// Text of a name in Params.

@@ -4,7 +4,7 @@
 
 namespace verp::scene {
 
-/// From Params alone: tree, soles, and bones to draw.
+/// A robot from Params alone: tree, soles, and bones to draw.
 Entity entity_of(const Params& params);
 
 }  // namespace verp::scene

@@ -12,7 +12,7 @@ void add_outputs(RobotView& view, const Outputs& outputs, const Params& params);
 /// Gyro and accelerometer in body axes.
 void add_imu(RobotView& view, const Inputs& inputs, const Params& params);
 
-/// Relative to the stance foot: the plan has its own frame.
+/// Footholds relative to the stance foot: the plan has its own frame.
 std::vector<Footstep> footsteps(const gait::GaitState& gait, const Transform& left_sole_world,
                                 const Transform& right_sole_world);
 

@@ -46,7 +46,7 @@ enum class Shape {
 
 inline constexpr int kWorld = -1;
 
-/// On a link or in the world.
+/// A shape on a link or in the world.
 struct Item {
   std::string name;
   int robot = kWorld;  ///< index into Scene::robots
@@ -59,7 +59,7 @@ struct Item {
   Material material;
   std::string mesh_file;
   std::shared_ptr<const Triangles> triangles;
-  bool collision = false;  ///< with Effects::collisions
+  bool collision = false;  ///< drawn only with Effects::collisions
 };
 
 struct Light {
@@ -72,7 +72,7 @@ struct Light {
   /// Point and spot at distance d: strength / (x + y d + z d^2), less near the range's end.
   Vec3 fading = Vec3(0.01, 0, 1);
   double inner_rad = 0.4, outer_rad = 0.6;
-  bool shadows = false;  ///< first such sun only
+  bool shadows = false;  ///< only the first such sun casts them
 };
 
 struct Fog {
@@ -96,10 +96,10 @@ struct Ground {
   Colour dark{0.775F, 0.79F, 0.812F, 1};
   Colour line{0.64F, 0.66F, 0.70F, 1};
   double tile_m = 0.1;
-  double fade_m = 6;  ///< half horizon here
+  double fade_m = 6;  ///< at this distance it is half horizon
 };
 
-/// From a file; in the world, robot is kWorld.
+/// A camera from a file; in the world, robot is kWorld.
 struct Mount {
   std::string name;
   int robot = 0, node = 0;

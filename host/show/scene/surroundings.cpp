@@ -8,7 +8,7 @@ namespace {
 
 using Kind = model::Shape::Kind;
 
-constexpr double kMostRound_m = 0.004;  // more would look unlike its physics
+constexpr double kMostRound_m = 0.004;  // more would look unlike what physics touches
 
 Colour colour_of(const model::Color& c) {
   return {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2]),

@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <string>
 
-/// For any browser, without a server.
+/// A replay for any browser, without a server.
 namespace verp::web {
 
 struct Replay {

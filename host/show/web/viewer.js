@@ -76,7 +76,7 @@
     }
   }
 
-  // On the box, projected onto spheres around an inner box.
+  // Grid points on the box, projected onto spheres around an inner box.
   function roundBox(size, round) {
     const geometry = new THREE.BoxBufferGeometry(size[0], size[1], size[2], 8, 8, 8);
     const at = geometry.attributes.position, normal = geometry.attributes.normal;
@@ -235,7 +235,7 @@
     const flat = turn.distance * Math.cos(turn.elevation);
     camera.position.set(target.x + flat * Math.cos(turn.azimuth), target.y + flat * Math.sin(turn.azimuth), target.z + turn.distance * Math.sin(turn.elevation));
     camera.lookAt(target);
-    // In whole tiles: it seems endless.
+    // The floor moves in whole tiles: it seems endless.
     floor.position.set(Math.round(body.x / 0.2) * 0.2, Math.round(body.y / 0.2) * 0.2, 0);
     sun.target.position.copy(body);
     sun.position.copy(body).addScaledVector(sunward, 3 * reach);

@@ -12,10 +12,10 @@ namespace verp::compare {
 namespace {
 
 constexpr double kStill_rad = 0.0035;  ///< 0.2 degrees, two counts of 4096: encoder noise
-constexpr double kAlike = 0.5;         ///< part of B's motion
+constexpr double kAlike = 0.5;         ///< largest residual, part of B's motion
 constexpr double kLeastCommon_s = 0.5;
 constexpr double kLeastRead = 0.5;
-constexpr double kMainPart = 0.35;  ///< of the gait frequency
+constexpr double kMainPart = 0.35;  ///< least share of the gait frequency
 constexpr int kSettleCycles = 2, kLeastCycles = 2;
 
 void refuse_what_has_no_ticks(const record::Trace& trace) {

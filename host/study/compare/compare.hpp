@@ -23,7 +23,7 @@ struct JointResult {
   double offset_rad = 0;           ///< mean of B - A, without delay
   std::optional<double> delay_s;   ///< of B against A
   std::optional<double> left_rad;  ///< rms of B - A without delay and offset
-  std::string no_delay;            ///< reason, if there is no delay
+  std::string no_delay;            ///< why there is no delay
   /// Where both walk, at the gait frequency: B's amplitude over A's, and B's phase lag.
   std::optional<double> gain, phase_lag_rad;
 };
@@ -42,7 +42,7 @@ struct Comparison {
   double from_s = 0, to_s = 0;    ///< compared, s from A's first tick
   std::optional<double> delay_s;  ///< common to the moving joints
   double error_rms_rad = 0;
-  std::optional<double> gait_hz;  ///< nullopt: less than two cycles of both
+  std::optional<double> gait_hz;  ///< nullopt: neither walks for two cycles
   std::vector<JointResult> joints;
   std::vector<std::string> notes;  ///< remarks, one line each
 
@@ -52,7 +52,7 @@ struct Comparison {
 /// Throws record::TraceError for traces without ticks, with different joints or without overlap.
 Comparison compare(const record::Trace& a, const record::Trace& b, const Options& options = {});
 
-/// At each compared tick of A.
+/// Both motions at each compared tick of A.
 struct Pair {
   std::vector<double> time_s;             ///< A's clock
   std::vector<std::vector<double>> a, b;  ///< rad, by joint

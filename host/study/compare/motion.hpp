@@ -38,7 +38,7 @@ class Motion {
   std::size_t slot(const record::Trace& trace, std::size_t index) const;
 
   double period_s_;
-  std::size_t slots_ = 0;  ///< with the missing ones
+  std::size_t slots_ = 0;  ///< ticks with the missing ones
   std::vector<std::string> joints_;
   std::vector<std::vector<double>> rad_;
   std::vector<double> read_share_;

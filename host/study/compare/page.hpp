@@ -8,7 +8,7 @@ namespace verp::compare {
 
 struct WrittenPage {
   std::filesystem::path page;
-  std::string note;  ///< empty: all are there
+  std::string note;  ///< why pictures are missing; or empty
 };
 
 /// Writes index.html, compare.png, joints.csv and angles.csv; creates `folder`. Throws

@@ -15,7 +15,7 @@ constexpr double kLeastSigma = 0.5;  ///< counts: encoder noise and rounding
 constexpr std::size_t kAround = 10;  ///< ticks on either side for averaging chance
 constexpr double kMuchWorse = 1.03;  ///< a step may raise the cost by this; chance raises it less
 constexpr std::size_t kBlock = 50;   ///< ticks with correlated errors
-constexpr double kFurthest = 16;     ///< of a step in go_on()
+constexpr double kFurthest = 16;     ///< most that go_on() lengthens a step
 
 // Geman-McClure: bounds outliers.
 double weight(double residual) {

@@ -35,7 +35,7 @@ class Fit {
                  std::size_t to) const;
   const std::vector<std::size_t>& joints() const { return joints_; }
   bool stopped() const { return stopped_; }
-  /// In all rounds, for the progress.
+  /// Ticks in all rounds, for the progress.
   void expect(std::size_t ticks) { expected_ = ticks; }
 
  private:

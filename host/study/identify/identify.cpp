@@ -15,7 +15,7 @@ namespace {
 constexpr double kLeast_s = 5;
 constexpr double kRough_s = 10;  ///< for the first rounds
 constexpr int kRoughRounds = 6, kRounds = 7;
-constexpr double kStill_rad = 0.02;  ///< rms; less is no motion
+constexpr double kStill_rad = 0.02;  ///< rms; a joint below it does not move
 constexpr const char* kMotion =
     "record the motion that `verp identify --motion identify.action` makes";
 

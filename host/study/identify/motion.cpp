@@ -18,13 +18,13 @@ using Angles = std::vector<double>;
 
 constexpr double kWay_s[] = {0.15, 0.25, 0.4, 0.7, 1.2};  ///< frame durations, in turn
 constexpr double kRest_s = 0.3;                           ///< after the slowest frame
-constexpr double kFar_rad = 0.7;                          ///< from the stand
+constexpr double kFar_rad = 0.7;                          ///< largest distance from the stand
 constexpr double kFromStop_rad = 0.1;
 // Shares of a joint's limits; other loads and weaker servos need the rest.
 constexpr double kSpeedShare = 0.6, kTorqueShare = 0.3;
 constexpr double kTopSpeed = 1.5, kTopAcceleration = 6;  ///< of a cubic path of 1 in 1 s
 constexpr int kLooks = 8;                                ///< collision checks along a path
-constexpr double kApart_m = 0.02;                        ///< for model errors and curved paths
+constexpr double kApart_m = 0.02;  ///< clearance for model errors and curved paths
 constexpr int kDraws = 20;
 constexpr double kMostBeyond_s = 60;  ///< until the path to the stand is free
 

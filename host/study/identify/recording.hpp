@@ -19,7 +19,7 @@ struct Recording {
   Params params;
   std::vector<Tick> ticks;
   double supply_v = 0;  ///< servos' mean; 0: not reported
-  /// Against gravity, trunk hanging; without an IMU the body's z.
+  /// Direction against gravity, trunk hanging; without an IMU the body's z.
   Eigen::Vector3d up_body = Eigen::Vector3d::UnitZ();
 
   double period_s() const { return 1e-6 * params.period_us; }

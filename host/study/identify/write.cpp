@@ -28,7 +28,7 @@ Attributes attributes_of(const Result& result, const std::string& source) {
           {"source", source}};
 }
 
-/// With that name and attribute value, in text order.
+/// Elements with that name and attribute value, in text order.
 std::vector<int> elements(const edit::Document& document, const char* name, const char* attribute,
                           const std::string& value) {
   std::vector<int> found;

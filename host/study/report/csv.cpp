@@ -125,7 +125,7 @@ std::vector<double> speed_m_s(const Run& run) {
 
 Range last_steady_cycle(const Run& run) {
   const auto& s = run.samples;
-  std::vector<std::size_t> starts;  // state 15 to 0 in steady walking
+  std::vector<std::size_t> starts;  // where state 15 wraps to 0 in steady walking
   for (std::size_t i = 1; i < s.size(); ++i) {
     if (s[i].phase == kTransition && s[i - 1].phase == kTransition && s[i].state < s[i - 1].state) {
       starts.push_back(i);

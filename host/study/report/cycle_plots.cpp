@@ -19,8 +19,8 @@ std::string without_side(const std::string& name) {
   return plain(name);
 }
 
-/// Relative to the cycle's first body pose, mm: forward, left, height above each one's lowest
-/// point.
+/// Positions relative to the cycle's first body pose, mm: forward, left, height above each one's
+/// lowest point.
 class CycleFrame {
  public:
   CycleFrame(const Run& run, const Range& cycle) : origin_(run.samples[cycle.first]) {

@@ -23,7 +23,7 @@ std::string section(const Picture& picture);
 struct Sections {
   std::string body;
   bool poster = false;  ///< the file was written
-  std::string note;     ///< empty: all are there
+  std::string note;     ///< why pictures are missing; or empty
 };
 /// The first plot also becomes the file `poster`. Throws ReportError.
 Sections draw_sections(const std::vector<Plot>& plots, const std::filesystem::path& poster);

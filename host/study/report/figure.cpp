@@ -22,7 +22,7 @@ double head_radius_mm(const std::vector<Point3>& line) {
   return 800 * std::hypot(centre.x_m - neck.x_m, centre.z_m - neck.z_m);
 }
 
-/// From the side: way from the cycle's first body pose, and height.
+/// The states from the side: way from the cycle's first body pose, and height.
 class Strip {
  public:
   Strip(const Run& run, const Range& cycle) : run_(run), first_(run.samples[cycle.first]) {

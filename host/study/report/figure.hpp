@@ -6,7 +6,7 @@
 
 namespace verp::report {
 
-/// From the right side, the 16 states of a cycle.
+/// The robot from the right in the 16 states of a cycle.
 Plot figure_plot(const Run& run, const Range& cycle);
 
 /// The 16 states above the ZMP's track. nullopt: no steady cycle.

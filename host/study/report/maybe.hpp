@@ -14,7 +14,7 @@ inline std::string or_dash(const std::optional<double>& value, int decimals, con
   return value ? fmt::format("{:.{}f}{}", *value, decimals, unit) : "-";
 }
 
-/// Or why there is no bias.
+/// A walk's bias, or why there is no bias.
 inline std::string bias_or_end(const SweepWalk& walk) {
   return walk.end == SweepWalk::End::kWalked ? or_dash(walk.bias_mm, 1, " mm") : name_of(walk.end);
 }
@@ -23,7 +23,7 @@ inline std::string walked_step(const SweepWalk& walk) {
   return walk.step_m ? fmt::format("{:.1f} cm", 100 * *walk.step_m) : "-";
 }
 
-/// Below a sweep's table with a `limited()` row.
+/// A note below a sweep's table with a `limited()` row.
 inline constexpr const char* kLimitedNote =
     "walked: the longest step of the corrected walk, where gait.max_step_m, a leg's reach, the ZMP "
     "or the walk's length left less than was asked";

@@ -24,7 +24,7 @@ std::string mean_line(const std::optional<double>& mean, const char* title) {
       *mean, kInk, title);
 }
 
-/// From above, with a limited aspect ratio.
+/// A plot's extent from above, with a limited aspect ratio.
 class Extent2 {
  public:
   void add(const Point2& point) {

@@ -15,7 +15,7 @@ void add_outline(const std::array<Point2, 4>& corners, Data& data) {
   data.end_row().end_row();
 }
 
-/// In mid-stance, where the sole is flat.
+/// Draws a sole in mid-stance, where the sole is flat.
 bool shows_sole(const Run& run, const Range& range, std::size_t i, std::size_t foot) {
   const Sample& s = run.samples[i];
   const bool first = i == range.first || run.samples[i - 1].state != s.state;

@@ -12,7 +12,7 @@
 namespace verp::signals {
 namespace {
 
-/// By suffix, the longest first.
+/// Units by suffix, the longest first.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kUnits{
     {{"_tenth_mm_s", "0.1 mm/s"},
      {"_tenth_mrad", "0.1 mrad"},

@@ -27,7 +27,7 @@ struct Column {
   Format format = Format::kWhole;
 };
 
-/// In CSV order; `states` adds all fields of State.
+/// Columns in CSV order; `states` adds all fields of State.
 std::vector<Column> columns_of(const Params& params, bool states);
 
 /// The column of that name, else all that match with `*` and `?`.

@@ -11,7 +11,7 @@ constexpr std::size_t kMostLines = 6;  // colours of the palette
 
 using Places = std::vector<std::size_t>;
 
-/// In order of first appearance.
+/// Groups in order of first appearance.
 template <class Key>
 std::vector<Places> grouped(const std::vector<Column>& columns, const Places& places, Key key) {
   std::vector<Places> groups;

@@ -20,7 +20,7 @@ struct Page {
 
 struct WrittenPage {
   std::filesystem::path page;
-  std::string note;  ///< empty: all are there
+  std::string note;  ///< why pictures are missing; or empty
 };
 
 /// Writes index.html, map.png and map.csv; creates `folder`; removes an earlier walk report there.

@@ -17,7 +17,7 @@ constexpr double kTurn_rad = 2 * std::numbers::pi;
 
 constexpr double kStandUp_s = 15;  // to rise and calibrate the gyro
 
-/// From a run without push; length 0 for a standing robot.
+/// The cycle of a run without push; length 0 for a standing robot.
 struct Cycle {
   double begins_s = 0, cycle_s = 0;
   std::vector<double> heading_rad;  ///< at each phase

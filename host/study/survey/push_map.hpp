@@ -25,7 +25,7 @@ struct PushOptions {
   double settle_s = 3;    ///< before the push, at least
   double after_s = 3;     ///< minimum time after it
   double step_n_s = 0.1;  ///< resolution of the impulse
-  int steps = 31;         ///< impulses, in steps of step_n_s
+  int steps = 31;         ///< number of impulses, each step_n_s more
   double most_n_s() const { return step_n_s * steps; }
 };
 
@@ -33,9 +33,9 @@ struct PushOptions {
 double least_walk_s(const PushOptions& options, double cycle_s);
 
 struct PushCell {
-  int phase = 0;             ///< of 16, the paper's state
-  double direction_rad = 0;  ///< toward: 0 ahead, positive left
-  double at_s = 0;           ///< in time of gait
+  int phase = 0;             ///< 0..phases-1; of 16, the paper's state
+  double direction_rad = 0;  ///< of the push: 0 ahead, positive left
+  double at_s = 0;           ///< start of the push, in time of gait
   double heading_rad = 0;    ///< at the push
   /// Largest survived impulse. 0: none; PushOptions::most_n_s(): that or more; nullopt: not tried.
   std::optional<double> survives_n_s;

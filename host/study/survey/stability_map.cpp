@@ -12,7 +12,7 @@ namespace {
 
 using End = StabilityCell::End;
 
-/// Over whole cycles: sway cancels.
+/// Mean speed over whole cycles: sway cancels.
 class SpeedMeter {
  public:
   SpeedMeter(double begin_s, double end_s, double cycle_s)
@@ -62,7 +62,7 @@ void walk(session::WalkPlan plan, const sim::WorldOptions& world, const Stabilit
   if (workers.stopped()) return;
   cell.ordered = velocity_of(plan.velocity);
   cell.why = result.failure;
-  const bool short_of_it = meter.whole();  // to the end, but too short
+  const bool short_of_it = meter.whole();  // it walked to the end, but less far
   cell.end = result.metrics.fallen    ? End::kFell
              : result.failure.empty() ? End::kWalked
              : short_of_it            ? End::kShort

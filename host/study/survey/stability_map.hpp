@@ -10,7 +10,7 @@
 
 namespace verp::survey {
 
-/// In the axes of its heading.
+/// Velocity in the axes of the body's heading.
 struct Velocity {
   double vx_m_s = 0, vy_m_s = 0, wz_rad_s = 0;
 };
@@ -44,7 +44,7 @@ struct StabilityMap {
   bool interrupted = false;
 };
 
-/// At each velocity of two planes, not the plan's. Throws what session::walk() throws.
+/// Walks at each velocity of two planes, not the plan's. Throws what session::walk() throws.
 StabilityMap stability_map(const session::WalkPlan& plan, const sim::WorldOptions& world,
                            const StabilityOptions& options, const Watch& watch);
 

@@ -13,7 +13,7 @@ struct Side {
   double least_n_s = 0, middle_n_s = 0, most_n_s = 0;
   int least_phase = 0;  ///< first of the weakest
 };
-/// In the map's order, without untried directions.
+/// Sides in the map's order, without untried directions.
 std::vector<Side> sides_of(const PushMap& map);
 
 /// "ahead", "90° left", "back".

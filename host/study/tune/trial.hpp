@@ -21,7 +21,7 @@ session::WalkResult try_walk(session::WalkPlan plan, const sim::WorldOptions& wo
 /// longer walk.
 double cost_of(const session::WalkResult& result, double walk_s, double speed_m_s);
 
-/// Above any walk: the legs cannot reach this stance.
+/// A cost above any walk's: the legs cannot reach this stance.
 inline constexpr double kCannotStand = 1000;
 
 }  // namespace verp::tune

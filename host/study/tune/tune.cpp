@@ -17,9 +17,9 @@
 namespace verp::tune {
 namespace {
 
-constexpr double kLimit_s = 10;     // walk that finds a limit
+constexpr double kLimit_s = 10;     // length of the walk that finds a limit
 constexpr double kFirstStep = 0.5;  // in steps of each axis
-constexpr double kOffSpeed = 0.1;   // of a walk that counts
+constexpr double kOffSpeed = 0.1;   // largest speed error of a walk that counts
 // The file's robot and a random one.
 constexpr int kTrials = 2;
 
@@ -31,7 +31,7 @@ class Judge {
     plan_.velocity = ahead(options.speed_m_s);
   }
 
-  /// Per Tuning, over the search's walks.
+  /// Mean costs per Tuning, over the search's walks.
   std::vector<double> costs(const std::vector<Tuning>& tunings, std::uint64_t seed) {
     std::vector<double> costs(tunings.size() * kTrials, kCannotStand);
     walk(costs.size(), [&](std::size_t piece, const std::function<bool()>& stop) {
@@ -112,7 +112,7 @@ std::vector<Number> changes(const Tuning& was, const Tuning& now) {
   return numbers;
 }
 
-/// Or as many, with less bias.
+/// More robots walk, or as many with less bias.
 bool better(const Check& one, const Check& other) {
   if (one.walked != other.walked) return one.walked > other.walked;
   return one.bias_mm.value_or(1e9) < other.bias_mm.value_or(1e9);

@@ -41,7 +41,7 @@ std::vector<std::string_view> split(std::string_view text, std::string_view sepa
   return parts;
 }
 
-/// In lower case; lists are split at commas.
+/// A header's values in lower case; lists are split at commas.
 std::vector<std::string_view> values(std::string_view head, std::string_view name) {
   std::vector<std::string_view> found;
   for (const std::string_view line : split(head, "\r\n")) {

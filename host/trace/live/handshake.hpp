@@ -11,7 +11,7 @@ struct HandshakeAnswer {
   std::string text;
 };
 
-/// With its empty line; npos: incomplete.
+/// Length with the empty line; npos: incomplete.
 std::size_t head_length(std::string_view bytes);
 
 /// A complete head (RFC 6455, section 4.2). Total: any bytes get an answer. Accepts clients with a

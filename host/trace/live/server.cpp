@@ -24,7 +24,7 @@ using std::chrono::milliseconds;
 
 constexpr std::size_t kMostViewers = 16;
 constexpr std::size_t kAhead = 64 * 1024;  // queued beyond the socket
-constexpr milliseconds kSettled{300};      // then a viewer subscribes no more
+constexpr milliseconds kSettled{300};      // a viewer subscribes no more after it
 constexpr milliseconds kGreeting{10'000};  // for a client's handshake
 constexpr std::string_view kFull =
     "HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";

@@ -37,7 +37,7 @@ struct Counts {
 /// message, so that descriptions reach it. Any thread may call it.
 class Server {
  public:
-  /// On 127.0.0.1:port; 0: any free port. Throws LiveError if it is not available.
+  /// Listens on 127.0.0.1:port; 0: any free port. Throws LiveError if it is not available.
   explicit Server(std::uint16_t port, ServerOptions options = {});
   ~Server();  ///< finish()
   Server(const Server&) = delete;
@@ -52,8 +52,8 @@ class Server {
   /// Gives the server's thread SCHED_FIFO `priority`, below the sender's. Otherwise it could be
   /// preempted while it holds, for microseconds, a lock that senders need. False: denied.
   bool run_before_others(int priority);
-  /// Until a viewer subscribed and then paused for 0.3 s, or `given_up`, which must not call the
-  /// server. A viewer that subscribes channel by channel would miss messages otherwise.
+  /// Waits until a viewer subscribed and then paused for 0.3 s, or `given_up`, which must not call
+  /// the server. A viewer that subscribes channel by channel would miss messages otherwise.
   void wait_for_viewer(const std::function<bool()>& given_up);
   /// Sends queued messages while viewers read them, then closes. Later ones are not sent.
   void finish();

@@ -14,7 +14,7 @@ class Decisions {
       : trace_(trace), actions_(trace.library()), state_(trace.start()) {}
   /// Null: unknown. Call for every tick, in order.
   const Outputs* at(const TickRecord& record);
-  /// After the last at().
+  /// The State after the last at().
   const State& state() const { return state_; }
 
  private:

@@ -92,7 +92,8 @@ void for_each_named_leaf(T& value, std::string& path, Leaf&& leaf) {
   }
 }
 
-/// At most `limit`, in field order. Bitwise, like the digest: 0 and -0 differ, equal NaNs don't.
+/// At most `limit` differences, in field order. Bitwise, like the digest: 0 and -0 differ, equal
+/// NaNs don't.
 template <class T>
 std::vector<FieldDifference> diff_fields(const T& left, const T& right, std::size_t limit = 64) {
   std::vector<FieldDifference> differences;

@@ -7,7 +7,7 @@
 
 namespace verp::record {
 
-/// From each joint's last two readings, because servos are not asked. 0 before.
+/// Speeds from each joint's last two readings, because servos are not asked. 0 before.
 class JointSpeeds {
  public:
   explicit JointSpeeds(const Params& params) : params_(params) {}
@@ -16,7 +16,7 @@ class JointSpeeds {
 
  private:
   Params params_;
-  std::uint32_t known_ = 0;  ///< was read
+  std::uint32_t known_ = 0;  ///< bit j: joint j was read
   std::array<std::uint32_t, kMaxJoints> tick_{};
   std::array<std::int32_t, kMaxJoints> count_{};
   std::array<double, kMaxJoints> rad_s_{};

@@ -234,7 +234,7 @@ class Parser {
     fail(at_, cut ? "the file ends inside its last 8 bytes" : "bytes follow the footer", cut);
   }
 
-  /// With the one that is cut.
+  /// Counts the cut message, too.
   static std::uint64_t count_lost(std::string_view begun) {
     Cursor in(begun);
     in.take(8 + 8 + 8 + 4);

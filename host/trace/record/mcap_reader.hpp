@@ -27,7 +27,7 @@ struct Attachment {
 struct Flaw {
   std::uint64_t offset = 0;
   std::string what;
-  bool truncated = false;           ///< the end is missing; the rest is intact
+  bool truncated = false;           ///< intact before the offset; the end is missing
   std::uint64_t lost_messages = 0;  ///< in the incomplete chunk, as far as known
 };
 

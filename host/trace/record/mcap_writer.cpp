@@ -39,7 +39,7 @@ bool holds_something_else(const std::filesystem::path& path) {
   start.resize(static_cast<std::size_t>(in.gcount()));
   return !start.empty() && start != kMagic;
 }
-/// By open_part(), in any process.
+/// Some process has it open by open_part().
 bool is_written(const std::filesystem::path& part) {
   const int descriptor = ::open(part.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return false;
@@ -261,7 +261,7 @@ void Writer::write_summary() {
   const std::uint64_t summary_start = position_;
   const std::uint64_t offset_start = position_ + summary.data.size();
   summary.raw(offsets.data);
-  // Over summary and footer up to itself.
+  // The CRC covers summary and footer up to itself.
   summary.u8(static_cast<std::uint8_t>(Opcode::kFooter)).u64(kFooterSize);
   summary.u64(summary_start).u64(offset_start);
   summary.u32(crc32(summary.data));

@@ -53,7 +53,7 @@ void place(Divergence& divergence, const Trace& trace, std::size_t index) {
   divergence.tick = divergence.fields_tick = trace.ticks[index].inputs.tick;
 }
 
-/// With the trace's robot and this program's core, while digests match.
+/// Runs with the trace's robot and this program's core, while digests match.
 class Reference {
  public:
   explicit Reference(const Trace& trace) : trace_(trace), state_(trace.start()) {}
@@ -73,7 +73,7 @@ class Reference {
   bool valid_ = true;
 };
 
-/// From the first State kept at or after the divergence; replays up to it.
+/// Names fields from the first State kept at or after the divergence; replays up to it.
 void name_from_keyframe(Divergence& divergence, const Trace& trace, const Params& params,
                         const StepFunction& core, State state) {
   const Keyframe* keyframe = keyframe_from(trace, divergence.index);

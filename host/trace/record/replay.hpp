@@ -26,7 +26,7 @@ struct Divergence {
 /// First differing stage, or only the chain; nullopt: equal. Leaves tick and fields unset.
 std::optional<Divergence> compare_digests(const TickDigest& left, const TickDigest& right);
 
-/// Without digests, which only follow.
+/// Differences without digests, which only follow.
 std::vector<FieldDifference> diff_states(const State& left, State right);
 
 struct ReplayResult {

@@ -11,7 +11,7 @@ struct TickRange {
   std::size_t first = 0, last = 0;
 };
 
-/// On `verp trace export`'s clock: tick times period. nullopt: the start, or the end. Throws
+/// Times on `verp trace export`'s clock: tick times period. nullopt: the start, or the end. Throws
 /// TraceError without a tick.
 TickRange ticks_between(const Trace& trace, std::optional<double> from_s,
                         std::optional<double> to_s);

@@ -63,7 +63,7 @@ struct ObjectsAt {
 struct Trace {
   std::filesystem::path file;
   Params params;
-  std::vector<std::uint32_t> actions;  ///< action library; may be empty
+  std::vector<std::uint32_t> actions;  ///< image of the action library; may be empty
   mcap::StringMap metadata;
   std::optional<State> before;  ///< first tick; nullopt: a fresh controller
   std::vector<TickRecord> ticks;
@@ -102,7 +102,7 @@ struct RecordedPicture {
   std::uint64_t time_ns = 0;
   ros::Picture picture;
 };
-/// In file order; returns their number. Throws TraceError.
+/// Calls `show` in file order; returns their number. Throws TraceError.
 std::size_t for_each_picture(const std::filesystem::path& file,
                              const std::function<void(const RecordedPicture&)>& show);
 

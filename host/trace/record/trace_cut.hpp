@@ -11,7 +11,7 @@ struct Cut {
   std::size_t ticks = 0;
   std::uint32_t first_tick = 0, last_tick = 0;
   double first_s = 0, last_s = 0;
-  bool from_state = false;  ///< else at the trace's start
+  bool from_state = false;  ///< true: starts from a State; false: at the trace's start
 };
 
 /// A part as a trace, with all its messages. Replay needs a State, so it starts after the last one

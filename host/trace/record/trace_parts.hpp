@@ -16,7 +16,7 @@ void refuse_flaw(const std::filesystem::path& path, const mcap::File& file);
 /// Throws TraceError for other MCAP files, such as merged traces.
 void refuse_no_trace(const std::filesystem::path& path, const mcap::File& file);
 
-/// From a parsed file. Throws TraceError like read_trace(); Read::kRecover accepts flaws.
+/// The Trace of a parsed file. Throws TraceError like read_trace(); Read::kRecover accepts flaws.
 Trace trace_of(const std::filesystem::path& path, const mcap::File& file, Read mode);
 
 }  // namespace verp::record

@@ -16,7 +16,7 @@ namespace verp::record {
 struct TraceOptions {
   bool every_state = false;         ///< every State: a divergence names its field at its tick
   bool ros = true;                  ///< channels for viewers (host/guide/traces.md)
-  std::uint64_t chunk_ticks = 125;  ///< most that a crash can lose
+  std::uint64_t chunk_ticks = 125;  ///< most ticks that a crash can lose
   /// A chunk also ends at this size: ending one with a second's pictures took longer than a tick.
   std::size_t chunk_bytes = 1u << 17;
   std::vector<std::uint32_t> actions{};  ///< the controller's action library
@@ -44,16 +44,16 @@ class TraceWriter {
   /// and joint efforts, for which servos are not asked.
   void append(const TickRecord& record, const State& state, const Outputs& outputs,
               const ros::BodyPose* body = nullptr, std::span<const double> effort_n_m = {});
-  /// From a copied run. `kept`: its trace's State, or null.
+  /// A tick of a copied run. `kept`: its trace's State, or null.
   void append(const TickRecord& record, const State* kept);
   /// A scan for viewers, measured up to that tick, on /SENSOR. Message: the tick's time; header:
   /// the measurement's. Needs TraceOptions::ros.
   void append(const std::string& sensor, std::uint32_t tick, const ros::LaserScan& scan);
-  /// For viewers on `topic`, of one type. time_ns is on the ticks' clock and may go back. Needs
-  /// TraceOptions::ros.
+  /// A message for viewers on `topic`, of one type. time_ns is on the ticks' clock and may go back.
+  /// Needs TraceOptions::ros.
   void append(const std::string& topic, const ros::MessageType& type, std::uint64_t time_ns,
               std::string_view message);
-  /// After that tick; as often as the body.
+  /// Poses after that tick; as often as the body's.
   void append(std::uint32_t tick, std::span<const ros::ObjectPose> objects);
   /// A user's change after that tick.
   void note(std::uint32_t tick, const std::string& what);

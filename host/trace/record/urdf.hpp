@@ -5,8 +5,8 @@
 
 namespace verp::record {
 
-/// For viewers: a link `body`, and one per joint with its name, mass and limits, drawn as sticks to
-/// its joints.
+/// A URDF for viewers: a link `body`, and one per joint with its name, mass and limits, drawn as
+/// sticks to its joints.
 std::string urdf(const Params& params);
 
 }  // namespace verp::record

@@ -15,7 +15,7 @@ namespace verp::bus {
 namespace {
 
 constexpr int kDelays = 80;
-constexpr int kSilent = 10;                        // unanswered reads
+constexpr int kSilent = 10;                        // stop after so many unanswered reads
 constexpr std::uint16_t kBytes = 4;                // Present Position, as in every tick
 constexpr int kShortest_ms = 4, kLongest_ms = 20;  // Params::period_us
 

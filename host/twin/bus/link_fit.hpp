@@ -42,7 +42,7 @@ struct LinkFit {
   double needed_us() const { return wire_us + reads * delay.median_us; }
   /// False without an answered read.
   bool fits() const { return delay.answered > 0 && needed_us() <= kUsable * period_us; }
-  /// Also with the slowest tenth of the reads.
+  /// Fits even with the slowest tenth of the reads.
   bool fits_well() const {
     return delay.answered > 0 && wire_us + reads * delay.p90_us <= kUsable * period_us;
   }

@@ -10,7 +10,7 @@ namespace verp::bus {
 
 /// For a lockstep controller on any bus; members may be empty.
 struct SessionHooks {
-  /// For the first time, or after a reset.
+  /// A controller's hello, first or after a reset.
   std::function<void()> greeted;
   /// The text names the difference.
   std::function<void(const std::string&)> refused;

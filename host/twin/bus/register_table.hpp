@@ -26,7 +26,7 @@ class RegisterTable {
   void set(std::uint16_t address, std::int64_t value);
   const Register* find(std::uint16_t address) const;
   void restore_initial(std::uint16_t first, std::uint16_t end);
-  /// From a table with the same registers.
+  /// Copies from a table with the same registers.
   void copy(const RegisterTable& other, std::uint16_t first, std::uint16_t end);
 
   /// Empty past the table's end; gaps read as zero, as in real servos.

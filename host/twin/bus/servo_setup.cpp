@@ -15,7 +15,7 @@ namespace at = dxl::address;
 constexpr std::uint32_t kTimeout_us = 60'000;  // 16 ms of an adapter, twice, with margin
 constexpr int kPositions = 9;
 constexpr std::uint8_t kAllReplies = 2;  // e-Manual, Status Return Level (68)
-constexpr std::int32_t kStill = 6;       // half a degree: a hand trembles
+constexpr std::int32_t kStill = 6;       // counts, half a degree: a hand trembles
 
 /// Baud Rate (8), likely ones first.
 constexpr std::array<std::uint32_t, 8> kRates = {dxl::kFactoryBaud, 1'000'000, 2'000'000, 115'200,

@@ -87,7 +87,7 @@ class Shadow {
   virtual ~Shadow() = default;
   /// Frames were lost: those up to the next poll cannot be compared.
   virtual void damaged() = 0;
-  /// From the next poll on; flags hold for one tick.
+  /// The order holds from the next poll on; flags hold for one tick.
   virtual void ordered(const app::OperatorOrder& order) = 0;
   virtual void catch_up() = 0;
   /// First difference between the two controllers' frames; empty: none.

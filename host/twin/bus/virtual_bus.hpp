@@ -129,7 +129,7 @@ class VirtualBus {
   std::uint64_t now_ns_ = 0;
   std::uint64_t wire_free_ns_ = 0;
   std::uint64_t asked_ns_ = 0;        ///< when the next sender received its request
-  std::uint64_t master_free_ns_ = 0;  ///< real time
+  std::uint64_t master_free_ns_ = 0;  ///< real time: end of the master's last byte
   std::uint64_t send_start_ns_ = 0;   ///< of the last sent frame
   std::uint64_t tick_start_ns_ = 0;
   std::uint64_t first_tick_ns_ = 0;

@@ -58,7 +58,7 @@ class ClientBus {
 };
 static_assert(hal::CanBus<ClientBus>);
 
-/// For example "6064:0", hexadecimal.
+/// For example "6064:0" in hexadecimal.
 std::string to_text(canopen::Address at);
 
 /// SDO client for the CANopen nodes on an interface, one transfer at a time. The PC has no node id.

@@ -89,7 +89,7 @@ class DriveApplication {
   canopen::cia402::FollowingMonitor following_;
   std::uint16_t gains_[3] = {};
   std::uint8_t hardware_errors_ = 0;  ///< bits of dxl::HardwareError until a fault reset
-  std::int32_t held_count_ = 0;       ///< without a target
+  std::int32_t held_count_ = 0;       ///< held position without a target
   bool target_written_ = false;       ///< since the last stop or loss of torque
   bool limited_ = false;              ///< 607Dh limited the target
   bool following_error_ = false;

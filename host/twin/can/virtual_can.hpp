@@ -80,7 +80,7 @@ class VirtualCan {
     }
   }
 
-  /// With stuff bits and intermissions.
+  /// Includes stuff bits and intermissions.
   std::uint64_t bits_on_wire() const { return bits_on_wire_; }
   std::uint64_t bare_bits_on_wire() const { return bare_bits_on_wire_; }
   std::uint64_t frames_on_wire() const { return frames_on_wire_; }

@@ -15,7 +15,7 @@ inline bool is_signed(DataType type) {
          type == DataType::kInteger32;
 }
 
-/// In EDS notation; empty: no value, or a text.
+/// The value in EDS notation; empty: no value, or a text.
 template <class Objects>
 std::string initial_at(canopen::Address at, DataType type, Objects& of_node_1, Objects& of_node_2) {
   canopen::Entry entry;

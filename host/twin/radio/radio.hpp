@@ -73,7 +73,7 @@ class Radio {
   Sent send(int from, int to, std::string data, std::uint64_t now_us);
   /// `places`: antennas of the stations.
   void advance(std::uint64_t now_us, std::span<const Place> places);
-  /// In order of arrival, up to the last advance().
+  /// Messages in order of arrival, up to the last advance().
   std::vector<ReceivedMessage> take(int station);
 
   std::vector<Outcome> take_outcomes();

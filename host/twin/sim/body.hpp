@@ -9,7 +9,7 @@
 /// Links and hinges in the physics engine. Joint j moves node j + 1; node 0 is the body.
 namespace verp::sim {
 
-/// By forward kinematics.
+/// Poses by forward kinematics.
 std::vector<Transform> link_poses(const model::Entity& entity, const Transform& body_world,
                                   const std::vector<double>& joint_rad);
 
@@ -26,7 +26,7 @@ Transform resting(const model::Entity& entity, const std::vector<double>& joint_
 /// Leg 0 left, 1 right; or null.
 const model::Limb* find_leg(const model::Entity& entity, int foot);
 
-/// On the joint's child link in the last step, about `point_world_m`.
+/// Load on the joint's child link in the last step, about `point_world_m`.
 struct JointLoad {
   Vec3 point_world_m = Vec3::Zero();
   Vec3 force_world_n = Vec3::Zero(), torque_world_n_m = Vec3::Zero();

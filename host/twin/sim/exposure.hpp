@@ -11,8 +11,8 @@ namespace verp::sim {
 struct Exposure {
   std::uint64_t time_us = 0;
   std::vector<std::size_t> cameras;  ///< indices in Entity::cameras
-  std::size_t robot = 0;             ///< of the cameras
-  /// In the order in which robots joined the world.
+  std::size_t robot = 0;             ///< index of the cameras' robot
+  /// Robots in the order in which they joined the world.
   std::vector<std::vector<model::Transform>> link_world;
   std::vector<model::Transform> body_world;  ///< objects that can move
 };

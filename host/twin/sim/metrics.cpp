@@ -17,7 +17,7 @@ bool is_walking(const Outputs& outputs) {
   return outputs.gait_phase != static_cast<std::uint8_t>(gait::Phase::kIdle);
 }
 
-/// Without soles, below the body.
+/// The midpoint of the soles; without soles, below the body.
 Vec2 ground_position(const Truth& truth) {
   if (!truth.foot[0].present || !truth.foot[1].present)
     return truth.body_world.translation().head<2>();

@@ -33,21 +33,21 @@ struct WalkMetrics {
   double lateral_drift_m = 0;  ///< to the left of that heading
   double yaw_drift_deg = 0;    ///< of the body, turns counted
   bool fallen = false;
-  /// From the measured ZMP (mean of a control tick) to the centroid of the supporting sole; in
-  /// double support, of the next carrying sole.
+  /// Distance from the measured ZMP (mean of a control tick) to the centroid of the supporting
+  /// sole; in double support, of the next carrying sole.
   std::optional<double> zmp_bias_mean_mm;
   std::array<std::optional<double>, 16> zmp_bias_by_state_mm{};
   /// Share of (joint, physics step) pairs with duty at its limit; and the worst joint's share.
   std::optional<double> servo_saturation;
   std::optional<double> servo_saturation_worst;
   int servo_saturation_worst_joint = 0;
-  /// Per joint; empty: it did not walk.
+  /// Torque use per joint; empty: it did not walk.
   std::vector<TorqueUse> torque_use;
   /// While walking: energy from the supply, and work on the joints, of the servos alone.
   double supply_energy_j = 0, joint_work_j = 0;
-  /// Per weight and distance_m. No value for a short path.
+  /// Energy per weight and distance_m. No value for a short path.
   std::optional<double> cost_of_transport, cost_of_transport_mechanical;
-  /// While walking; and the last two links.
+  /// Ticks while walking; and the last two links.
   std::uint64_t self_contact_ticks = 0;
   std::array<std::string, 2> self_contact_links;
 };
@@ -143,7 +143,7 @@ class WalkMeter {
   Vec2 last_mark_m_ = Vec2::Zero();
   Vec2 here_m_ = Vec2::Zero();
   double path_m_ = 0, slip_m_ = 0;  ///< up to last_mark_m_
-  Vec2 slid_m_ = Vec2::Zero();      ///< of the carrying sole
+  Vec2 slid_m_ = Vec2::Zero();      ///< slip of the carrying sole
   std::vector<Mark> marks_;
   std::vector<Pending> pending_;
   std::array<double, 16> bias_sum_mm_{};

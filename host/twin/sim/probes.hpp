@@ -51,7 +51,7 @@ class Probes {
   Probes(const model::Entity& entity, Body& body, int owner, bool noise, std::uint64_t seed);
 
   void sample(const World& world, const Body& body);
-  /// Since the last call; the oldest are dropped if nobody takes them.
+  /// Readings since the last call; the oldest are dropped if nobody takes them.
   ProbeReadings take();
 
  private:

@@ -58,7 +58,7 @@ class Quantities final : private Actor {
   double read(const std::string& name) const;
   void set(const std::string& name, double value);
   void check(const std::string& name, double value) const;
-  /// At the centre of mass, in world axes, from the next step on.
+  /// Pushes at the centre of mass, in world axes, from the next step on.
   void push(const std::string& thing, const Vec3& force_world_n, double for_s);
   void check_push(const std::string& thing) const;
 

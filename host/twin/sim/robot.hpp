@@ -47,7 +47,7 @@ struct TwinOptions {
   double goal_delay_s = 0;               ///< from arrival to the servo's action
   Vec3 gyro_bias_rad_s = Vec3::Zero();   ///< sensor axes, besides the drawn bias
   std::vector<double> initial_rad = {};  ///< empty: Entity's stand_rad
-  Vec3 start_m = Vec3::Zero();           ///< midpoint of the soles
+  Vec3 start_m = Vec3::Zero();           ///< midpoint of the soles; z: ground height there
   double start_yaw_rad = 0;
   Lies lies = Lies::kNo;  ///< not held if lying
   Cradle cradle = Cradle::kUntilArmed;
@@ -93,7 +93,7 @@ class TwinRobot final : public Plant, private Actor {
   ServoModel& servo(int joint) { return servo_[static_cast<std::size_t>(joint)]; }
   int owner() const { return owner_; }
   Truth truth() const;
-  /// In any state of the cradle.
+  /// Releases in any state of the cradle.
   void release() { body_.release(); }
   bool fallen() const { return fallen_; }
   /// Resets fallen() if the robot stands as one that never fell; false: it does not.
@@ -101,11 +101,11 @@ class TwinRobot final : public Plant, private Actor {
   /// Holds a limp robot upright where it lies, as at the start (Cradle). False: a servo has torque.
   bool set_upright();
   double supply_v() const { return supply_v_; }
-  /// Since the start: from the supply, and work on the joints without braking.
+  /// Energy since the start from the supply, and work on the joints without braking.
   double supply_energy_j() const { return supply_energy_j_; }
   double joint_work_j() const { return joint_work_j_; }
   double weight_n() const { return body_.mass_kg() * world_.options().gravity_m_s2; }
-  /// Since the start; per joint, steps with duty at its limit.
+  /// Steps since the start; per joint, steps with duty at its limit.
   std::uint64_t steps() const { return steps_; }
   /// New since the last call.
   std::vector<Scan> take_scans() { return std::exchange(scans_, {}); }
@@ -117,7 +117,7 @@ class TwinRobot final : public Plant, private Actor {
   std::uint64_t self_contact_steps() const { return self_contact_steps_; }
   std::array<int, 2> self_contact_nodes() const { return self_contact_nodes_; }
 
-  /// Since the last call: a control tick's mean.
+  /// Loads since the last call: a control tick's mean.
   FootLoads take_foot_loads();
 
  private:

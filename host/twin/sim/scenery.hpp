@@ -28,7 +28,7 @@ class Scenery final : private Actor {
   /// In the order of data().objects.
   const std::vector<Item>& items() const { return items_; }
   Transform pose(std::size_t index) const;
-  /// In the order of model::moving().
+  /// Poses in the order of model::moving().
   std::vector<Transform> moving_poses() const;
   /// A dynamic object; its velocity stays.
   void place(std::size_t index, const Transform& pose_world);

@@ -25,7 +25,7 @@ struct Drive {
   }
 };
 
-/// As the controller does: without zero error, not rounded.
+/// Converts as the controller does: without zero error, not rounded.
 double count_of(const model::Servo& servo, double angle_rad);
 double angle_of(const model::Servo& servo, double count);
 
@@ -72,11 +72,11 @@ class ServoModel {
 
   /// Positive as counts increase.
   const ServoMeasurement& measurement() const { return measurement_; }
-  /// On the joint in the last step, joint sense.
+  /// Torque on the joint in the last step, joint sense.
   double torque_n_m() const { return torque_n_m_; }
   /// Share of stall torque; above 1 when back-driven.
   double torque_use() const { return torque_use_; }
-  /// In the last step.
+  /// The duty was at its limit in the last step.
   bool saturated() const { return saturated_; }
   double supply_current_a() const { return supply_current_a_; }
   /// Damping of the bearing.
@@ -84,7 +84,7 @@ class ServoModel {
   double joint_friction_n_m() const { return joint_.friction_n_m; }
   void set_joint_damping(double damping_n_m_s) { joint_.damping_n_m_s = damping_n_m_s; }
   void set_joint_friction(double friction_n_m);
-  /// As the joint's true angle.
+  /// The profile as the joint's true angle.
   double profile_rad() const {
     return angle_of(joint_.servo, profile_.count()) - noise_.zero_error_rad;
   }
@@ -94,7 +94,7 @@ class ServoModel {
   void follow_profile(const ServoSetpoint& setpoint);
   double position_loop(const ServoSetpoint& setpoint);
   double velocity_loop(const ServoSetpoint& setpoint);
-  /// At which the motor draws that current now.
+  /// The duty at which the motor draws that current now.
   double duty_for(double current_a) const;
   double duty(const ServoSetpoint& setpoint);
   double mean_duty(const ServoSetpoint& setpoint, double angle_rad, double rate_rad_s,
@@ -115,7 +115,7 @@ class ServoModel {
   double resistance_ohm_ = 0;
 
   bool was_on_ = false;
-  double next_loop_s_ = 0;  ///< after the next step's start
+  double next_loop_s_ = 0;  ///< from the next step's start
   Profile profile_{0};
   double integral_ = 0;    ///< PWM units
   double last_error_ = 0;  ///< counts
@@ -123,10 +123,10 @@ class ServoModel {
 
   double duty_ = 0;         ///< joint sense, mean
   Drive motor_;             ///< alone, last step
-  double rotor_rad_s_ = 0;  ///< seen from the joint
+  double rotor_rad_s_ = 0;  ///< seen from the joint; free inside the play
   double play_rad_ = 0;     ///< motor side ahead, within +-backlash/2
   bool engaged_ = true;     ///< not inside the play
-  int sliding_ = 0;         ///< motion's sign; 0: stuck
+  int sliding_ = 0;         ///< sign of the motion; 0: stuck
   double stuck_rad_ = 0;    ///< where it stuck
   Drive friction_, gear_;   ///< last step; gear_: all through the gears
   Drive drive_;             ///< with end stops and bearing

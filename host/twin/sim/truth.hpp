@@ -47,7 +47,7 @@ class FootLoads {
   void add(const Vec3& position_world_m, const Vec3& force_world_n);
   void add(const FootLoads& other);
   bool valid() const { return force_n_ > kContactForceN; }
-  /// On z = 0. Call only if valid().
+  /// The ZMP on z = 0. Call only if valid().
   Vec2 zmp_world_m() const { return moment_n_m_ / force_n_; }
   double force_n() const { return force_n_; }
 

@@ -94,8 +94,8 @@ class Diverged : public std::runtime_error {
 struct WorldOptions {
   std::uint32_t step_us = 1000;
   double gravity_m_s2 = 9.80665;
-  Vec3 up = Vec3::UnitZ();  ///< opposite to gravity, in the floor's frame: tilted up is a tilted
-                            ///< floor
+  Vec3 up = Vec3::UnitZ();  ///< opposite to gravity, in the floor's frame, so a tilted up is a
+                            ///< tilted floor
   bool ground = true;       ///< the plane z = 0
   Surface ground_surface{
       .friction = 1.0, .stiffness_n_m = 0, .damping_n_s_m = 0};  ///< 0 stiffness: rigid
@@ -127,19 +127,19 @@ class World final : public TimeSource {
 
   /// The tag lives as long as the world; the geometry then collides.
   GeomTag& tag(dGeomID geom, const GeomTag& tag);
-  /// Not attached to a body; the caller sets its pose.
+  /// A shape without a body; the caller sets its pose.
   dGeomID make_shape(const model::Collision& collision);
 
   dWorldID ode_world() const { return world_; }
   dSpaceID ode_space() const { return space_; }
   Scenery* scenery() { return scenery_.get(); }
   const Scenery* scenery() const { return scenery_.get(); }
-  /// To the first shape within range_m.
+  /// Distance to the first shape within range_m.
   std::optional<double> ray_m(const Vec3& from_world_m, const Vec3& direction_world, double range_m,
                               const RayFilter& filter = {}) const;
   /// Highest surface below 1.5 m within around_m: where a robot can stand.
   double height_m(double x_m, double y_m, double around_m) const;
-  /// From the next step on.
+  /// Holds from the next step on.
   void set_gravity(double gravity_m_s2);
   /// Null: no plane.
   GeomTag* ground_tag() { return ground_; }

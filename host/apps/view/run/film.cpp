@@ -7,7 +7,7 @@
 namespace verp::view {
 namespace {
 
-constexpr double kPictures_s = 120;  // for rewinding; about 5 kB a tick
+constexpr double kPictures_s = 120;  // the user can rewind this far; about 5 kB a tick
 constexpr double kValues_s = 1800;   // for plots; about 0.5 kB a tick
 
 }  // namespace

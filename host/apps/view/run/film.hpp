@@ -28,7 +28,7 @@ class Film {
   virtual bool empty() const = 0;
   virtual double begin_s() const = 0;
   virtual double end_s() const = 0;
-  /// At or just before t_s; null: empty film.
+  /// The picture at or just before t_s; null: empty film.
   virtual Picture at(double t_s) const = 0;
   /// Appends the points after `after_s`.
   virtual void points(int signal, double after_s, std::vector<Point>& out) const = 0;

@@ -36,7 +36,7 @@ class Gamepad {
 
   const std::string device_;
   int descriptor_ = -1;
-  int wait_ = 0;  ///< polls
+  int wait_ = 0;  ///< polls until the next attempt
   bool present_ = false;
   Sticks sticks_;
 };

@@ -23,8 +23,8 @@ class Linked {
   Linked& operator=(const Linked&) = delete;
 
   struct Told {
-    bool lost = false;    ///< answered once
-    std::string trouble;  ///< no answer now; or empty
+    bool lost = false;    ///< answered once, but not now
+    std::string trouble;  ///< why there is no answer; or empty
     std::uint64_t looks = 0, digest = 0;
     std::uint32_t tick = 0;
     double roll_rad = 0, pitch_rad = 0;
@@ -32,8 +32,8 @@ class Linked {
   };
   Told told() const;
 
-  /// On its feet to the left of `own`, with its heading. Without links, so not drawn, before an
-  /// answer.
+  /// The robot on its feet to the left of `own`, with its heading. Without links, so not drawn,
+  /// before an answer.
   scene::RobotView beside(const scene::RobotView& own) const;
 
  private:

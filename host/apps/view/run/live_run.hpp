@@ -48,22 +48,22 @@ class LiveRun {
   /// Played or paused as before.
   void reset();
 
-  /// For actions between two ticks.
+  /// Handles for actions between two ticks.
   struct Hands {
     session::Session& session;
     session::Robot& robot;
     session::LiveOrders& orders;
   };
-  /// In the run's thread before the next tick. An exception becomes Status::complaint.
+  /// Runs in the run's thread before the next tick. An exception becomes Status::complaint.
   void touch(std::function<void(Hands&)> what);
 
   /// As in `verp walk`: recorded with its tick.
   void intervene(session::Intervention what);
 
-  /// After each fall, if the robot has actions for it.
+  /// Gets up after each fall, if the robot has actions for it.
   void let_get_up(bool by_itself);
 
-  /// As a trace. These return empty or the reason.
+  /// Saves a trace. These return empty or the reason.
   std::string save(const std::filesystem::path& file);
   /// Completes the record.
   std::string finish();
@@ -75,7 +75,7 @@ class LiveRun {
     double late_s = 0;  ///< behind the clock
     std::uint64_t ticks = 0, digest = 0;
     std::optional<Tuning> tuning = {};  ///< in effect
-    std::string failure = {};           ///< end of the run
+    std::string failure = {};           ///< why the run is over
     std::string complaint = {};         ///< last failed touch
     std::string happened = {};          ///< last event after a fall
     int runs = 0;

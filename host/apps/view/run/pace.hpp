@@ -17,10 +17,10 @@ class Pace {
   /// hurry.
   double wait_s(double simulated_s, double wall_s);
 
-  /// Also if not made up.
+  /// The delay, even if not made up.
   double late_s() const { return late_s_; }
 
-  /// Over the last second.
+  /// Real-time factor over the last second.
   double factor() const;
   void ticked(double simulated_s, double wall_s);
 
@@ -33,7 +33,7 @@ class Pace {
   std::deque<std::pair<double, double>> last_;
 };
 
-/// To the next picture. The twin comes first: a late run gets fewer pictures.
+/// Time to the next picture. The twin comes first: a late run gets fewer pictures.
 int frame_ms(double late_s);
 
 }  // namespace verp::view

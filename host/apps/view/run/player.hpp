@@ -27,7 +27,7 @@ class Player {
   /// Restarts a run; rewinds a trace.
   void reset();
 
-  /// At a run's newest instant.
+  /// True at a run's newest instant.
   bool follows() const { return follows_; }
   double shown_s() const { return shown_s_; }
   /// Null: nothing to show. Call once a frame with the wall time.

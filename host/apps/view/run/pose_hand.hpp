@@ -25,7 +25,7 @@ class PoseHand {
   int foot_of(int node) const;
   bool has_leg(int side) const;
 
-  /// As near as the joints reach; does nothing for the body.
+  /// Moves as near as the joints reach; does nothing for the body.
   void move_link(int node, const scene::Vec3& point_link_m, const scene::Vec3& to_body_m);
   scene::Vec3 point_body_m(int node, const scene::Vec3& point_link_m) const;
   /// "" before the first move_link() since stand().
@@ -40,7 +40,7 @@ class PoseHand {
 
  private:
   kinematics::LegChain chain(int side) const;
-  /// With motors of their own.
+  /// Joints with motors of their own.
   std::vector<std::size_t> joints_to(int node) const;
   /// False: nothing moved.
   bool step_to(const std::vector<std::size_t>& joints, int node, const scene::Vec3& point_link_m,

@@ -12,7 +12,7 @@ namespace {
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 constexpr double kDegrees = 180 / 3.14159265358979323846;
 
-/// In the order of signals_of().
+/// Values in the order of signals_of().
 class Row {
  public:
   void add(double value) { values_.push_back(static_cast<float>(value)); }
@@ -41,7 +41,7 @@ void add_point(Row& row, const std::optional<scene::Vec2>& point) {
   row.add(point->y());
 }
 
-/// And its difference to ours.
+/// The robot at the link, and its difference to ours.
 void add_beside(Row& row, const scene::RobotView& robot, const scene::RobotView& beside,
                 std::size_t joints) {
   for (std::size_t j = 0; j < joints; ++j) {

@@ -8,7 +8,7 @@
 namespace verp::edit {
 
 struct ImportOptions {
-  double unit_m = 1;   ///< on top of a DAE's own unit
+  double unit_m = 1;   ///< metres per unit; a DAE's own unit is on top
   double mass_kg = 0;  ///< 0: from the density
   double density_kg_m3 = 1000;
   std::string fit = "box";  ///< or capsule, cylinder, sphere, "smallest"

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kMostBytes = 200u << 20;  // a whole robot for printing has 50 MB
 constexpr std::size_t kMostTriangles = 2'000'000;
-constexpr double kMost_m = 10;  // of a link
+constexpr double kMost_m = 10;  // size of a link
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what, const std::string& fix) {
   throw model::LoadError(file.string(), 0, what, fix);

@@ -25,8 +25,8 @@ render::Effects effects() {
   return effects;
 }
 
-/// On the 8-bit values, fraction of white. Four uniform numbers of one draw are normal enough: a
-/// picture needs 230,000.
+/// Noise on the 8-bit values, fraction of white. Four uniform numbers of one draw are normal
+/// enough: a picture needs 230,000.
 void add_noise(const model::CameraSensor& camera, sim::Random& random, render::Image& image) {
   if (camera.noise_stddev == 0 && camera.noise_mean == 0) return;
   constexpr float kMean = 4 * 0.5F * 65535, kStddev = 37836.6F;  // 65536 * sqrt(4 / 12)
