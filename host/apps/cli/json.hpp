@@ -4,7 +4,6 @@
 
 namespace verp::cli {
 
-/// Keys keep their insertion order.
 using Json = nlohmann::ordered_json;
 
 void print_json(const Json& object);

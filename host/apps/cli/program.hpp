@@ -7,7 +7,6 @@ namespace verp::cli {
 
 using AddCommands = std::vector<Subcommand> (*)(CLI::App& root);
 
-/// The body of a main().
 int run_program(int argc, char** argv, AddCommands add_commands);
 
 }  // namespace verp::cli

@@ -19,7 +19,6 @@ using namespace verp::abi;
 
 namespace {
 
-/// State behind a verp_core.
 struct Core {
   verp::Params params;
   verp::State state = {};

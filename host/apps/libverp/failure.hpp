@@ -8,7 +8,6 @@
 
 namespace verp::abi {
 
-/// A status other than VERP_OK.
 class Failure : public std::runtime_error {
  public:
   Failure(verp_status status, const std::string& why) : std::runtime_error(why), status_(status) {}

@@ -18,10 +18,8 @@ class Moment {
 
   /// Returns the controller's status. Throws Failure if the controller throws.
   int run(verp_controller controller, void* user, std::uint32_t robot);
-  /// The core's own controller, once.
   void decide();
   bool decided() const { return decided_; }
-  /// The controller's thread.
   std::thread::id thread() const { return thread_; }
 
  private:

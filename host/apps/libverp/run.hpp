@@ -13,7 +13,6 @@
 #include "host/trace/record/ros_radio.hpp"
 #include "host/trace/record/trace_writer.hpp"
 
-/// State behind a verp_session.
 namespace verp::abi {
 
 /// A robot of the session. The session's hooks refer to it.

@@ -6,7 +6,6 @@
 
 namespace verp::tool {
 
-/// One item per line.
 std::string first_power_checklist(const Params& params);
 
 /// Asks the user to confirm the checklist; `agreed`: done on the command line. Throws ToolError

@@ -48,7 +48,6 @@ std::string in_words(const hal::RangeScan& scan, int first) {
                                     static_cast<std::size_t>(first) + found.step));
 }
 
-/// Returns the number of scans.
 template <hal::RangeFinder Finder>
 std::size_t watch(Finder& finder, const LaserWords& words, cli::Json& scans) {
   hal::RangeScan scan;

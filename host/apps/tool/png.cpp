@@ -7,7 +7,6 @@
 namespace verp::tool {
 namespace {
 
-/// PNG is big-endian.
 void put_big(std::string& out, std::uint32_t value) {
   for (int shift = 24; shift >= 0; shift -= 8) out += static_cast<char>(value >> shift & 0xFF);
 }

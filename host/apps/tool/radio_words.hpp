@@ -5,7 +5,6 @@
 
 namespace verp::tool {
 
-/// Help text of --radio.
 inline constexpr const char* kRadioWords =
     "numbers of the radio: 'range_m=5 loss=0.3' (also fade, fade_s, delay_s, jitter_s, bytes_s)";
 

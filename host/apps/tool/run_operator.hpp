@@ -27,7 +27,6 @@ class RunOperator {
               int get_ups = 0);
 
   app::OperatorOrder order(std::uint32_t tick);
-  /// Outputs of the last tick.
   void observe(const State& state, const Outputs& outputs);
 
   /// Obeys another source for the planned length.
@@ -39,7 +38,6 @@ class RunOperator {
 
   /// From now on: sit down, then release torque.
   void sit_down() { sitting_ = true; }
-  /// From now on: no torque.
   void let_go() { limp_ = true; }
 
   /// Every servo must have received torque-off.

@@ -3,7 +3,6 @@
 
 namespace verp::tool {
 
-// Subcommands of `verp bus`.
 cli::Subcommand add_bus_setup(CLI::App& bus);
 cli::Subcommand add_bus_checklist(CLI::App& bus);
 cli::Subcommand add_bus_load(CLI::App& bus);

@@ -27,7 +27,6 @@ std::string name_of(const record::RecordedPicture& recorded) {
   return fmt::format("{}_{:08.3f}", name, 1e-9 * static_cast<double>(recorded.time_ns));
 }
 
-/// PGM is big-endian.
 std::string pgm(const record::ros::Picture& picture) {
   std::string out = fmt::format("P5\n{} {}\n65535\n", picture.width, picture.height);
   for (std::size_t i = 0; i + 1 < picture.data.size(); i += 2) {
@@ -37,7 +36,6 @@ std::string pgm(const record::ros::Picture& picture) {
   return out;
 }
 
-/// File extension and content.
 std::pair<std::string, std::string> as_file(const record::ros::Picture& picture) {
   if (picture.encoding == "png") return {".png", picture.data};
   if (picture.encoding == "jpeg") return {".jpg", picture.data};

@@ -9,7 +9,6 @@
 
 namespace verp::tool {
 
-/// For all of `verp trace`.
 struct TraceWords {
   std::string file, output;
   bool json = false, recover = false;

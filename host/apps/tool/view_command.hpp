@@ -6,7 +6,6 @@
 
 namespace verp::tool {
 
-/// Options of `verp view`.
 struct ViewOptions {
   WalkOptions walk;
   std::string link, gamepad = "/dev/input/js0";

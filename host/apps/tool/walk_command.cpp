@@ -84,7 +84,6 @@ struct Observers {
     if (pace) all.push_back(&*pace);
   }
 
-  /// Adds their results.
   void add_to(Drawn& more, double took_s) const {
     if (radio) {
       more.json["radio"] = radio->json();
@@ -111,7 +110,6 @@ struct Observers {
   std::vector<session::Observer*> all;
 };
 
-/// Returns the exit status.
 int walk_once(WalkOptions options, Walk& walk) {
   const WalkPlan& first = walk.run.plans.front();
   sweep_of(options);  // errors before the long run

@@ -19,7 +19,6 @@ std::string reason(const WalkResult& result, const Sweep& swept, const std::stri
   return swept.interrupted ? "interrupted in the sweep; rows up to there are kept" : "";
 }
 
-/// Returns the exit status.
 int ending(const std::string& command, const std::string& reason, const WalkFiles& files) {
   for (const std::string& line : files.lost()) cli::complain(line);
   if (!reason.empty()) cli::complain(command + ": " + reason);

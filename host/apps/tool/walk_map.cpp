@@ -103,7 +103,6 @@ survey::Watch shown(cli::Progress& progress, const std::string& kind) {
           }};
 }
 
-/// Returns the exit status.
 int leave(const WalkOptions& options, const std::filesystem::path& folder, MapReport& told) {
   if (folder.empty()) return cli::kGood;
   try {

@@ -35,7 +35,6 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-/// Errors name the option.
 double number(const std::string& command, const std::string& option, const std::string& text,
               double low, double high, const std::string& unit) {
   try {

@@ -78,7 +78,6 @@ void declare_tuning(CLI::App& app, WalkOptions& options);
 /// declare_gait(), seed, trace, report, JSON.
 void declare_basics(CLI::App& app, WalkOptions& options);
 
-/// Declares --get-up and --start.
 void declare_falls(CLI::App& app, WalkOptions& options);
 
 void require_serial(const std::string& command, const model::Entity& entity);

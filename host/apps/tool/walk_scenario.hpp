@@ -36,7 +36,6 @@ struct Drawn {
 };
 Drawn drawn_of(const Walk& walk);
 
-/// Includes the options.
 record::mcap::StringMap metadata_of(const WalkOptions& options, const session::WalkPlan& plan,
                                     const scenario::Scenario& scenario);
 

@@ -8,7 +8,6 @@
 
 namespace verp::tool {
 
-/// The walks of --sweep-step.
 struct Sweep {
   std::vector<report::SweepRow> rows;  ///< last may be unfinished
   bool interrupted = false;            ///< by the user

@@ -20,7 +20,6 @@ struct TouchOptions {
 };
 
 void declare(CLI::App& app, TouchOptions& options);
-/// Declares only --push.
 void declare_push(CLI::App& app, TouchOptions& options);
 
 /// Pushes first. Throws ToolError.
@@ -31,7 +30,6 @@ std::string option_of(const TouchOptions& options, std::size_t index);
 /// All as JSON, or one line per kind.
 int list_quantities(const scenario::Expanded& run, bool json);
 
-/// The interventions and their times.
 cli::Json touch_json(const WalkResult& result);
 std::string touch_text(const WalkResult& result);
 /// One line per intervention after the run's end.

@@ -14,7 +14,6 @@ std::string no_driver();
 /// Losing the display then calls `save`, prints one line and `save`'s, and exits with 3. Call
 /// before the window is made, without `save`, and after, with it.
 void survive_the_display(std::function<std::string()> save);
-/// The program ends normally.
 void leave_the_display();
 
 }  // namespace verp::view

@@ -205,7 +205,6 @@ void EditorPanel::preview(int row, const QString& text) {
   soon_->start();
 }
 
-/// Checks the text being typed.
 void EditorPanel::look() {
   if (!document_) return;
   soon_->stop();

@@ -21,7 +21,6 @@ class Transport final : public QToolBar {
   QAction* back;
   QAction* tick;
   QAction* reset;
-  /// By one step.
   void change_speed(int by);
 
  private:

@@ -14,7 +14,6 @@ namespace page {
 inline constexpr std::size_t kName = 0, kNameBytes = 14, kRepeat = 15, kSchedule = 16,
                              kStepCount = 20, kSpeed = 22, kAccel = 24, kNext = 25, kExit = 26,
                              kChecksum = 31, kGain = 32;
-// In a step.
 inline constexpr std::size_t kStepBytes = 64, kPause = 62, kTime = 63;
 inline constexpr std::uint16_t kInvalid = 0x4000, kTorqueOff = 0x2000, kCount = 0x0FFF;
 inline constexpr std::uint16_t kUnused = 0x9000;

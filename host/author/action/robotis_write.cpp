@@ -55,7 +55,6 @@ int torque_bit(const Document& document, const FrameText& frame, const Percents&
          "give 0 or 100");
 }
 
-/// Writes only values that differ.
 void put_frame(const Params& params, const Document& document, const FrameText& frame,
                const Percents& slack, std::size_t step, Page& page) {
   constexpr double kSame_s = 1e-5, kSame_rad = 1e-5;
@@ -160,7 +159,6 @@ void put_way(const Way& now, const Way& before, Page& page) {
   if (now.repeat != before.repeat) page[kRepeat] = static_cast<std::uint8_t>(now.repeat);
 }
 
-/// One per frame.
 std::vector<Percents> stiffness_of(const Params& params, const Document& document) {
   std::vector<Percents> all;
   for (const FrameText& frame : document.frames) {
@@ -228,7 +226,6 @@ class Kept {
 
 using Placed = std::vector<std::pair<int, const Document*>>;
 
-/// Changed links, exits and repeats.
 void put_ways(const Params& params, const Placed& placed, const Numbers& numbers, Motion& motion) {
   const Kept before(params, motion);
   for (const auto& [number, document] : placed) {

@@ -27,7 +27,6 @@ enum class Offer {
 class ActionPort {
  public:
   virtual ~ActionPort() = default;
-  /// The controller's name in errors.
   virtual std::string place() const = 0;
   virtual std::vector<std::uint8_t> read(const char* name) = 0;
   /// Sends from the beginning. `went(bytes)`: progress; false stops.

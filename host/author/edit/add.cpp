@@ -103,7 +103,6 @@ class Adder {
   }
   std::string xml(const std::string& name) const { return escaped(word(name)); }
 
-  /// Separated by blanks or commas.
   std::string row(const std::string& name, std::size_t count,
                   const std::string& fallback = "") const {
     std::string text = fallback.empty() ? word(name) : word(name, fallback);

@@ -7,14 +7,12 @@
 namespace verp::edit {
 namespace {
 
-/// A joint's parent or child.
 std::string end_of(const Document& document, int joint, std::string_view which) {
   const int found = document.child(joint, which);
   if (found < 0) return "";
   return document.is_urdf() ? document.attribute(found, "link") : document.text_of(found);
 }
 
-/// Parts that belong together.
 struct Group {
   std::set<std::string> links, joints, frames, sensors;
   std::set<int> elements;

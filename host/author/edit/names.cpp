@@ -71,7 +71,6 @@ Kind kind_of(const Document& document, int index) {
   const Element& element = document.markup()[index];
   if (element.name == "sensor") return Kind::kSensor;
   if (element.parent != document.model()) {
-    // A transmission's joints are mentions.
     return Kind::kNone;
   }
   if (element.name == "link") return Kind::kLink;

@@ -12,7 +12,6 @@
 namespace verp::flash {
 namespace {
 
-/// The script without comments.
 std::string read_script(const std::filesystem::path& file) {
   std::optional<std::string> script = files::read(file);
   if (!script) {

@@ -6,7 +6,6 @@
 
 namespace verp::flash {
 
-/// Regions from the linker's memory.ld.
 struct MemoryMap {
   Span code, ram;
   Span params = {}, actions = {};  ///< empty: not in flash

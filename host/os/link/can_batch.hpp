@@ -27,7 +27,6 @@ struct CanBatch {
   static constexpr std::size_t kMost = 16;
 
   explicit CanBatch(std::size_t size);
-  /// Prepares for receiving.
   void expect_control();
 
   canfd_frame raw[kMost] = {};

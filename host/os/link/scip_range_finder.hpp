@@ -43,7 +43,6 @@ class ScipRangeFinder {
   }
   std::uint32_t faults() const { return faults_; }
 
-  /// Last error reply, or empty.
   const std::string& last_complaint() const { return complaint_; }
   std::uint32_t damaged() const { return replies_.damaged(); }
 

@@ -6,7 +6,6 @@
 
 namespace verp::model {
 
-/// One tick's frames, any protocol.
 struct BusTime {
   double us = 0;          ///< worst case
   double share = 0;       ///< of the control period

@@ -16,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Folders separated as in PATH.
 std::vector<std::string> folders_in(const char* variable) {
   std::vector<std::string> folders;
   std::string rest = variable == nullptr ? "" : variable;

@@ -31,7 +31,6 @@ std::string bytes_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Merges equal corners.
 class MeshBuilder {
  public:
   MeshBuilder(const std::string& path, const Vec3& scale) : scale_(scale) { mesh_.file = path; }

@@ -18,7 +18,6 @@ double servo_stiffness_n_m_rad(const Servo& servo);
 
 /// Index by name ("gait.lift_m"), in field order (tuning_ranges.hpp).
 std::optional<int> tuning_id(const std::string& name);
-/// All names in that order.
 const std::vector<std::string>& tuning_names();
 
 }  // namespace verp::model

@@ -56,7 +56,6 @@ void read_leaf(const sdf::ElementPtr& parent, const char* name, double& value);
 /// False for meshes, planes, ellipsoids, which have no contacts.
 bool read_shape(const sdf::Collision& sdf, Collision& collision);
 
-/// Edge, radius or length.
 double least_measure(const Collision& collision);
 
 /// Error in mass and inertia, or empty. `extent_m`: the robot's diagonal, an upper bound of

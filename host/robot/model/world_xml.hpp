@@ -23,7 +23,6 @@ class WorldXml {
   int line_of(const std::string& name) const;
   /// First known name in `message`; else the world's.
   int blame(const std::string& message) const;
-  /// Blanked, so line numbers stay.
   const std::string& text_without_robots() const { return text_; }
   std::vector<WorldRobot> robots() const;
 

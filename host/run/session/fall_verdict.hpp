@@ -23,7 +23,6 @@ class FallVerdict {
 
   void forget() { fell_ = lay_down_ = false; }
 
-  /// Torque has been on.
   bool driven() const { return driven_; }
   bool fell() const { return fell_; }
   /// Released before it lay: later attempts are not falls.

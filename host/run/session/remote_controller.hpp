@@ -106,7 +106,6 @@ class RemoteController : public Controller {
   /// Reports changes; `losses`: so far.
   void watch_link(bool connected, std::uint32_t losses);
 
-  /// Hooks that all buses share.
   bus::SessionHooks hooks();
 
   static constexpr std::uint32_t kIdle_us = 20'000;  // delay of an interrupt

@@ -77,12 +77,10 @@ class Robot {
 
   std::uint32_t tick() const { return tick_.inputs.tick; }
   double simulated_s() const;
-  /// Any servo has torque.
   bool has_torque();
   /// Elapsed part of plan.walk_s.
   double gone_s() const;
   bool fallen() const { return twin_.fallen(); }
-  /// Verdict of watch().
   const FallVerdict& verdict() const { return verdict_; }
 
   /// Call once.

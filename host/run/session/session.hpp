@@ -95,7 +95,6 @@ class Observer {
   virtual void begin(Session&) {}
   /// A robot's tick, or its controller keeps the world waiting.
   virtual void tick(std::size_t, Robot&) {}
-  /// The run is over.
   virtual void end(Session&) {}
 };
 

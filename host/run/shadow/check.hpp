@@ -27,9 +27,7 @@ class Check {
   State state() const { return state_; }
   bool over() const { return state_ == State::kDiffers || state_ == State::kRefused; }
   bool differs() const { return state_ == State::kDiffers; }
-  /// The records are being read.
   bool suspects() const { return state_ == State::kReading; }
-  /// Ticks with equal digests.
   std::uint64_t compared() const { return compared_; }
   /// Differing digests whose records came too late.
   std::uint64_t unsettled() const { return unsettled_; }
@@ -42,7 +40,6 @@ class Check {
   std::uint64_t heard_us() const { return heard_us_; }
   const record::Divergence& divergence() const { return divergence_; }
   const std::string& refusal() const { return refusal_; }
-  /// Why the last gap occurred.
   const std::string& gap() const { return gap_; }
 
  protected:

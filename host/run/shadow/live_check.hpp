@@ -29,7 +29,6 @@ class LiveCheck final : public Check {
   bool next(CanFrame& frame, std::uint64_t now_us);
 
  private:
-  /// SDO transfers, in order.
   enum class Step {
     kName,
     kCore,

@@ -129,7 +129,6 @@ void Lighting::set_lights(const scene::Scene& scene, Program& program, double su
   glBindTexture(GL_TEXTURE_2D, shadow_.id());
 }
 
-/// Shared by a picture's items.
 void Lighting::set_common(const scene::Scene& scene, Program& program, const View& view) {
   program.use();
   program.set("clip_world", view.clip);

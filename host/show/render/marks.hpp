@@ -30,7 +30,6 @@ struct Marks {
             double to_radius_m, const scene::Colour& colour);
 };
 
-/// The marks of all robots.
 Marks marks_of(const scene::Scene& scene, const scene::Snapshot& now, const Effects& effects);
 
 }  // namespace verp::render

@@ -9,7 +9,6 @@
 /// Depth and item per pixel; private to this folder.
 namespace verp::render {
 
-/// Every pass begins with it.
 void begin_pass();
 
 class Meter {

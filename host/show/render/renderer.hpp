@@ -18,7 +18,6 @@ class RenderError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Effects may change between pictures.
 struct Effects {
   bool antialias = true;
   bool shadows = true;

@@ -18,7 +18,6 @@ constexpr Colour kLeft{0.10F, 0.45F, 0.85F, 0.75F}, kRight{0.80F, 0.30F, 0.62F, 
 constexpr Colour kRay{0.92F, 0.16F, 0.14F, 0.75F};
 constexpr double kOver_m = 0.0015;  // marks lie so far above the floor and each other
 
-/// Scaled to the robot.
 class RobotMarks {
  public:
   RobotMarks(Marks& marks, const scene::Robot& robot, const RobotView& view)

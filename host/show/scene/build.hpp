@@ -17,7 +17,6 @@ enum class Meshes { kFromFiles, kNone };
 /// Returns the robot's index. Without a drawable visual, a link shows collision shapes.
 int add_robot(Scene& scene, const Entity& entity, Meshes meshes = Meshes::kFromFiles);
 
-/// Distinguishes robots of one model.
 void tint(Scene& scene, int robot, const Colour& colour);
 
 /// A robot in its own stance at start_m, as the twin begins.

@@ -3,7 +3,6 @@
 
 namespace verp::scene {
 
-/// Centre of mass and soles.
 class Trails {
  public:
   /// Writes the trails into the snapshot, too.

@@ -28,7 +28,6 @@ class Fit {
   /// Resets numbers that the motion does not determine, the least certain first.
   void leave_what_is_not_told(Estimate& estimate, std::size_t ticks);
   Estimate start() const;
-  /// Positions over the first `ticks`.
   std::vector<std::vector<float>> predict(const Estimate& estimate, std::size_t ticks);
   /// The type's joints, ticks `from` to `to`.
   double rms_rad(const std::vector<std::vector<float>>& predicted, std::size_t from,

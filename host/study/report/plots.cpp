@@ -69,7 +69,6 @@ Plot bias_plot(const Run& run) {
           script};
 }
 
-/// Both axes have equal scales.
 Plot way_plot(const Run& run) {
   Data asked("asked"), walked("walked"), start("start");
   const std::size_t stride = std::max<std::size_t>(1, run.samples.size() / 1500);

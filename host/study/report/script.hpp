@@ -35,7 +35,6 @@ class Data {
   std::string text_;
 };
 
-/// Data blocks and plot commands.
 struct Panel {
   std::string data, commands;
 };

@@ -13,7 +13,6 @@ Interval interval_of(std::uint64_t good, std::uint64_t of) {
   const double z2_n = kSigmas * kSigmas / n;
   const double middle = (share + z2_n / 2) / (1 + z2_n);
   const double half = kSigmas / (1 + z2_n) * std::sqrt(share * (1 - share) / n + z2_n / (4 * n));
-  // Exact but for rounding.
   return {good == 0 ? 0 : middle - half, good == of ? 1 : middle + half};
 }
 

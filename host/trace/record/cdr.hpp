@@ -33,7 +33,6 @@ class Cdr {
     for (const double value : values) put(value);
     return *this;
   }
-  /// Appends bytes without a length.
   Cdr& bytes(std::string_view values) {
     data_.append(values);
     return *this;

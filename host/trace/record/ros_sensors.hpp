@@ -7,7 +7,6 @@
 
 #include "host/trace/record/ros_messages.hpp"
 
-/// ROS 2 messages in CDR.
 namespace verp::record::ros {
 
 extern const MessageType kWrenchStamped;  ///< geometry_msgs/msg/WrenchStamped

@@ -17,7 +17,6 @@
 
 namespace verp::record {
 
-/// Names in the file.
 inline constexpr const char* kTickTopic = "/verp/tick";  ///< TickRecords: all that replay needs
 inline constexpr const char* kStateTopic =
     "/verp/state";  ///< State after the tick of that log time

@@ -45,7 +45,6 @@ class Device {
   void heard(std::uint64_t time_us) { heard_us_ = time_us; }
   /// Time of the device's own next action.
   virtual std::uint64_t deadline_us() const { return kNever_us; }
-  /// The plant is at deadline_us().
   virtual void expire() {}
 
   void lose_power();

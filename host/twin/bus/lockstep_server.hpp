@@ -24,7 +24,6 @@ class LockstepServer : public LockstepSession {
   /// `bus` must outlive the server.
   LockstepServer(const Params& params, VirtualBus& bus, LockstepHooks hooks);
 
-  /// Appends the reply to `answer`.
   void take(std::span<const std::uint8_t> bytes, std::vector<std::uint8_t>& answer);
 
   /// Bytes before the first hello that are not for the clock; empty afterwards.

@@ -25,7 +25,6 @@ struct SessionHooks {
   std::function<bool()> set_upright;
 };
 
-/// Base of the lockstep servers.
 class LockstepSession {
  public:
   struct Counters {

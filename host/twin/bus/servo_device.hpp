@@ -6,7 +6,6 @@
 
 namespace verp::bus {
 
-/// A servo's factory identity.
 struct ServoIdentity {
   std::uint8_t id = 1;
   std::uint16_t model = dxl::kModelXm430W210;

@@ -27,7 +27,6 @@ class LockstepServer : public bus::LockstepSession {
   /// `bus` must outlive the server.
   LockstepServer(const Params& params, VirtualCan& bus, LockstepHooks hooks);
 
-  /// Appends the reply to `answer`.
   void take(const CanFrame& frame, std::vector<CanFrame>& answer);
 
   /// Queues a frame for the controller's own node. It goes with one of the next answers that has

@@ -9,7 +9,6 @@
 /// Links and hinges in the physics engine. Joint j moves node j + 1; node 0 is the body.
 namespace verp::sim {
 
-/// Poses by forward kinematics.
 std::vector<Transform> link_poses(const model::Entity& entity, const Transform& body_world,
                                   const std::vector<double>& joint_rad);
 

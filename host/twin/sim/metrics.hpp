@@ -71,7 +71,6 @@ struct SeriesRow {
   std::vector<Vec2> support_world_m;
 };
 
-/// Read once per control tick.
 struct Observation {
   Truth truth;
   FootLoads loads;                               ///< since the last observation

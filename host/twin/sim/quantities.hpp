@@ -85,7 +85,6 @@ std::vector<Quantity> quantities_of(const std::string& name, TwinRobot& robot, i
 std::vector<Quantity> quantities_of(const std::string& name, const TwinRobot& robot,
                                     const World& world);
 std::vector<Quantity> quantities_of(World& world);
-/// Surface of a static object.
 std::vector<Quantity> surface_quantities(const std::string& name,
                                          const std::vector<GeomTag*>& tags);
 

@@ -26,7 +26,6 @@ void say_nothing(int, const char*, va_list) {}
   throw OdeGaveUp(said);
 }
 
-/// Opened by the first world.
 struct OdeRuntime {
   OdeRuntime() {
     solver_loops();  // else the linker leaves them out

@@ -37,7 +37,6 @@ namespace Verp {
       pinned.Clear();
     }
 
-    /// <summary>Adds a robot before the first tick; returns its index.</summary>
     public uint Add(Robot robot) {
       if (robot == null) throw VerpException.Wrong("verp_session_add: robot is null");
       verp_robot what;
@@ -128,7 +127,6 @@ namespace Verp {
       VerpException.Checked(Native.verp_radio_defaults(&radio));
       return radio;
     }
-    /// <summary>Gives each robot a radio, before the first tick.</summary>
     public void Radio(verp_radio radio) { Checked(Native.verp_session_radio(handle, &radio)); }
     /// <summary>False: too many messages wait to be sent. `to` -1: all robots.</summary>
     public bool Send(byte[] data, int to = -1, uint robot = 0) {
@@ -149,14 +147,12 @@ namespace Verp {
       Array.Resize(ref room, (int)size);
       return room;
     }
-    /// <summary>Ends the caller's control; the requested walk continues.</summary>
     public void GiveBack(uint robot = 0) { Checked(Native.verp_session_give_back(handle, robot)); }
     /// <summary>While pressed, the robot is limp.</summary>
     public void EmergencyStop(bool pressed = true, uint robot = 0) {
       Checked(Native.verp_session_emergency_stop(handle, robot, pressed ? 1 : 0));
     }
 
-    /// <summary>Sets a tuning value; it takes effect in one of the next ticks.</summary>
     public void Tune(string name, double value, uint robot = 0) {
       fixed (byte* text = Texts.ToC(name, "verp_session_tune: name")) Checked(Native.verp_session_tune(handle, robot, text, value));
     }

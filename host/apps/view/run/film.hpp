@@ -30,7 +30,6 @@ class Film {
   virtual double end_s() const = 0;
   /// The picture at or just before t_s; null: empty film.
   virtual Picture at(double t_s) const = 0;
-  /// Appends the points after `after_s`.
   virtual void points(int signal, double after_s, std::vector<Point>& out) const = 0;
 };
 

@@ -11,7 +11,6 @@ class View {
  public:
   explicit View(const model::CameraSensor& camera);
 
-  /// The camera to render from.
   scene::Camera camera(const model::Transform& link_world) const;
   render::Size drawn() const { return drawn_; }
 
