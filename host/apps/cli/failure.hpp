@@ -8,7 +8,7 @@ struct Failure {
   std::string line;
 };
 
-/// Call in a catch block only.
+/// The current exception; call it in a catch block only.
 Failure current_failure();
 
 }  // namespace verp::cli

@@ -123,7 +123,7 @@ int run(int argc, char** argv, AddCommands add_commands) {
   root.set_version_flag("--version", "verp " + record::build_info().at("source_revision"));
   root.require_subcommand(1);
   const std::vector<Subcommand> commands = add_commands(root);
-  // Subcommands would inherit it.
+  // After the subcommands, which would inherit it.
   root.footer(
       "The launcher adds `./verp test`, which checks all promises, `./verp manual`, which builds "
       "the\nmanual, and `./verp python FILE`, which runs a Python program with libverp.");

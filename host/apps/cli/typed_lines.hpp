@@ -3,7 +3,7 @@
 
 namespace verp::cli {
 
-/// Typed during a run; never waits.
+/// Lines that a person types during a run. Never waits.
 class TypedLines {
  public:
   /// The next complete line, or empty; reads nothing while another program is in the foreground.

@@ -8,7 +8,7 @@
 
 namespace verp::abi {
 
-/// Rotation by rows, then position.
+/// Writes the rotation, row by row, then the position.
 void put_pose(const Pose& pose, float* to);
 
 /// `count` ticks from standing, the last `stop` after a stop order.

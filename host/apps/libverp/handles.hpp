@@ -11,7 +11,7 @@
 
 namespace verp::abi {
 
-/// Forks since the library was loaded.
+/// Number of forks between the process that loaded the library and this one.
 unsigned forks();
 
 /// Objects of one kind of handle. Handles are never reused: a closed one is recognised. One call at
@@ -66,7 +66,7 @@ class Handles {
     return Use(*this, id, place.object);
   }
 
-  /// No later call finds it.
+  /// Removes the object, so that no later call finds it.
   template <class Handle>
   std::shared_ptr<Object> take(Handle handle) {
     const auto id = reinterpret_cast<std::uint64_t>(handle);

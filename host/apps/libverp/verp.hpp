@@ -230,7 +230,7 @@ class Session {
                                                std::uint32_t robot = 0) const {
     return picture<std::uint16_t>(VERP_LABELS, camera, robot);
   }
-  /// time_s stays 0.
+  /// Draws the world as it is now; time_s stays 0.
   Picture<std::uint8_t> render(verp_view view) const {
     view.size = sizeof view;
     Picture<std::uint8_t> out{view.width, view.height, 0, {}};

@@ -5,7 +5,7 @@
 #include "host/author/action/compile.hpp"
 #include "host/robot/model/entity.hpp"
 
-/// Common to all of `verp action`.
+/// Options common to all subcommands of `verp action`, and the robot that they name.
 namespace verp::tool {
 
 struct ActionWords {
@@ -27,7 +27,7 @@ struct ActionRobot {
 /// links to, join them or replace one of the same name. Throws LoadError.
 ActionRobot load_action_robot(const ActionWords& words);
 
-/// Throws LoadError.
+/// Number of the named action. Throws LoadError.
 int require_action(const ActionRobot& robot, const ActionWords& words);
 
 /// `named`: one of the robot's actions, or a file.

@@ -61,7 +61,7 @@ void add_registers(CLI::App* app, const std::shared_ptr<BusOptions>& options, co
       ->excludes(name);
 }
 
-/// Serial-only options; names the alternative.
+/// Rejects options for serial links and names the alternative on CAN.
 void refuse_on_can(const std::vector<CLI::App*>& commands, const CLI::App* bench) {
   constexpr struct {
     const char *word, *instead;

@@ -35,7 +35,7 @@ void write_piece(const fs::path& file, const void* bytes, std::size_t size) {
                           file.string() + ": cannot be written; free space, or set VERP_FLASH_DIR");
 }
 
-/// The actions in flash stay unchanged.
+/// Value of --actions that leaves the actions in the board's flash unchanged.
 constexpr const char* kNoActions = "none";
 
 struct RobotFiles {

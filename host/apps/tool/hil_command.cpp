@@ -121,7 +121,7 @@ std::string to_text(const HilResult& result) {
   return out;
 }
 
-/// For a controller that reports nothing.
+/// Answers for a controller that reports nothing: only the robot's motion is known.
 int answer_served(const WalkPlan& plan, const WalkOptions& options, const HilResult& result) {
   const WalkResult& walk = result.walk;
   if (options.json) {

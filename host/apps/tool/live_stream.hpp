@@ -49,7 +49,7 @@ class LiveStream final : public session::Observer {
   void run_beside_real_time();
   void finish();
 
-  /// Empty without --live.
+  /// Summary of the stream; empty without --live.
   std::string text() const;
   void add_to(cli::Json& json) const;
 

@@ -23,7 +23,7 @@ struct LoadWords {
   bool json = false;
 };
 
-/// The named or first CAN bus.
+/// The named bus, or else the robot's first CAN bus.
 model::Entity robot_on_can(const LoadWords& words) {
   model::Entity entity = model::load_robot_on_can(model::find_model(words.robot), words.bus);
   if (entity.protocol == BusProtocol::kCia402) return entity;
@@ -38,7 +38,7 @@ std::string percent(std::uint32_t permille) {
   return fmt::format("{:.1f} %", permille / 10.0);
 }
 
-/// Empty: the row is possible.
+/// Why the configuration of a row is impossible; empty: it is possible.
 std::string refusal(const Params& params, const can::LoadRow& row) {
   namespace plan = canopen::plan;
   if (!row.no_room) return "";
@@ -50,7 +50,7 @@ std::string refusal(const Params& params, const can::LoadRow& row) {
                      why);
 }
 
-/// Empty: the robot's bus has room.
+/// Judges the robot as its file describes it; empty: its bus has room.
 std::string refusal(const model::Entity& entity, const Params& params) {
   try {
     model::require_bus(entity, params);

@@ -39,7 +39,7 @@ bool parse_hex(std::string_view word, unsigned most, unsigned& value) {
   return error == std::errc() && last == end && value <= most;
 }
 
-// Named "joint_velocity 1" and so on.
+// Elements of an array; the EDS data names them "joint_velocity 1" and so on.
 std::vector<NodeObject> elements_of(const std::vector<NodeObject>& known, const std::string& name) {
   std::vector<NodeObject> elements;
   for (const NodeObject& each : known) {

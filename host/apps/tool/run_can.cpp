@@ -18,7 +18,7 @@
 namespace verp::tool {
 namespace {
 
-/// Nodes get extra time to answer.
+/// A CanBus that allows extra delay for the nodes' answers.
 class PatientCan {
  public:
   explicit PatientCan(link::CanPort& port) : port_(port) {}
@@ -30,7 +30,7 @@ class PatientCan {
   std::uint64_t now_us() { return port_.now_us(); }
   hal::CanErrors errors() const { return port_.errors(); }
 
-  /// In addition to the frames' time.
+  /// Sets the allowance, beyond the time of the frames.
   void set_held(std::uint32_t held_us) { held_us_ = held_us; }
 
  private:

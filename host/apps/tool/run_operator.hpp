@@ -40,13 +40,13 @@ class RunOperator {
   void sit_down() { sitting_ = true; }
   void let_go() { limp_ = true; }
 
-  /// Every servo must have received torque-off.
+  /// Torque has been off long enough for every servo to receive that.
   bool over() const { return quiet_ticks_ >= kQuietTicks; }
   double walked_s() const { return orders_ ? walked_s_ : walker_.walked_s(); }
   int falls() const { return story_.falls(); }
   int get_ups() const { return story_.get_ups(); }
   double played_s() const { return player_ ? player_->played_s() : 0; }
-  /// Empty: it did not fail.
+  /// Why the walk failed; empty: it did not.
   const std::string& failure() const { return failure_; }
 
  private:

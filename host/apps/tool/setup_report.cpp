@@ -44,7 +44,7 @@ std::string part_of(const std::string& file) {
   return file + ".part";
 }
 
-/// All or no file; returns errno.
+/// Writes all of it or leaves no file; returns errno.
 int write_part(const std::string& file, const std::string& text) {
   const std::string part = part_of(file);
   errno = 0;
@@ -58,7 +58,7 @@ int write_part(const std::string& file, const std::string& text) {
   return error == 0 ? EIO : error;
 }
 
-/// Atomic; returns errno.
+/// Replaces the file atomically; returns errno.
 int write_file(const std::string& file, const std::string& text) {
   if (const int error = write_part(file, text); error != 0) return error;
   if (std::rename(part_of(file).c_str(), file.c_str()) == 0) return 0;

@@ -15,7 +15,7 @@ class SetupReport {
   SetupReport(std::string file, const Params& params, bool writes);
 
   bool done(const std::string& joint) const;
-  /// An empty object without an entry.
+  /// The joint's entry; an empty object if there is none.
   cli::Json of(const std::string& joint) const;
   /// On failure prints the entry and throws ToolError.
   void keep(const std::string& joint, const cli::Json& entry);

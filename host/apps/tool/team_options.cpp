@@ -20,7 +20,7 @@ bool is_name(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), plain);
 }
 
-/// Empty: it does not begin so.
+/// `text` without `prefix`; empty if it does not begin so.
 std::string behind(const std::string& prefix, const std::string& text) {
   return text.compare(0, prefix.size(), prefix) == 0 ? text.substr(prefix.size()) : "";
 }

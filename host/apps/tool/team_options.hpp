@@ -21,7 +21,7 @@ struct TeamOptions {
   std::string of_outside;  ///< the given option for controllers elsewhere
 };
 
-/// Declares only --robots.
+/// Declares only --robots, for commands with local controllers.
 void declare_robots(CLI::App& app, TeamOptions& options);
 void declare_outside(CLI::App& app, TeamOptions& options);
 /// Declares --radio, with an optional value.

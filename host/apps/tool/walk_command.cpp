@@ -23,7 +23,7 @@
 namespace verp::tool {
 namespace {
 
-/// Options for controllers elsewhere need one.
+/// Refuses options for controllers elsewhere if no robot has one: the user expects something else.
 void require_outside(const WalkOptions& options, const std::vector<WalkPlan>& plans) {
   const bool outside = std::any_of(plans.begin(), plans.end(),
                                    [](const WalkPlan& plan) { return !plan.link.empty(); });
@@ -35,7 +35,7 @@ void require_outside(const WalkOptions& options, const std::vector<WalkPlan>& pl
                   options.team.of_outside));
 }
 
-/// A controller elsewhere records itself.
+/// Only the controller itself can record, and this one is at the other end of a link.
 void refuse_of_outside(const WalkOptions& options, const WalkPlan& first) {
   const bool wanted =
       !options.record_file.empty() || !options.report_folder.empty() || options.live.on;

@@ -24,7 +24,7 @@ class WalkFiles {
   WalkFiles(const WalkOptions& options, const WalkPlan& plan,
             const record::mcap::StringMap& metadata, record::mcap::Listener* listener = nullptr);
 
-  /// Null: no file, no listener.
+  /// Null without a trace file and a listener.
   record::TraceWriter* trace() { return trace_.get(); }
   bool wants_report() const { return !folder_.empty(); }
 

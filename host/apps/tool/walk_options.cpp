@@ -136,7 +136,7 @@ const std::set<std::string> kOfNoEffect = {
     "--json",    "--report",    "--record", "--record-state", "--compress",
     "--cameras", "--real-time", "--live",   "--live-wait",    "--live-origin"};
 
-/// They do not describe the run.
+/// Options that --scenario allows, because they do not describe the run.
 const std::set<std::string> kBesideScenario = {"--scenario", "--print-scenario",
                                                "--list-quantities", "--link", "--gamepad"};
 

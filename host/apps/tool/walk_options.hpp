@@ -90,10 +90,10 @@ void read_robot_words(WalkOptions& options);
 /// The scenario's file describes the whole run.
 void refuse_beside_scenario(const WalkOptions& options);
 
-/// First and last. Throws ToolError.
+/// First and last of --seeds. Throws ToolError.
 std::pair<std::uint64_t, std::uint64_t> seeds_of(const WalkOptions& options);
 
-/// Empty without --sweep-step.
+/// Step lengths of --sweep-step; empty without it. Throws ToolError.
 std::vector<double> sweep_of(const WalkOptions& options);
 
 /// --cycle, --set, --no-... . Throws ToolError for unknown names and values out of range.

@@ -21,7 +21,7 @@ void declare(CLI::App& app, PlaceOptions& options) {
 
 namespace {
 
-/// X,Y,YAW. Throws ToolError.
+/// Throws ToolError unless `text` is X,Y,YAW.
 void place_robot(const std::string& text, scenario::Robot& robot) {
   constexpr double kFar_m = 1000;
   std::string spaced = text;

@@ -12,7 +12,7 @@ class App;
 
 namespace verp::tool {
 
-/// --world, --at-pose.
+/// Options for the world and the robots' start poses: --world, --at-pose.
 struct PlaceOptions {
   std::string world;
   std::vector<std::string> poses;  ///< with several robots NAME=X,Y,YAW
@@ -23,7 +23,7 @@ void declare(CLI::App& app, PlaceOptions& options);
 /// A single robot needs no name. Throws ToolError.
 void place_robots(const PlaceOptions& options, std::vector<scenario::Robot>& robots);
 
-/// Movable ones, at the end.
+/// The world's movable objects and their end positions.
 cli::Json objects_of(const sim::Scenery& scenery);
 
 }  // namespace verp::tool

@@ -94,7 +94,7 @@ void require_alone(const WalkOptions& options) {
                                    options.command, options.board));
 }
 
-/// Options may set their controllers.
+/// The world's robots. The options may set the controllers of those that they name.
 std::vector<Seat> seats_of_world(const WalkOptions& options, const model::World& world) {
   std::vector<Seat> seats;
   for (const model::WorldRobot& robot : world.robots)

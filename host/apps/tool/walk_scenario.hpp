@@ -10,7 +10,7 @@
 /// Command line to Scenario; errors name the wrong option.
 namespace verp::tool {
 
-/// Throws ToolError.
+/// The robot of MODEL. Throws ToolError.
 scenario::Robot robot_of(const WalkOptions& options);
 scenario::World world_of(const WalkOptions& options);
 sim::Lies lies_of(const WalkOptions& options);
@@ -25,7 +25,7 @@ struct Walk {
 Walk walk_of(const WalkOptions& options);
 scenario::Scenario scenario_of(const WalkOptions& options, const sim::WorldOptions& world);
 
-/// Errors name the options.
+/// scenario::expand(); its errors name the options.
 scenario::Expanded expand(const WalkOptions& options, const scenario::Scenario& scenario,
                           const sim::WorldOptions& world);
 

@@ -22,7 +22,7 @@
 namespace verp::tool {
 namespace {
 
-/// Common options and its seed.
+/// The command line of one walk: the common options and its seed.
 std::vector<std::string> words_of(const WalkOptions& options, std::uint64_t seed) {
   std::vector<std::string> words = {"/proc/self/exe", "walk", "--json",
                                     fmt::format("--seed={}", seed)};

@@ -95,7 +95,7 @@ RunFiles::RunFiles(const WalkOptions& options, const Walk& walk, LiveStream& liv
       const std::filesystem::path& beside = first().trace_path();
       if (beside.empty() && !options.live.on) return;
       own.report_folder.clear();
-      // A controller elsewhere records itself.
+      // Only a local controller's orders are known; a controller elsewhere may record its own.
       own.record_file = ours && !beside.empty() ? file_of(beside, plan.name) : "";
     }
     const std::string name = plan.name.empty() ? plan.params.name : plan.name;

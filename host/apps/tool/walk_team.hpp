@@ -61,10 +61,10 @@ struct Walks {
 Walks walk_together(const Walk& walk, const std::vector<session::Observer*>& observers,
                     cli::Progress& progress);
 
-/// All but the first robot.
+/// Text on the world and on all robots but the first.
 std::string team_text(const Walk& walk, const Walks& walks, const RunFiles& files);
 cli::Json team_json(const Walk& walk, const Walks& walks, const RunFiles& files);
-/// All but the first robot.
+/// A line for each robot but the first whose walk failed.
 std::vector<std::string> failures_of(const Walk& walk, const Walks& walks, const RunFiles& files);
 
 }  // namespace verp::tool

@@ -12,10 +12,10 @@ class EditorTable final : public QAbstractTableModel {
  public:
   using QAbstractTableModel::QAbstractTableModel;
 
-  /// Does not keep the document.
+  /// Copies the texts; does not keep the document.
   void show_part(const edit::Document& document, int element);
   void clear();
-  /// The wrong value's; may be empty.
+  /// Path of the wrong value; may be empty.
   void mark(const std::string& path);
   const std::string& path(int row) const { return rows_[std::size_t(row)].path; }
   int row_of(const std::string& path) const;  ///< -1: none

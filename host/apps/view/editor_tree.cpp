@@ -10,7 +10,7 @@
 namespace verp::view {
 namespace {
 
-// Other children are values.
+// Nested parts; other children are values.
 constexpr std::array kInner = {"sensor", "collision", "visual", "verp:servo", "verp:joint"};
 
 }  // namespace

@@ -49,9 +49,9 @@ class MainWindow final : public QMainWindow {
   void watch(const std::filesystem::path& trace);
   /// Shows the controller at that link beside each robot opened later. Throws link::EndpointError.
   void link_to(const std::string& link);
-  /// Whenever it is plugged in.
+  /// Steers by that joystick whenever it is plugged in.
   void steer_by(const std::string& gamepad);
-  /// The window shows failures.
+  /// Opens a robot's file or a trace; the window shows failures.
   void open(const QString& file);
 
   Player* player() { return player_.get(); }

@@ -149,7 +149,7 @@ std::optional<SceneView::Hold> SceneView::take_hold(const QPointF& at) {
   return Hold{item.robot, item.node, hit.point_world_m, hit.point_world_m};
 }
 
-/// `ahead_m` from the camera's plane.
+/// The point under the mouse, `ahead_m` from the camera's plane.
 scene::Vec3 SceneView::under_mouse(const QPointF& at, double ahead_m) const {
   const scene::Camera from = camera();
   const scene::Vec3 ahead = (from.target_m - from.eye_m).normalized();

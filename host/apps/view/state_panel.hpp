@@ -25,7 +25,7 @@ class StatePanel final : public QWidget {
     Inputs inputs;
     Outputs outputs;
   };
-  /// null: the record itself.
+  /// `recorded` is null for the record itself.
   void show_tick(const Tick& now, const Tick* recorded);
   void show_none(const QString& why);
   /// The comparison in words; may be empty.
@@ -35,7 +35,7 @@ class StatePanel final : public QWidget {
   std::function<void(int ticks)> stepped;
 
   int different() const { return different_; }
-  /// By path ("state.gait.phase"); empty: unknown.
+  /// Text of a field by its path ("state.gait.phase"); empty if there is no such field.
   QString value(const QString& path) const;
 
  private:

@@ -95,7 +95,7 @@ class Maker {
     }
   }
 
-  /// Itself or the mirrored one.
+  /// The document with the action's frames: itself or the mirrored one.
   const Document& source(std::size_t index) const {
     const Document& document = documents_[index];
     return document.mirror ? documents_[find(document, *document.mirror)] : document;

@@ -16,10 +16,10 @@ struct Draft {
 int joint_named(const Params& params, const std::string& name, const std::filesystem::path& file,
                 int line);
 
-/// It mirrors no other. Throws LoadError.
+/// For an action that mirrors no other. Throws LoadError.
 Draft draft(const Params& params, const Poser& poser, const Document& document);
 
-/// Throws LoadError for an asymmetric robot.
+/// Exchanges left and right. Throws LoadError for an asymmetric robot.
 Draft mirrored(const Params& params, const Draft& draft, const Document& document);
 
 }  // namespace verp::action

@@ -116,7 +116,7 @@ void refuse_unknown_joints(const Params& params, const Document& document) {
 
 using Numbers = std::map<std::string, int>;  // pages by action name
 
-/// 0: no page.
+/// A target's page; 0: there is none.
 int page_of(const Document& document, const std::optional<Target>& target, const Numbers& numbers) {
   if (!target) return 0;
   const auto found = numbers.find(target->name);
@@ -167,7 +167,7 @@ std::vector<Percents> stiffness_of(const Params& params, const Document& documen
   return all;
 }
 
-/// Content would be lost silently.
+/// Throws for content that would be lost silently.
 void refuse_what_is_lost(const Params& params, const Document& document, const Document& kept) {
   if (document.page && document.name != kept.name) {
     refuse(document, document.line,

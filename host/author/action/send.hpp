@@ -23,7 +23,8 @@ enum class Offer {
   kNotHere,  ///< not in this way
 };
 
-/// Throws bus::DeviceError without an answer.
+/// A controller's registers and the path for its actions. Throws bus::DeviceError if it does not
+/// answer.
 class ActionPort {
  public:
   virtual ~ActionPort() = default;

@@ -8,7 +8,7 @@ namespace verp::action {
 
 using Torques = std::array<double, kMaxJoints>;
 
-/// Carrying soles stand level.
+/// Support of a robot in an action; carrying soles stand level.
 class Support {
  public:
   explicit Support(const Params& params) : params_(params) {}

@@ -48,7 +48,7 @@ class Document {
   /// Whole or not at all. Throws LoadError if it cannot write or another program changed the file,
   /// with the place of the text.
   void save();
-  /// Returns a note with the place.
+  /// Writes the text beside the file; returns a note that says where.
   std::string put_aside() const;
 
   /// A path for find(): "link:trunk/inertial/mass".

@@ -9,7 +9,7 @@
 namespace verp::edit {
 namespace {
 
-/// Keeps the notation.
+/// Changes the sign and keeps the notation.
 std::string negated(const std::string& number) {
   const auto value = model::parse_number(number);
   if (value && *value == 0) return number;
@@ -17,7 +17,7 @@ std::string negated(const std::string& number) {
   return "-" + number.substr(number.starts_with('+') ? 1 : 0);
 }
 
-/// Some of a row; keeps blanks.
+/// Negates some numbers of a row and keeps the blanks.
 std::string negated(const std::string& row, const std::vector<std::size_t>& which) {
   std::string out;
   std::size_t number = 0;

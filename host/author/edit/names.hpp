@@ -5,7 +5,7 @@
 
 #include "host/author/edit/document.hpp"
 
-/// Names of parts, and their mentions.
+/// Names of parts, and where other parts mention them.
 namespace verp::edit {
 
 /// The name without "verp:".
@@ -23,7 +23,7 @@ struct Mention {
   std::string name;
   bool defines = false;
 };
-/// Names and mentions, in text order.
+/// All places, in text order, that name or mention a part of that kind.
 std::vector<Mention> mentions(const Document& document, Kind kind);
 
 bool is_taken(const Document& document, Kind kind, const std::string& name);

@@ -20,7 +20,7 @@ struct Solid {
 /// Throws std::invalid_argument with the kinds.
 Solid::Kind solid_kind(const std::string& name);
 double volume_m3(const Solid& solid);
-/// Own centre and axes, uniform density.
+/// About its own centre and axes, at uniform density.
 Mat3 inertia_kg_m2(const Solid& solid, double mass_kg);
 
 struct Mesh {

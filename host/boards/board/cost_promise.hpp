@@ -1,6 +1,6 @@
 #pragma once
 
-/// Checked by tests/bench and `verp bench`.
+/// Promised cost of a controller tick on one core. tests/bench and `verp bench` check it.
 namespace verp::board {
 
 inline constexpr const char* kPromisedBoard = "mps2_an386";  ///< Cortex-M4F

@@ -43,7 +43,7 @@ class QemuProcess {
 
   std::string output() const;
 
-  /// Image, `what` happened, last output.
+  /// One line: the image, `what` happened to it, its last output.
   std::string described(const std::string& what) const;
 
  private:

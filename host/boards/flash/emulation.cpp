@@ -60,7 +60,7 @@ void plan_serial(EmulationPlan& plan, const std::vector<Piece>& pieces, const fs
   plan.links.push_back({"operator", "unix:" + plan.launch.serial_ports[1].string()});
 }
 
-/// MPS2: semihosting through two FIFOs (host/boards/board/fifo_link.hpp).
+/// MPS2 board: uses semihosting through two FIFOs (host/boards/board/fifo_link.hpp).
 void plan_fifos(EmulationPlan& plan, const fs::path& folder) {
   for (const char* name : {"to_board", "from_board"}) {
     plan.launch.arguments.push_back((folder / name).string());

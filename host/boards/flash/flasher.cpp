@@ -33,7 +33,7 @@ Kind kind_of(link::LinkError::Kind kind) {
   }
 }
 
-/// The tool takes no lock.
+/// Exclusive lock on the serial port while this object lives; the tool takes none.
 class SerialPortLock {
  public:
   explicit SerialPortLock(const Job& job) {

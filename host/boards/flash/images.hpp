@@ -6,7 +6,7 @@
 #include "common/model/params.hpp"
 #include "host/boards/flash/memory_map.hpp"
 
-/// These throw FlashError for invalid files.
+/// Checks which files may be written where. All functions throw FlashError for invalid files.
 namespace verp::flash {
 
 /// loop_<board> or loop_can_<board>; neither can drive the other's robot. Throws FlashError without
@@ -22,7 +22,7 @@ void check_code(const std::filesystem::path& file, const MemoryMap& map);
 /// A fitting, valid image for this core (common/model/image.hpp).
 Params check_params(const std::filesystem::path& file, const MemoryMap& map);
 
-/// Saved by a failed run.
+/// File with the actions of a sector that a failed run saved.
 inline constexpr const char* kKeptActions = "kept_actions.bin";
 
 /// Actions (common/action/kept.hpp), `robot`'s own if given. kKeptActions may have any content.

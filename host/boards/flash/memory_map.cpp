@@ -32,7 +32,7 @@ class Script {
  public:
   explicit Script(const std::filesystem::path& file) : file_(file), text_(read_script(file)) {}
 
-  /// `name = ...;`, or `otherwise`.
+  /// Value of `name = ...;`, or `otherwise` if it is missing.
   std::uint32_t symbol(const std::string& name, std::uint32_t otherwise) const {
     std::smatch match;
     if (!std::regex_search(text_, match, std::regex("\\b" + name + "\\s*=\\s*([^;]*);"))) {

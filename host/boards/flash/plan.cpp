@@ -41,7 +41,7 @@ void require_tcl_word(const std::string& word, const std::string& remedy) {
                                word, remedy));
 }
 
-/// Addresses are absolute.
+/// Command lines of one tool; addresses are absolute.
 class Commands {
  public:
   explicit Commands(const Job& job) : job_(job) {}

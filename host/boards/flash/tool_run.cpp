@@ -42,7 +42,7 @@ class StartedTool {
   StartedTool(const StartedTool&) = delete;
   StartedTool& operator=(const StartedTool&) = delete;
 
-  /// The next kLook_ms; false: no more.
+  /// Appends the output of the next kLook_ms. False: no more output will come.
   bool read(std::string& output) const {
     pollfd waiting{.fd = out_, .events = POLLIN, .revents = 0};
     if (::poll(&waiting, 1, kLook_ms) <= 0) return true;

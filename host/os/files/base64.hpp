@@ -4,7 +4,7 @@
 
 namespace verp::files {
 
-/// RFC 4648, with padding.
+/// Base64 text of `bytes` (RFC 4648), with padding.
 std::string base64(std::string_view bytes);
 
 }  // namespace verp::files

@@ -8,7 +8,7 @@
 /// The caller reports errors, because it knows the file's purpose.
 namespace verp::files {
 
-/// A device may never end.
+/// Limit for reads, because a device may never end.
 inline constexpr std::size_t kMostBytes = 128U << 20;
 
 /// Nothing if it cannot be opened or exceeds kMostBytes; errno has the reason.

@@ -1,6 +1,6 @@
 #include "host/os/link/line_rate.hpp"
 
-// Conflicts with the C library's header.
+// The kernel's termios, with a numeric rate; it conflicts with the C library's header.
 #include <asm/termbits.h>
 #include <sys/ioctl.h>
 

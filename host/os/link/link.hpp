@@ -18,7 +18,7 @@ class Link {
   /// A listener or pseudo-terminal connects when a peer comes. Throws LinkError.
   explicit Link(const Endpoint& endpoint);
 
-  /// For a peer: `/dev/pts/4`, `tcp:127.0.0.1:6000`.
+  /// Endpoint that a peer can open: `/dev/pts/4`, `tcp:127.0.0.1:6000`.
   std::string place() const { return port_->place(); }
   /// Baud of a pseudo-terminal's other end; otherwise 0.
   std::uint32_t rate() const { return port_->rate(); }

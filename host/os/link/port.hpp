@@ -44,7 +44,7 @@ class Port {
   /// Called after a loss.
   virtual void close() = 0;
   virtual std::uint32_t retry_us() const = 0;
-  /// See Link::place().
+  /// Endpoint for a peer; see Link::place().
   virtual std::string place() const = 0;
   /// Baud set by a peer; 0: none.
   virtual std::uint32_t rate() const { return 0; }

@@ -10,7 +10,7 @@ constexpr std::uint32_t kSixBits = 0x3F;
 // The longest scan: 1128 steps of 3 characters, plus 53 sums and line ends.
 constexpr std::size_t kLongest = 8192;
 
-/// Nothing: a wrong checksum.
+/// The line without its checksum; nothing if the checksum is wrong.
 std::optional<std::string_view> checked(std::string_view line) {
   if (line.empty()) return std::nullopt;
   const std::string_view data = line.substr(0, line.size() - 1);

@@ -29,7 +29,7 @@ class Replies {
   void add(const std::uint8_t* bytes, std::size_t size) {
     waiting_.append(reinterpret_cast<const char*>(bytes), size);
   }
-  /// Nothing: more bytes are needed.
+  /// Next complete reply; nothing if more bytes are needed.
   std::optional<Reply> next();
   std::uint32_t damaged() const { return damaged_; }
 

@@ -72,7 +72,7 @@ void check_serial_port(const std::string& device) {
 
 namespace {
 
-/// BAUD_INVALID: set it through the kernel.
+/// libserial's constant for a rate; BAUD_INVALID: set the rate through the kernel.
 BaudRate standard_rate(std::uint32_t baud) {
   switch (baud) {
     case 9600:

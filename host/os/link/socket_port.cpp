@@ -86,7 +86,7 @@ Descriptor new_socket(const Endpoint& endpoint, const Address& address) {
   return made;
 }
 
-// TCP must not delay small frames.
+// Frames are small and wait for answers, so TCP must not delay them.
 void send_at_once(int descriptor) {
   const int on = 1;
   ::setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
@@ -161,7 +161,7 @@ class Listener final : public Port {
   }
 
  private:
-  // A killed program's socket refuses connections.
+  // A killed program leaves its socket behind; connecting to it is refused.
   void remove_dead_socket(const Address& address) const {
     struct stat status {};
     if (::stat(endpoint_.place.c_str(), &status) != 0 || !S_ISSOCK(status.st_mode)) return;

@@ -274,7 +274,7 @@ int V4l2Camera::take_newest(hal::CameraFrame& frame) {
   if (error != EAGAIN || !newest) return error;
   if (held_ >= 0) give_back(static_cast<std::uint32_t>(held_));
   held_ = static_cast<int>(newest->index);
-  // Drivers that never count hide losses.
+  // Some drivers never count; then losses are unknown.
   const std::uint32_t gap = newest->sequence - next_sequence_;
   frame.lost = gap < 0x8000'0000U ? gap : 0;
   frame.sequence = gap < 0x8000'0000U ? newest->sequence : next_sequence_;

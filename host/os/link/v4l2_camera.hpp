@@ -47,9 +47,9 @@ class V4l2Camera {
   std::uint32_t height_px() const { return height_px_; }
   hal::PixelFormat format() const { return format_; }
   double rate_hz() const { return rate_hz_; }  ///< 0: unknown
-  /// Incomplete or marked by the driver.
+  /// Incomplete pictures, and pictures that the driver marked as damaged.
   std::uint32_t damaged() const { return damaged_; }
-  /// Empty: it works.
+  /// Why the camera is lost; empty: it works.
   const std::string& trouble() const { return trouble_; }
 
  private:

@@ -20,7 +20,7 @@ struct Code {
   std::uint32_t code;
   hal::PixelFormat format;
 };
-/// Lossless and colour first.
+/// In order of preference: lossless and colour first.
 inline constexpr std::array kCodes = {Code{V4L2_PIX_FMT_YUYV, hal::PixelFormat::kYuyv},
                                       Code{V4L2_PIX_FMT_RGB24, hal::PixelFormat::kRgb},
                                       Code{V4L2_PIX_FMT_GREY, hal::PixelFormat::kGrey},

@@ -153,7 +153,7 @@ std::optional<int> Child::reap(int flags) {
     const pid_t ended = ::waitpid(pid_, &status, flags);
     if (ended == 0) break;
     if (ended < 0 && errno == EINTR) continue;
-    // Another waiter took the status.
+    // Another waiter took the status; the process has ended.
     status_ = ended < 0           ? 128 + SIGKILL
               : WIFEXITED(status) ? WEXITSTATUS(status)
                                   : 128 + WTERMSIG(status);

@@ -49,7 +49,7 @@ class Child {
   std::optional<int> status_;
 };
 
-/// "nothing" without output.
+/// Last line of the output; "nothing" if it is empty.
 std::string last_line(const std::string& output);
 
 }  // namespace verp::process

@@ -28,7 +28,7 @@ std::uint8_t swinging_joint(const Entity& entity, const Params& params, const ch
 class Standing {
  public:
   explicit Standing(const Entity& entity) : entity_(entity), link_(entity.nodes.size()) {
-    // A follower may precede its parents.
+    // A follower joint may precede its parents, so repeat once per level of depth.
     link_[0] = Transform::Identity();
     std::vector<bool> placed(link_.size());
     placed[0] = true;

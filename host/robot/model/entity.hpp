@@ -187,7 +187,7 @@ struct ContactSensor {
   double rate_hz = 100, latency_s = 0;
 };
 
-/// No real robot has this sensor.
+/// True pose and motion of a point on a link; no real robot has this sensor.
 struct TruthSensor {
   std::string name;
   int node = 0;

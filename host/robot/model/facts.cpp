@@ -33,7 +33,7 @@ Transform read_pose(const XmlElement& element) {
   return pose;
 }
 
-/// Longer is probably another unit.
+/// More than a second is probably another unit.
 constexpr double kMostLatency_s = 1;
 
 double read_latency_s(const XmlElement& e) {

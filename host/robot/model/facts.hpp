@@ -82,7 +82,7 @@ struct FixFact {
   bool fixes(const std::string& name) const;
 };
 
-/// Moved by another joint's motor.
+/// A joint turned by another joint's motor.
 struct MimicFact {
   XmlElement at;
   std::string joint, driver;

@@ -10,13 +10,13 @@ namespace verp::model {
 /// with file, line and remedy. Not thread-safe: libsdformat keeps settings in a global. `bus`:
 /// empty: the first. Ticks must fit it (bus_time.hpp).
 Entity load_robot(const std::string& path, const std::string& bus = "");
-/// The same without the bus check.
+/// The same without the bus check, for callers that report it or set another period.
 Entity load_robot_on_any_bus(const std::string& path, const std::string& bus);
 /// Any model with a body and a bus, even without legs or IMU; it cannot be controlled.
 Entity load_part_of_robot(const std::string& path);
 /// A text that is not in the file yet; includes are relative to the file.
 Entity load_robot_text(const std::string& path, const std::string& text);
-/// Well-formed XML, numbers, unique elements.
+/// Checks only what needs no whole robot: well-formed XML, numbers, unique elements.
 void check_numbers(const std::string& path, const std::string& text);
 /// Without a name: the first CAN bus, else the first.
 Entity load_robot_on_can(const std::string& path, const std::string& bus);

@@ -132,7 +132,7 @@ class Tags {
 
 Malformed find_malformed(const std::string& text) {
   Malformed found = Tags(text).check();
-  // A binary file's control bytes.
+  // Hide control bytes of a binary file from the terminal.
   std::replace_if(
       found.why.begin(), found.why.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   return found;

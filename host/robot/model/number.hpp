@@ -9,7 +9,7 @@ namespace verp::model {
 /// locale.
 std::optional<double> parse_number(std::string_view text);
 
-/// Nothing if one is invalid.
+/// White-space separated numbers; nothing if one is invalid.
 std::optional<std::vector<double>> parse_numbers(std::string_view text);
 
 /// With or without sign; SDF allows it for some limits.

@@ -13,7 +13,7 @@ class RobotTable {
   /// Throws LoadError for a missing file, another line, or a duplicate key.
   explicit RobotTable(const std::string& path);
 
-  /// One finite number, or LoadError.
+  /// Throws LoadError if the key is missing, or the value is not one finite number.
   double number(const std::string& key);
   std::string text(const std::string& key);
   /// Part `which` from 0 of `a | b c | d`: text, or `count` numbers. Else throws LoadError.
@@ -25,7 +25,7 @@ class RobotTable {
   /// Throws LoadError at the key's line.
   [[noreturn]] void fail(const std::string& key, const std::string& message,
                          const std::string& fix) const;
-  /// Throws LoadError with the first.
+  /// Throws LoadError with the first unread key.
   void require_all_read() const;
 
  private:
@@ -38,14 +38,14 @@ class RobotTable {
   std::set<std::string> read_;
 };
 
-/// `tuning.NAME = VALUE` as <verp:tuning>.
+/// Converts `tuning.NAME = VALUE` entries to <verp:tuning>.
 std::string tuning_lines(RobotTable& table);
 
 /// 21-DOF humanoid of these proportions. Throws LoadError.
 std::string generate_humanoid_sdf(RobotTable& table);
 /// Links and joints listed one by one. Throws LoadError.
 std::string generate_tree_sdf(RobotTable& table);
-/// `layout = tree` selects the second.
+/// One of the two: `layout = tree` in the table selects the second.
 std::string generate_sdf(RobotTable& table);
 
 }  // namespace verp::model

@@ -48,9 +48,9 @@ bool read_solid(const sdf::Geometry& geometry, Kind& kind, Vec3& size_m) {
   return true;
 }
 
-/// Null: missing, or `parent` is null.
+/// Child by name; null if it is missing or `parent` is null.
 sdf::ElementPtr inner(const sdf::ElementPtr& parent, const char* name);
-/// Where libsdformat 12 has no class.
+/// Reads its value, if it exists, where libsdformat 12 has no class.
 void read_leaf(const sdf::ElementPtr& parent, const char* name, double& value);
 
 /// False for meshes, planes, ellipsoids, which have no contacts.

@@ -19,7 +19,7 @@ struct Overlap {
 /// Links that overlap at these angles, without neighbours.
 std::vector<Overlap> overlaps(const Entity& entity, const std::vector<double>& joint_rad);
 
-/// kMaxJoints: neither carries the other.
+/// Number of joints between two links; kMaxJoints if neither carries the other.
 int joints_between(const Entity& entity, int link, int other);
 
 /// Links that overlap in a resting pose.

@@ -104,7 +104,7 @@ CameraSensor::Kind kind_of(const sdf::Sensor& sensor) {
   }
 }
 
-/// The topic without a leading slash.
+/// Channel name from the file, without a leading slash.
 std::string topic_of(const sdf::Sensor& sensor) {
   const std::string topic = sensor.Topic();
   return topic.starts_with('/') ? topic.substr(1) : topic;

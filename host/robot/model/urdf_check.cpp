@@ -25,7 +25,7 @@ XmlElement element_of(const XmlElement& robot, const char* kind, const std::stri
   return robot;
 }
 
-/// First the cause, then its effects.
+/// Collects urdfdom's errors: first the cause, then what could not be read.
 class UrdfErrors : public console_bridge::OutputHandler {
  public:
   void log(const std::string& text, console_bridge::LogLevel level, const char* /*file*/,

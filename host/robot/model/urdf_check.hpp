@@ -4,7 +4,7 @@
 
 namespace verp::model {
 
-/// According to urdfdom; libsdformat must agree.
+/// Contents of a URDF file according to urdfdom; libsdformat must get the same.
 struct UrdfTotals {
   int moving_joints = 0;
   double mass_kg = 0;

@@ -32,7 +32,7 @@ bool has_mass(const XMLElement& link) {
   return mass != nullptr && mass->DoubleAttribute("value") >= kLeastMass_kg;
 }
 
-/// LinkTree removes this light ball again.
+/// Adds a light ball; LinkTree removes it again.
 void add_stand_in_mass(XMLElement& link) {
   if (XMLElement* const old = link.FirstChildElement("inertial")) link.DeleteChild(old);
   XMLElement* const inertial = link.InsertNewChildElement("inertial");

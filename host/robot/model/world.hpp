@@ -125,7 +125,7 @@ struct World {
   Color ambient{0.4, 0.4, 0.4, 1}, background{0.7, 0.7, 0.7, 1};
   bool shadows = true;
   bool sky = false;  ///< brighter background toward the horizon
-  /// <verp:effects> of <scene>.
+  /// Rendering effects: <verp:effects> of <scene>.
   bool antialias = true, textures = true, transparency = true;
   std::optional<Fog> fog;
   std::vector<Light> lights;

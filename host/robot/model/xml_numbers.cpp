@@ -100,7 +100,7 @@ const std::map<std::string_view, Numbers> kSdfNumbers = {
     {"dampingFactor", kFree},
     {"laserRetro", kFree}};
 
-// ATTRIBUTE or ELEMENT.ATTRIBUTE.
+// Attributes of URDF, as ATTRIBUTE or ELEMENT.ATTRIBUTE.
 const std::map<std::string, Numbers, std::less<>> kUrdfNumbers = {
     {"xyz", kPosition},         {"rpy", kDirection},      {"ixx", kInertia},
     {"iyy", kInertia},          {"izz", kInertia},        {"ixy", kInertia},

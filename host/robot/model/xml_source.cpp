@@ -62,7 +62,7 @@ void refuse_repeats(const std::string& path, const tinyxml2::XMLElement& element
   }
 }
 
-/// libsdformat does not name the joint.
+/// libsdformat reports an invalid type without the joint's name.
 void check_joint_type(const std::string& path, const tinyxml2::XMLElement& joint) {
   const std::string_view type = joint.Attribute("type") ? joint.Attribute("type") : "";
   for (const std::string_view known : {"revolute", "fixed", "continuous", "prismatic", "ball",

@@ -28,7 +28,7 @@ class XmlElement {
   /// Throws LoadError at this element.
   [[noreturn]] void fail(const std::string& message, const std::string& fix) const;
 
-  /// Throws LoadError for anything else.
+  /// Throws LoadError for any other attribute, inner element or text.
   void allow(std::initializer_list<const char*> attributes,
              std::initializer_list<const char*> elements = {}) const;
   bool has(const char* attribute) const { return element_->Attribute(attribute) != nullptr; }

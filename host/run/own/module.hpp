@@ -9,9 +9,9 @@ namespace verp::own {
 
 /// Exported as `verp_own_module`; no exception crosses these C calls.
 struct Module {
-  /// sizeof, as compiled into the module
+  /// sizeof each struct as compiled into the module
   std::uint32_t params_bytes, state_bytes, inputs_bytes, outputs_bytes;
-  /// Null: out of memory.
+  /// A controller in its initial state; null: out of memory.
   void* (*make)();
   void (*unmake)(void* controller);
   /// Returns the first joint with a refused goal, and that goal; -1: none.

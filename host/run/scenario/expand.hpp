@@ -39,7 +39,7 @@ Expanded expand(const Scenario& scenario);
 /// The same in a loaded world.
 Expanded expand(const Scenario& scenario, const sim::WorldOptions& world);
 
-/// Parts of expand().
+/// Parts of expand(), for callers that load a robot themselves or have only one.
 sim::WorldOptions world_of(const World& world);
 session::WalkPlan plan_of(const Robot& robot, double length_s);
 session::WalkPlan plan_of(const Robot& robot, double length_s, model::Entity entity);
@@ -54,7 +54,7 @@ void tune(const std::map<std::string, double>& values, Tuning& tuning);
 /// Metadata for a trace: the plan's robot, and with a scenario the walk.
 record::mcap::StringMap metadata_of(const session::WalkPlan& plan);
 record::mcap::StringMap metadata_of(const session::WalkPlan& plan, const Scenario& scenario);
-/// "0.1,0,0.2"; empty for other orders.
+/// "0.1,0,0.2"; empty if the orders are not a velocity.
 std::string velocity_text(const Orders& orders);
 
 }  // namespace verp::scenario

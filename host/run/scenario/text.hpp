@@ -6,7 +6,7 @@
 
 namespace verp::scenario {
 
-/// Also fields with their default.
+/// Prints every field, also those with their default.
 std::string print(const Scenario& scenario);
 
 /// Missing fields keep their default. Throws model::LoadError with `file` and key for an unknown

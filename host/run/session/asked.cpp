@@ -14,7 +14,7 @@ namespace {
 constexpr double kLeastShare = 0.5;
 constexpr double kStartAndStop_s = 2;  // at least
 constexpr double kDegrees = 180 / std::numbers::pi;
-// Stepping in place makes smaller ones.
+// Feet that step in place make smaller turns and ways by themselves.
 constexpr double kLeastWay_m = 0.05, kLeastTurn_rad = 0.2;
 constexpr const char* kAsked = "what was asked";
 constexpr const char* kOfItsGait = "what its gait goes in that time";
@@ -28,7 +28,7 @@ double start_and_stop_s(const GaitTuning& gait, const Command& velocity) {
   return std::max(kStartAndStop_s, own_s);
 }
 
-/// Whole steps, as in gait::next_step.
+/// A walk's time in whole steps, as the gait divides it (gait::next_step).
 struct Steps {
   Steps(const GaitTuning& gait, double walk_s) {
     const double key_s = gait.cycle_s / (2.0 * gait::kKeyPointsPerStep);

@@ -13,7 +13,7 @@ class Controller {
   /// on failure. Waiting for an external controller, it returns after some ms without a tick.
   /// False: the end; robot.fail() has the reason.
   virtual bool tick() = 0;
-  /// Sends last messages to the controller.
+  /// Called once when the robot is over, for last messages to the controller.
   virtual void finish() {}
   /// Wall time in a session of `session_s`.
   virtual double wall_s(double session_s) const { return session_s; }

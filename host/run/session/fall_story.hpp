@@ -13,7 +13,7 @@ class FallStory {
   /// `tries` in a row; 0: unknown.
   explicit FallStory(int tries = 0) : most_(tries) {}
 
-  /// News as text, or empty.
+  /// Observes the last tick. Returns news as text; empty: none.
   std::string observe(const State& state, const Outputs& outputs);
 
   int falls() const { return falls_; }

@@ -11,7 +11,7 @@ struct FaultName {
 };
 std::span<const FaultName> all_fault_names();
 
-/// "fall, servo silent"; empty without faults.
+/// Names of the set fault bits, e.g. "fall, servo silent"; empty if none is set.
 std::string fault_names(std::uint32_t faults);
 
 /// An order or tuning exceeds the legs: steps are shortened or refused.

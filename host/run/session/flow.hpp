@@ -55,7 +55,7 @@ class Flow {
   std::exception_ptr error_;
   const std::function<void()>* outside_ = nullptr;  ///< the body waits for it
   bool ended_ = false, unwinding_ = false;
-  // For the address sanitizer.
+  // State for the address sanitizer's stack switches.
   void* fake_here_ = nullptr;
   void* fake_there_ = nullptr;
   const void* caller_bottom_ = nullptr;

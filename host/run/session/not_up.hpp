@@ -6,7 +6,7 @@
 
 namespace verp::session {
 
-/// One line: what, where, remedy.
+/// A robot did not come up. One line: what, where and the remedy.
 class NotUp : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };

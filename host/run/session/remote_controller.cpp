@@ -10,7 +10,7 @@
 namespace verp::session {
 namespace {
 
-/// Reset, boot check, greeting.
+/// Restart of a controller in the twin's time: reset, boot check, greeting.
 constexpr std::uint32_t kRestart_us = 1'000'000;
 
 }  // namespace

@@ -75,10 +75,10 @@ class RemoteController : public Controller {
   virtual RemoteResult result() const;
 
  protected:
-  /// `connected`: from the beginning.
+  /// `connected`: the link is there from the beginning.
   RemoteController(Robot& robot, const ServeOptions& options, bool connected);
 
-  /// Waits kIdle_us, in real time kRealTimeTurn_us.
+  /// Serves incoming requests; waits kIdle_us for them, in real time kRealTimeTurn_us.
   virtual void turn() = 0;
   virtual bool stopped() const = 0;  ///< a stop was sent
   virtual bool greeted() const = 0;  ///< it has announced lockstep
@@ -103,7 +103,7 @@ class RemoteController : public Controller {
   /// Ends a turn with `came` bytes or frames. Clock requests count as the controller's patience;
   /// other traffic does not advance the world.
   void waited(const bus::LockstepSession& clock, std::size_t came, const char* unit);
-  /// Reports changes; `losses`: so far.
+  /// Reports each change of the link. `losses`: their number so far.
   void watch_link(bool connected, std::uint32_t losses);
 
   bus::SessionHooks hooks();

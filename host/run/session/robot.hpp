@@ -27,7 +27,7 @@ class Robot {
   Robot(sim::World& world, const WalkPlan& plan, Hooks hooks, Interrupted interrupted);
 
   const WalkPlan& plan() const { return plan_; }
-  /// Orders select actions by number.
+  /// The plan's actions, which orders select by number.
   const action::Library& actions() const { return actions_; }
   std::string name() const { return plan_.name.empty() ? plan_.params.name : plan_.name; }
   sim::TwinRobot& twin() { return twin_; }
@@ -36,7 +36,7 @@ class Robot {
   can::VirtualCan& can() { return *can_; }
 
   bool ticking() const { return can_ ? can_->ticking() : bus_->ticking(); }
-  /// Discards what the bus receives.
+  /// Advances time; discards what the bus receives meanwhile.
   void let_pass(std::uint32_t time_us);
 
   app::OperatorOrder order(std::uint32_t tick);
@@ -63,7 +63,7 @@ class Robot {
   /// allows recovery. Lying down without torque is no fall (FallVerdict).
   void watch();
 
-  /// Call before the first tick.
+  /// Sets the source of the world's quantities; call it before the first tick.
   void set_quantities(std::function<sim::Quantities&()> quantities) {
     quantities_ = std::move(quantities);
   }

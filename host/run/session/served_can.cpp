@@ -180,7 +180,7 @@ class ServedOnCan final : public RemoteController {
     return true;
   }
 
-  /// On the port's clock.
+  /// The time now, on the port's clock, which itself stands at the last frame.
   std::uint64_t clock_us() const { return link::monotonic_ns() / 1000 - skew_us_; }
 
   void conclude() override {

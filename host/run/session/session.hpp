@@ -19,7 +19,7 @@ struct Options {
   std::function<bool()> interrupted;  ///< at each tick; true ends the run
 };
 
-/// Two robots start in one place.
+/// Two robots would start in the same place.
 class NoRoom : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
@@ -57,12 +57,12 @@ class Session {
   std::uint64_t now_us() const { return world_.now_us(); }
   /// Call after the last add(). A repeatable run sets quantities through Robot::intervene().
   sim::Quantities& quantities();
-  /// Null: no world file.
+  /// Objects of the world's file; null: the world has no file.
   const sim::Scenery* scenery() { return world_.scenery(); }
   std::size_t size() const { return seats_.size(); }
   Robot& robot(std::size_t index);
   std::size_t index_of(const Robot& robot) const;
-  /// Call once, at the end.
+  /// Result of a robot; call it once, at the end.
   WalkResult result(std::size_t index);
 
  private:
@@ -91,7 +91,7 @@ class Observer {
   virtual ~Observer() = default;
   /// A robot joins; the observer may set hooks.
   virtual void join(std::size_t, const WalkPlan&, Hooks&) {}
-  /// Before the first tick.
+  /// All robots have joined, before the first tick.
   virtual void begin(Session&) {}
   /// A robot's tick, or its controller keeps the world waiting.
   virtual void tick(std::size_t, Robot&) {}

@@ -19,7 +19,7 @@ Fastest fastest_joint(const Params& params, const Command& velocity);
 /// cycles of 0.30 to 0.45 s, seed 1: walks were good up to 1.28, and all fell from 1.34 on.
 inline constexpr double kMostSpeedShare = 1.25;
 
-/// Longest straight steps of the tuning.
+/// An order for the longest steps that the tuning admits, straight ahead.
 Command longest_order(const Params& params);
 
 /// `velocity` reduced for the servos; `remark`: a reduction, or empty.

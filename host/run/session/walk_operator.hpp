@@ -26,7 +26,7 @@ class WalkOperator {
   bool done() const { return done_; }
   /// Reason if it would not stand up or stop; faults and falls are in Outputs.
   const char* failed() const { return failed_; }
-  /// Gait; with `stands`, quiet standing.
+  /// Seconds of gait; with `stands`, seconds since it stood quietly.
   double walked_s() const { return walked_s_; }
   bool longer_than_asked() const { return longer_than_asked_; }
 

@@ -31,7 +31,7 @@ class Check {
   std::uint64_t compared() const { return compared_; }
   /// Differing digests whose records came too late.
   std::uint64_t unsettled() const { return unsettled_; }
-  /// Incomplete ticks: State requested again.
+  /// Times that ticks were incomplete and the State was requested again.
   std::uint64_t gaps() const { return gaps_; }
   std::uint64_t boots() const { return boots_; }
   std::uint32_t tick() const { return shadow_.admit.tick; }
@@ -43,7 +43,7 @@ class Check {
   const std::string& gap() const { return gap_; }
 
  protected:
-  /// `own`: this PC's actions.
+  /// `own`: this robot's actions on this PC.
   Check(const Params& params, const action::Library& own) : params_(params), own_(own) {}
   ~Check() = default;
 

@@ -57,7 +57,7 @@ Judgement judge(const Params& params, const action::Library& actions, const Susp
     judgement.verdict = Verdict::kTooLate;
     return judgement;
   }
-  // This PC missed a tick before.
+  // The chains already differ before this tick: this PC missed one.
   if (std::prev(found)->digest.chain != suspicion.before.digest.chain) return judgement;
   const State here = stepped(params, actions, suspicion.before, found->inputs);
   const auto differs = record::compare_digests(found->digest, here.digest);

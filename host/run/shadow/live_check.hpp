@@ -25,7 +25,7 @@ class LiveCheck final : public Check {
   explicit LiveCheck(const Params& params, const action::Library& own = {});
 
   void take(const CanFrame& frame, std::uint64_t now_us);
-  /// False: it only listens.
+  /// The next frame to send; false while it only listens.
   bool next(CanFrame& frame, std::uint64_t now_us);
 
  private:

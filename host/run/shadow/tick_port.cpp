@@ -16,7 +16,7 @@ constexpr int kAttempts = 3;
 constexpr std::uint64_t kPatience_ns = 100'000'000;  // the loop answers when idle
 constexpr std::uint32_t kSlice_us = 5'000;
 constexpr std::uint32_t kQuiet_us = 20'000;
-/// A board's port buffers few requests.
+/// Image blocks per exchange, limited by the requests that a board's port can buffer.
 constexpr int kBlocksAtOnce = 2;
 
 }  // namespace

@@ -90,7 +90,7 @@ void Recorder::keep(const std::vector<Picture>& pictures) {
     const bool colour = picture.encoding == "png";
     const char* kind =
         colour ? "/image/compressed" : (picture.encoding == "16UC1" ? "/depth" : "/labels");
-    // Header: exposure; file: plus latency.
+    // The header has the time of exposure; the file's time adds the latency.
     const auto latency_ns = static_cast<std::uint64_t>(std::llround(1e9 * camera.latency_s));
     const std::uint64_t had_ns = stamp_ns + latency_ns;
     trace_.append(topic + kind, colour ? ros::kCompressedImage : ros::kImage, had_ns,

@@ -18,7 +18,7 @@ class Recorder {
 
   /// A session::Hooks::exposed. Never throws: failure() ends the pictures, not the run.
   void exposed(const sim::Exposure& exposure, std::uint64_t stamp_ns);
-  /// Call before the trace is closed.
+  /// Waits for pictures in progress; before the trace is closed.
   void finish();
 
   std::uint64_t pictures() const { return pictures_; }

@@ -30,7 +30,7 @@ class Rig {
   /// Pictures of the next due moment, else empty. kEveryPicture: kAhead before the last; otherwise
   /// any that is done.
   std::vector<Picture> take();
-  /// Waits; empty after the last moment.
+  /// Waits for the pictures of the next moment; empty after the last.
   std::vector<Picture> take_last();
 
   std::uint64_t moments() const { return sent_; }     ///< drawn or in progress

@@ -56,7 +56,7 @@ class TwinCamera {
     picture_ = std::move(picture);
     return true;
   }
-  /// Whole periods give the sequence number.
+  /// Exposures are at whole periods of simulated time, which give the sequence number.
   void tell(hal::CameraFrame& frame) {
     const double rate_hz = twin_.entity().cameras[camera_].rate_hz;
     const auto period = std::llround(1e-6 * static_cast<double>(picture_.time_us) * rate_hz);

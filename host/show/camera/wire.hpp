@@ -65,7 +65,7 @@ struct Message {
 
 /// False: the other end is gone.
 bool send(int socket, Kind kind, std::string_view data);
-/// Empty: the other end is gone.
+/// Waits for the next; empty: the other end is gone.
 std::optional<Message> receive(int socket);
 
 std::string pack(const Stage& stage);

@@ -67,7 +67,7 @@ class Smoother {
       if (2 * std::abs(change[side]) < std::abs(jump)) change[side] = 0;
     }
     const int nearer = steps[0] <= steps[1] ? 0 : 1;
-    // Else the stairs run elsewhere.
+    // At the nearer end this side must change toward the other, else the stairs run elsewhere.
     if (change[nearer] == 0 || (change[nearer] > 0) != (jump > 0)) return 0;
     const auto run = static_cast<float>(steps[0] + steps[1] - 1);
     return 0.5F - (static_cast<float>(steps[nearer]) - 0.5F) / run;

@@ -63,7 +63,7 @@ bool add_node(scene::Triangles& out, const aiScene& in, const aiNode& node, aiMa
   return true;
 }
 
-/// Whole pictures, no setjmp.
+/// libpng's simplified interface: whole pictures, no setjmp.
 struct Png {
   png_image image{};
   Png() { image.version = PNG_IMAGE_VERSION; }

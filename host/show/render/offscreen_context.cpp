@@ -22,7 +22,7 @@ bool can_be_loaded(const char* library) {
   return handle != nullptr;
 }
 
-/// libepoxy would end the program.
+/// libepoxy ends the program at the first call into a missing library.
 void require_libraries() {
   if (!can_be_loaded("libEGL.so.1")) no_driver("libEGL.so.1 is not there");
   if (!can_be_loaded("libOpenGL.so.0") && !can_be_loaded("libGL.so.1"))

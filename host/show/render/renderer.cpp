@@ -138,7 +138,7 @@ struct Renderer::Impl {
     }
   }
 
-  /// Farthest first, after solid ones.
+  /// Transparent items, farthest first, after all solid ones.
   void draw_clear(const std::vector<Placed>& placed, const Effects& effects, const Vec3& eye_m,
                   float opacity) {
     std::vector<const Placed*> clear;

@@ -12,7 +12,7 @@
 /// OpenGL 3.3 core by libepoxy, in the current context.
 namespace verp::render {
 
-/// No driver, context or valid file.
+/// No driver, no context, or a bad file; one line.
 class RenderError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -65,7 +65,7 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Pictures then cost its time.
+  /// True if the PC's processor draws: pictures cost its time.
   bool on_processor() const;
 
   /// Unreadable files are left out, with a line in notes().
@@ -74,7 +74,7 @@ class Renderer {
   void set_looks(const scene::Scene& scene);
   const std::vector<std::string>& notes() const;
 
-  /// `framebuffer`: in a window QOpenGLWidget::defaultFramebufferObject().
+  /// Draws into `framebuffer` (in a window, QOpenGLWidget::defaultFramebufferObject()).
   void draw(const scene::Snapshot& now, const scene::Camera& camera, Size size,
             const Effects& effects, unsigned framebuffer = 0);
 

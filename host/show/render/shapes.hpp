@@ -10,7 +10,7 @@ scene::Triangles capsule(double radius_m, double length_m, int around = 20);
 scene::Triangles cylinder(double radius_m, double length_m, double round_m, int around = 24);
 scene::Triangles plane(double x_m, double y_m);
 
-/// A profile (radius, height) about z.
+/// Turns a closed profile (radius, height) and its normals about z.
 scene::Triangles turned(const std::vector<Eigen::Vector2f>& profile,
                         const std::vector<Eigen::Vector2f>& normals, int around);
 

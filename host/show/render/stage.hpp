@@ -19,7 +19,7 @@ struct Placed {
 
 class Stage {
  public:
-  /// notes() lists bad files.
+  /// Bad files do not throw; notes() lists those left out.
   void fill(const scene::Scene& scene);
   void set_looks(const scene::Scene& scene);
   const scene::Scene& scene() const { return scene_; }
@@ -28,7 +28,7 @@ class Stage {
   /// Leaves out missing robots and bodies, and poses that are not finite.
   std::vector<Placed> place(const scene::Snapshot& now, const Effects& effects) const;
 
-  /// The sun's shadows must cover it.
+  /// A ball that the sun's shadows must cover.
   struct Ball {
     scene::Vec3 centre_m = scene::Vec3::Zero();
     double radius_m = 1;

@@ -37,7 +37,7 @@ Camera through(const Mount& mount, const Snapshot& now, double aspect) {
     pose = robot.link_world[static_cast<std::size_t>(mount.node)] * mount.pose;
   }
   Camera camera;
-  // Ahead of the drawn lens.
+  // The eye is ahead of the drawn lens and its rim.
   camera.eye_m = pose * Vec3(0.008, 0, 0);
   camera.target_m = pose * Vec3(1, 0, 0);
   camera.up = pose.linear().col(2);

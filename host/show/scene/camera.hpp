@@ -16,7 +16,7 @@ struct Camera {
   double near_m = 0.02, far_m = 60;
 };
 
-/// Around a target, by mouse.
+/// A camera on a sphere around its target, turned by the mouse.
 struct Orbit {
   Vec3 target_m = Vec3(0, 0, 0.25);
   double azimuth_rad = -0.65;   ///< 0: from ahead of a robot along x; positive: from its left
@@ -25,7 +25,7 @@ struct Orbit {
   double vertical_fov_rad = 0.5;
 
   Camera camera() const;
-  /// Radians; stops short of the pole.
+  /// Angles in radians; stops short of the pole.
   void turn(double azimuth_rad, double elevation_rad);
   /// Picture heights: the point under the mouse stays.
   void pan(double right, double up);

@@ -6,7 +6,7 @@ namespace verp::scene {
 /// A material for a visual without colour.
 Material default_material(const Entity& entity, int node, const Vec3& extent_m);
 
-/// Light shows rounded edges.
+/// Edge radius, so that light shows the edges.
 double rounding_m(Shape shape, const Vec3& size_m);
 
 }  // namespace verp::scene

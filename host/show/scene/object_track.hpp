@@ -9,7 +9,7 @@ namespace verp::scene {
 class ObjectTrack {
  public:
   ObjectTrack(const record::Trace& trace, const model::World& world);
-  /// Poses in the order of model::moving().
+  /// After that tick, in the order of model::moving().
   std::vector<Transform> at(std::size_t tick) const;
 
  private:

@@ -83,7 +83,7 @@ struct Fog {
   bool squared = false;            ///< e^-(density d)^2
 };
 
-/// Smooth surfaces mirror it.
+/// A soft gradient; smooth surfaces mirror it.
 struct Sky {
   Colour zenith{0.62F, 0.72F, 0.84F, 1};
   Colour horizon{0.93F, 0.945F, 0.96F, 1};

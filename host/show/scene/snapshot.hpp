@@ -22,7 +22,7 @@ struct Footstep {
   double yaw_rad = 0;
 };
 
-/// Unknown members are empty.
+/// Members that the source does not know are empty.
 struct RobotView {
   std::vector<Transform> link_world;  ///< one per node
   std::vector<double> joint_rad, goal_rad, torque_use;

@@ -28,7 +28,7 @@ std::pair<std::size_t, std::size_t> shown(const Comparison& c, const Pair& pair)
   return {at(middle_s - length_s / 2), at(middle_s + length_s / 2)};
 }
 
-/// The largest motion first.
+/// Joints that move, the largest motion first; others show nothing.
 std::vector<std::size_t> moving(const Comparison& c) {
   std::vector<std::size_t> joints;
   for (std::size_t j = 0; j < c.joints.size(); ++j) {

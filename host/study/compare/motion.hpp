@@ -18,15 +18,15 @@ class Motion {
   /// Time from the first tick, up to length_s. Linear over ticks without a reading; constant before
   /// the first reading.
   double rad(std::size_t joint, double time_s) const;
-  /// Share of ticks, 0 to 1.
+  /// Share of the ticks with a reading of the joint, 0 to 1.
   double read_share(std::size_t joint) const { return read_share_[joint]; }
 
   /// Begin of a gait or action after the first tick. nullopt: never, or this program decides
   /// differently from the recording one.
   const std::optional<double>& begun_s() const { return begun_s_; }
-  /// First order to walk or act.
+  /// When the operator first ordered a walk or an action.
   const std::optional<double>& ordered_s() const { return ordered_s_; }
-  /// 0: no walk was ordered.
+  /// End of the last ordered walk; 0: there was none.
   double walked_until_s() const { return walked_until_s_; }
   /// Gait cycle in force at the end.
   double cycle_s() const { return cycle_s_; }

@@ -58,7 +58,7 @@ class Drawing {
     }
   }
 
-  /// The pose in `way_s` from now.
+  /// Draws the pose that the joints reach `way_s` from now.
   const Angles& next(double way_s) {
     double share = 1;
     for (int draw = 0; draw < kDraws; ++draw, share *= 0.85) {

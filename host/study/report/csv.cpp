@@ -131,7 +131,7 @@ Range last_steady_cycle(const Run& run) {
       starts.push_back(i);
     }
   }
-  // The last cycles' strides are shorter.
+  // Skips the last cycles, whose strides are already shorter.
   const std::size_t keep_off = starts.size() > 16 ? 8 : 1;
   if (starts.size() < keep_off + 1) return {};
   const std::size_t at = starts.size() - keep_off - 1;

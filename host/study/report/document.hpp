@@ -12,7 +12,7 @@ namespace verp::report {
 
 std::string escape(const std::string& text);
 
-/// `body` is HTML, the rest text.
+/// A complete page: `body` is HTML, the rest is text.
 std::string document(const std::string& title, const std::string& verdict, bool good,
                      const std::string& body);
 

@@ -4,7 +4,7 @@
 
 namespace verp::report {
 
-/// The folder of `option`. Throws ReportError.
+/// Creates the folder that `option` named, if missing. Throws ReportError.
 void make_folder(const std::filesystem::path& folder, const char* option);
 
 /// Written under a temporary name, then renamed: readers never see a partial file. Throws

@@ -12,7 +12,7 @@ bool gnuplot_available();
 /// gnuplot's first line, or how it ended. Throws files::FileError if the script cannot be written.
 std::optional<std::string> draw(const Plot& plot, std::string& error);
 
-/// Light colours on white.
+/// The plot as an SVG file, in light colours on white.
 std::optional<std::string> draw_svg(const Plot& plot, std::string& error);
 
 std::optional<std::string> draw_png(const Plot& plot, std::string& error);

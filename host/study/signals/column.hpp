@@ -19,7 +19,7 @@ enum class Format : std::uint8_t {
   kState,  ///< a field of State
 };
 
-/// SI units; the IMU's axes.
+/// SI units; sensor axes are those of the IMU.
 struct Column {
   std::string name;     ///< may contain a joint name from a file
   std::string unit;     ///< empty: no unit

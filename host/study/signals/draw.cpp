@@ -18,7 +18,7 @@ constexpr std::size_t kMostPoints = 4000;
 
 using Places = std::vector<std::size_t>;
 
-/// Single quotes; names come from files.
+/// Quotes text in single quotes; names come from files.
 std::string quoted(const std::string& text) {
   std::string out;
   for (const char c : text) {

@@ -18,11 +18,11 @@ class Table {
   Table(const record::Trace& trace, bool states);
 
   const std::vector<Column>& columns() const { return columns_; }
-  /// False: no further tick.
+  /// Moves to the next tick, at first to the first one. False: there is none.
   bool next();
   std::size_t index() const { return index_; }  ///< in Trace::ticks
   double time_s() const { return numbers_[1]; }
-  /// NaN: unknown.
+  /// Value in this tick. NaN: unknown.
   double number(std::size_t column) const;
   /// CSV: empty if unknown.
   void append_text(std::size_t column, std::string& out) const;

@@ -36,7 +36,7 @@ struct StabilityCell {
   std::string why;                 ///< of a failed walk
 };
 
-/// kNone: interrupted first.
+/// "walked" and so on; kNone: the survey was interrupted first.
 const char* name_of(StabilityCell::End end);
 
 struct StabilityMap {

@@ -7,7 +7,7 @@
 
 namespace verp::survey {
 
-/// One direction, over the tried phases.
+/// Survived impulses of one direction, over the phases that were tried.
 struct Side {
   double direction_rad = 0;
   double least_n_s = 0, middle_n_s = 0, most_n_s = 0;

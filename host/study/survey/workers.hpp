@@ -26,7 +26,7 @@ class Workers {
   /// rethrows.
   void run(std::size_t pieces, const std::function<void(std::size_t piece)>& work);
 
-  /// Interrupted, or another piece failed.
+  /// For the pieces: the caller interrupted, or another piece failed.
   bool stopped() const { return stopped_; }
   void step_done() { ++done_; }
 

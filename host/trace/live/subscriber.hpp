@@ -8,7 +8,7 @@
 
 namespace verp::live {
 
-/// Shared by all its viewers.
+/// A message, shared by all its viewers.
 struct Stamped {
   std::uint64_t time_ns = 0;
   std::shared_ptr<const std::string> data;
@@ -25,7 +25,7 @@ class Subscriber {
  public:
   explicit Subscriber(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
-  /// False: subscription or channel is taken.
+  /// False: the subscription, or one to that channel, exists.
   bool subscribe(std::uint32_t subscription, std::uint32_t channel);
   /// Drops its queued messages; false: no such subscription.
   bool unsubscribe(std::uint32_t subscription);
@@ -33,18 +33,18 @@ class Subscriber {
 
   /// Protocol texts go first and are never dropped.
   void say(std::string text) { texts_.push_back(std::move(text)); }
-  /// Returns whether the viewer has subscribed.
+  /// Queues a message if the viewer has subscribed to its channel; returns whether it has.
   bool offer(std::uint32_t channel, const Stamped& message);
   void offer_time(std::uint64_t time_ns);
 
   std::optional<Frame> next();
   bool is_empty() const { return texts_.empty() && waiting_.empty(); }
-  /// The number of lost messages, once.
+  /// Reports the number of lost messages, unless it was reported already.
   void tell_dropped();
 
   std::uint64_t sent() const { return sent_; }
   std::uint64_t dropped() const { return dropped_; }
-  /// They count as lost.
+  /// Counts the queued messages as lost, too.
   void drop_all();
 
  private:

@@ -11,7 +11,7 @@ namespace verp::record {
 class JointSpeeds {
  public:
   explicit JointSpeeds(const Params& params) : params_(params) {}
-  /// Valid until the next call.
+  /// In the order of Params; valid until the next call.
   std::span<const double> after(const Inputs& inputs);
 
  private:

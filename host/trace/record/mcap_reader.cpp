@@ -234,7 +234,7 @@ class Parser {
     fail(at_, cut ? "the file ends inside its last 8 bytes" : "bytes follow the footer", cut);
   }
 
-  /// Counts the cut message, too.
+  /// Number of messages in an incomplete chunk, including the one that is cut.
   static std::uint64_t count_lost(std::string_view begun) {
     Cursor in(begun);
     in.take(8 + 8 + 8 + 4);

@@ -22,7 +22,7 @@ class Listener {
   virtual void message(std::uint16_t channel, std::uint64_t time_ns, std::string_view data) = 0;
 };
 
-/// 0: no process writes it.
+/// The process that is writing a file of that name, or 0.
 int writer_of(const std::filesystem::path& path);
 
 /// An append-only MCAP file: chunks with CRC and message indexes, summary and footer. A crash loses

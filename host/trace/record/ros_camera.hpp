@@ -23,7 +23,7 @@ struct Picture {
   std::uint32_t width = 0, height = 0;
   std::string data;
 };
-/// CompressedImage or Image, by encoding.
+/// CompressedImage for "png" and "jpeg", else Image.
 std::string picture(const Picture& picture, std::string_view frame, std::uint64_t time_ns);
 /// kCompressedImage or kImage; size 0: only the file knows. nullopt: another message.
 std::optional<Picture> read_compressed(std::string_view message);

@@ -36,7 +36,7 @@ class Definition {
   std::map<std::string_view, Fields> types_;
 };
 
-/// Link names then match the frames.
+/// A URDF with `prefix` before every link name, to match the frames.
 std::string urdf_with_links(std::string urdf, std::string_view prefix);
 
 }  // namespace verp::record::ros

@@ -35,10 +35,10 @@ struct ObjectPose {
   std::string name;
   BodyPose pose;
 };
-/// tf2_msgs/TFMessage, one transform per object.
+/// tf2_msgs/TFMessage with a transform per object, in the frame `parent`.
 std::string objects(std::span<const ObjectPose> objects, std::uint64_t time_ns,
                     std::string_view parent = "world");
-/// Empty: another message.
+/// Decodes objects(). Empty: not such a message.
 std::vector<ObjectPose> read_objects(std::string_view message);
 
 /// First angle to last; inf: nothing within range.
@@ -58,7 +58,7 @@ std::string joint_state(const Params& params, const std::int32_t (&position_coun
 /// JSON by kControlSchema.
 std::string control(const Params& params, const Inputs& inputs, const State& state,
                     const Outputs& outputs);
-/// Body frame; orientation unknown.
+/// Gyro and accelerometer, rotated into the body frame; orientation is marked as unknown.
 std::string imu(const Params& params, const Inputs& inputs, std::uint64_t time_ns);
 /// Body, or the joint that moves the node.
 std::string frame_of(const Params& params, int node);
@@ -70,7 +70,7 @@ std::string string(std::string_view text);
 /// nullopt: another message.
 std::optional<std::string> read_string(std::string_view message);
 
-/// nullopt: another message.
+/// The body's pose in a message of transforms(); nullopt: not such a message.
 std::optional<BodyPose> body_pose(std::string_view transforms);
 
 inline double joint_rad(const JointParams& joint, std::int32_t count) {

@@ -22,7 +22,7 @@ class TeamChannel {
   const std::string& topic() const { return topic_; }
   /// A shared topic; its frames tell robots apart.
   bool is_of_all() const { return is_of_all_; }
-  /// nullopt: not of the channel's type.
+  /// Renames a message's frames. nullopt: it is not of the channel's type.
   std::optional<std::string> message(std::string_view data) const;
 
  private:

@@ -58,7 +58,7 @@ struct ObjectsAt {
   std::vector<ros::ObjectPose> objects;
 };
 
-/// All that replay needs.
+/// One run of the controller, in memory: all that replay needs.
 struct Trace {
   std::filesystem::path file;
   Params params;
@@ -90,7 +90,7 @@ enum class Read {
 /// Throws TraceError if missing, truncated, edited, foreign or of another layout.
 Trace read_trace(const std::filesystem::path& file, Read mode = Read::kStrict);
 
-/// Empty: unknown.
+/// Version of the core that decided these ticks; empty: unknown.
 std::string core_of(const Trace& trace);
 
 /// Source revision, core version, compiler and flags.

@@ -46,7 +46,7 @@ class Source {
     }
   }
 
-  /// False: left out.
+  /// False: the merged file does not have this message.
   bool write(const mcap::Message& message, mcap::Writer& to) const {
     const auto channel = channels_.find(message.channel);
     if (channel == channels_.end()) return false;

@@ -27,7 +27,7 @@ std::string writer_of(const mcap::StringMap& metadata) {
   return revision == metadata.end() ? "another revision" : "revision " + revision->second;
 }
 
-/// Errors name a byte.
+/// Builds a Trace from a parsed file; every error names a byte.
 class Loader {
  public:
   Loader(const fs::path& path, const mcap::File& file) : path_(path), file_(file) {

@@ -51,7 +51,7 @@ class Client {
   std::vector<std::uint8_t> read(std::uint8_t id, std::uint16_t address, std::uint16_t length);
   void write(std::uint8_t id, std::uint16_t address, const std::vector<std::uint8_t>& data);
 
-  /// One read without retry.
+  /// One read without a retry; false: it failed.
   bool read_once(std::uint8_t id, std::uint16_t address, std::uint16_t length);
 
   int tries() const { return tries_; }

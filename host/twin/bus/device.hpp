@@ -37,7 +37,7 @@ class Device {
 
   /// Stores all of a write or nothing; the plant is at the arrival time.
   virtual dxl::Error write(std::uint16_t address, std::span<const std::uint8_t> data);
-  /// Keeps a write until action().
+  /// Keeps a write until action(), or returns the reason for refusing it.
   dxl::Error reg_write(std::uint16_t address, std::span<const std::uint8_t> data);
   dxl::Error action();
 

@@ -104,7 +104,7 @@ void VirtualBus::speak(const std::vector<Device*>& speakers, bool at_once, Say&&
   wait_us(first_us);
   std::vector<Voice> voices;
   for (std::size_t i = 0; i < speakers.size(); ++i) {
-    // No two clocks agree.
+    // No two clocks agree: each device starts one bit later.
     const std::uint64_t late_us = delay_us(speakers[i]) - first_us;
     const auto late_bits = static_cast<std::uint32_t>(late_us * baud_ / 1'000'000 + i);
     voices.push_back({say(*speakers[i]), late_bits});

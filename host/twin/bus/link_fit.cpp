@@ -19,7 +19,7 @@ constexpr int kSilent = 10;                        // stop after so many unanswe
 constexpr std::uint16_t kBytes = 4;                // Present Position, as in every tick
 constexpr int kShortest_ms = 4, kLongest_ms = 20;  // Params::period_us
 
-/// Id of the first answering servo.
+/// Id of the first servo that answers; nothing if the caller gave up.
 std::optional<std::uint8_t> somebody(Client& client, const Params& params,
                                      const std::function<bool()>& give_up) {
   for (int j = 0; j < params.servo_count() && !give_up(); ++j) {

@@ -132,7 +132,7 @@ bool LockstepServer::send_frames(const lockstep::Advance& advance) {
 
 void LockstepServer::advance(const lockstep::Advance& advance, std::vector<std::uint8_t>& answer) {
   if (asks_again(advance.sequence)) {
-    // The controller sends a repeat alone.
+    // The controller sends a repeat alone, so other frames with it are not its own.
     frames_.clear();
     answer.insert(answer.end(), last_.begin(), last_.end());
     return;

@@ -34,7 +34,7 @@ class LockstepServer : public LockstepSession {
   dxl::Error set_upright(std::uint8_t value);
   void hello(const lockstep::Hello& hello, std::vector<std::uint8_t>& answer);
   void advance(const lockstep::Advance& advance, std::vector<std::uint8_t>& answer);
-  /// True: a tick has begun.
+  /// Puts the frames since the last Advance on the bus; true: a tick has begun.
   bool send_frames(const lockstep::Advance& advance);
   /// False: the controller must stop.
   bool send_frame(std::span<const std::uint8_t> frame, bool intact);

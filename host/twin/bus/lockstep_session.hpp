@@ -12,7 +12,7 @@ namespace verp::bus {
 struct SessionHooks {
   /// A controller's hello, first or after a reset.
   std::function<void()> greeted;
-  /// The text names the difference.
+  /// A controller was refused; the text names what differs.
   std::function<void(const std::string&)> refused;
   /// All frames of a tick (first: of the bring-up) are sent; the plant has not advanced. False: the
   /// controller must stop.
@@ -21,7 +21,7 @@ struct SessionHooks {
   std::function<void(std::uint32_t tick)> tick_begins;
   /// Before this poll, frames were damaged, lost or duplicated.
   std::function<void()> damaged;
-  /// A client asks; false: not now.
+  /// A client asks to set the robot upright. False: not now.
   std::function<bool()> set_upright;
 };
 
@@ -50,7 +50,7 @@ class LockstepSession {
     bool begins = false;
   };
   Meeting meet(const lockstep::Hello& hello, const SessionHooks& hooks);
-  /// True: repeat the last answer.
+  /// True if this number was answered already and the server must repeat the answer.
   bool asks_again(std::uint8_t sequence);
   void note_answer(std::uint8_t sequence);
   void note_damage(const SessionHooks& hooks);

@@ -47,7 +47,7 @@ class Aerial {
   virtual void listen() = 0;
 };
 
-/// Its messages take their bus time.
+/// A robot's radio on its servo bus; its messages take their bus time.
 class ModemDevice final : public Device {
  public:
   /// `aerial` must outlive the device.

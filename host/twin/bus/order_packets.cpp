@@ -24,7 +24,7 @@ void append_write(std::vector<std::uint8_t>& bytes, std::uint16_t address,
   bytes.insert(bytes.end(), packet, packet + size);
 }
 
-// request to action_request are adjacent.
+// request to action_request are adjacent: one write carries one order.
 std::size_t append_order(std::vector<std::uint8_t>& bytes, const app::OperatorOrder& order) {
   const Command& command = order.command;
   std::vector<std::uint8_t> data = {static_cast<std::uint8_t>(command.request), command.sequence};

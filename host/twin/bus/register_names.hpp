@@ -17,7 +17,7 @@ std::string hardware_errors(unsigned bits);
 /// Sorted by address; empty: unknown model.
 std::span<const NamedRegister> registers_of(std::uint16_t model);
 
-/// nullptr: no such register.
+/// nullptr: the model has no such register.
 const NamedRegister* find_register(std::uint16_t model, std::string_view name);
 
 /// The Markdown page firmware/app/registers.md.

@@ -35,7 +35,7 @@ class RegisterTable {
   /// kNone: `data` covers whole, writable, unlocked registers with values in range.
   dxl::Error check(std::uint16_t address, std::span<const std::uint8_t> data,
                    bool eeprom_locked) const;
-  /// `data` at `address` must cover `reg`.
+  /// Value of `reg` in a write of `data` at `address`, which must cover `reg`.
   static std::int64_t value_in(const Register& reg, std::uint16_t address,
                                std::span<const std::uint8_t> data);
   void store(std::uint16_t address, std::span<const std::uint8_t> data);

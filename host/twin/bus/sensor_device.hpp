@@ -6,7 +6,7 @@
 
 namespace verp::bus {
 
-/// Twelve-byte sensor block (common/protocol/control_table.hpp).
+/// A sensor on the servo bus with the twelve-byte sensor block (common/protocol/control_table.hpp).
 class SensorDevice : public Device {
  protected:
   SensorDevice(std::uint8_t id, std::uint16_t model, std::uint32_t baud, sim::Plant& plant);

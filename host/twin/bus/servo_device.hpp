@@ -42,7 +42,7 @@ class ServoDevice final : public Device {
   void reset_goals();
   void refresh_motion(const sim::ServoMeasurement& measured);
   std::uint8_t moving_status(const sim::ServoMeasurement& measured) const;
-  /// Single-turn, multi-turn or current-based.
+  /// True for position control: single-turn, multi-turn or current-based.
   bool steers_position() const;
   bool reverse() const;
   int sign() const { return reverse() ? -1 : 1; }

@@ -17,7 +17,7 @@ constexpr int kPositions = 9;
 constexpr std::uint8_t kAllReplies = 2;  // e-Manual, Status Return Level (68)
 constexpr std::int32_t kStill = 6;       // counts, half a degree: a hand trembles
 
-/// Baud Rate (8), likely ones first.
+/// All servo baud rates (e-Manual, Baud Rate (8)), likely ones first.
 constexpr std::array<std::uint32_t, 8> kRates = {dxl::kFactoryBaud, 1'000'000, 2'000'000, 115'200,
                                                  3'000'000,         4'000'000, 4'500'000, 9'600};
 
@@ -100,7 +100,8 @@ void configure(SetupLine& line, FoundServo& servo, std::uint8_t id, std::uint32_
   const Setting settings[] = {{"status_return_level", at::kStatusReturnLevel, kAllReplies},
                               {"torque_enable", at::kTorqueEnable, 0},
                               {"return_delay", at::kReturnDelay, 0},
-                              // Zero and direction depend on these.
+                              // As in the control loop, because the zero and the direction depend
+                              // on them.
                               {"drive_mode", at::kDriveMode, dxl::kTimeBasedProfile},
                               {"operating_mode", at::kOperatingMode, dxl::kPositionMode}};
   if (!dry_run) make_it_answer(*client, from, changed);

@@ -26,7 +26,7 @@ struct Change {
 /// A link whose servos may have different baud rates. Throws what Client throws.
 class SetupLine {
  public:
-  /// Rate of the robot's bus.
+  /// `baud`: the rate of the robot's bus.
   SetupLine(const link::Endpoint& endpoint, std::uint32_t baud);
 
   /// On a link without a rate, always the same client.

@@ -4,7 +4,7 @@
 #include "host/twin/bus/servo_device.hpp"
 #include "host/twin/bus/servo_registers.hpp"
 
-// EEPROM, and actions at power-on.
+// The settings that a servo keeps without power, and what it does at power-on.
 namespace verp::bus {
 
 using namespace servo;

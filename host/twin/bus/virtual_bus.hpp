@@ -52,7 +52,7 @@ class VirtualBus {
   void set_real_time(bool real_time) { real_time_ = real_time; }
   /// Baud rate of the master's port.
   void set_baud(std::uint32_t baud);
-  /// Only bytes advance time.
+  /// Holds the plant: only bytes advance time.
   void hold_plant() { held_ = true; }
   /// Time restarts at 0; devices keep their settings, bytes on the wire are lost.
   void begin_time();
@@ -66,7 +66,7 @@ class VirtualBus {
   /// Advances to `time_us`; stores arriving bytes and returns their number. At `capacity` bytes,
   /// time stops with the last one.
   std::size_t bring_until(std::uint64_t time_us, std::uint8_t* buffer, std::size_t capacity);
-  /// Discards what arrives.
+  /// Advances time to `time_us` and discards what arrives.
   void let_pass(std::uint64_t time_us) {
     std::uint8_t unheard[hal::kMaxFrame];
     while (now_us() < time_us) bring_until(time_us, unheard, sizeof unheard);

@@ -58,7 +58,7 @@ class ClientBus {
 };
 static_assert(hal::CanBus<ClientBus>);
 
-/// For example "6064:0" in hexadecimal.
+/// "6064:0", the usual form of an object's address; both parts are hexadecimal.
 std::string to_text(canopen::Address at);
 
 /// SDO client for the CANopen nodes on an interface, one transfer at a time. The PC has no node id.
@@ -94,7 +94,7 @@ class Client {
 
  private:
   canopen::SdoChannel channel_to(std::uint8_t node);
-  /// kNone: success.
+  /// Reason of the failure; kNone: success.
   canopen::Abort upload(std::uint8_t node, canopen::Address at, int attempts,
                         std::vector<std::uint8_t>& data);
   /// Reads the remaining objects until the node falls silent.

@@ -51,7 +51,7 @@ class DriveApplication {
     std::uint16_t gains[3] = {};
   };
   Settings settings() const;
-  /// Call after restart().
+  /// Restores stored settings; call it after restart().
   void restore(const Settings& settings);
 
   /// Power-on or NMT reset: all objects as commissioned, no torque.

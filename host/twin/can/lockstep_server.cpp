@@ -139,7 +139,7 @@ void LockstepServer::advance(const lockstep::CanAdvance& advance, std::vector<Ca
     return;
   }
   if (asks_again(advance.sequence)) {
-    // The controller sends a repeat alone.
+    // The controller sends a repeat alone, so other frames with it are not its own.
     frames_.clear();
     answer.insert(answer.end(), last_.begin(), last_.end());
     return;

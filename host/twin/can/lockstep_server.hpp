@@ -39,9 +39,9 @@ class LockstepServer : public bus::LockstepSession {
  private:
   void hello(const lockstep::Hello& hello, std::vector<CanFrame>& answer);
   void advance(const lockstep::CanAdvance& advance, std::vector<CanFrame>& answer);
-  /// False: the session has ended.
+  /// Puts the frames since the last CanAdvance on the bus. False: no more ticks.
   bool send_frames(bool whole);
-  /// `room`: already used in the answer.
+  /// Fills last_ with the next burst, as far as it fits an answer with `room` already used.
   void bring_burst(std::uint32_t timeout_us, std::size_t room);
   /// Returns the room that the frame takes.
   std::size_t bring_enclosed(std::vector<CanFrame>& answer);

@@ -16,7 +16,7 @@ class OtherNodes {
   explicit OtherNodes(const Params& params) : nodes_(params) {}
 
   void take(const CanFrame& frame);
-  /// 0: found none.
+  /// First detected node; 0: none.
   std::uint8_t found() const { return found_; }
 
  private:

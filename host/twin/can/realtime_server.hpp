@@ -35,7 +35,7 @@ class RealtimeServer {
   /// answers to a fast master would come later and later.
   void hear(std::span<const ReceivedFrame> frames, std::uint64_t clock_us,
             std::vector<CanFrame>& answer);
-  /// Does nothing before the first frame.
+  /// Advances to `clock_us` without a frame; does nothing before the first frame.
   void turn(std::uint64_t clock_us, std::vector<CanFrame>& answer);
   void finished(std::uint64_t clock_us);
 
@@ -45,7 +45,8 @@ class RealtimeServer {
   const Counters& counters() const { return counters_; }
 
  private:
-  /// Never before the bus's time.
+  /// Target time of the bus; never before its present time, because frames may be older than a
+  /// skip.
   std::uint64_t due_us(std::uint64_t clock_us) const;
   void skip(std::uint64_t clock_us);
   void go_on(std::uint64_t clock_us, std::vector<CanFrame>& answer);

@@ -23,7 +23,7 @@ class SensorApplication {
   sim::Plant& plant_;
 
  private:
-  /// 0: no such object.
+  /// Number of elements in an object; 0: no such object.
   virtual std::uint8_t count(std::uint16_t index) const = 0;
   virtual std::uint16_t number(std::uint16_t index, int i) const = 0;
 };

@@ -71,9 +71,9 @@ class VirtualCan {
   void set_real_time(bool real_time) { real_time_ = real_time; }
   /// The next frame by `time_us`; without one, time advances to `time_us`.
   bool bring_until(std::uint64_t time_us, CanFrame& frame);
-  /// The next poll returns what arrives.
+  /// Advances time to `time_us`; the next poll returns what arrives.
   void go_on_until(std::uint64_t time_us);
-  /// Discards what arrives.
+  /// Advances time to `time_us` and discards what arrives.
   void let_pass(std::uint64_t time_us) {
     CanFrame unheard;
     while (bring_until(time_us, unheard)) {
@@ -122,7 +122,7 @@ class VirtualCan {
   static constexpr std::uint64_t kNever_ns = ~std::uint64_t{0};
 
   Place* place_of(std::uint8_t id);
-  /// False: no event begins by `limit_ns`.
+  /// Runs the next event that begins by `limit_ns`; false if there is none.
   bool step(std::uint64_t limit_ns);
   /// kNever_ns if no frame waits.
   std::uint64_t next_begin_ns() const;

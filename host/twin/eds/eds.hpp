@@ -9,7 +9,7 @@
 /// Electronic data sheets (EDS, CiA 306) for tools of other makers.
 namespace verp::eds {
 
-/// Numbers of CiA 301.
+/// Data type numbers of CiA 301.
 enum class DataType : std::uint16_t {
   kInteger8 = 0x02,
   kInteger16 = 0x03,
@@ -65,7 +65,7 @@ std::vector<Object> communication_objects(const canopen::DeviceSize& size,
 /// The robot's controller (firmware/app/controller_objects.hpp).
 Description controller();
 
-/// The twin's devices (host/twin/can/device_node.hpp).
+/// The twin's devices (host/twin/can/device_node.hpp): a drive of the ready robots, IMU, foot.
 Description drive();
 Description imu();
 Description foot();

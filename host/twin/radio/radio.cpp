@@ -176,7 +176,7 @@ Fate Radio::fate(const Message& message, int station, std::span<const Place> pla
   return hit ? Fate::kLost : Fate::kHeard;
 }
 
-/// The same in both directions.
+/// Drawn for the pair: the same in both directions.
 bool Radio::faded(int a, int b, std::uint64_t time_us) const {
   const auto window =
       static_cast<std::uint64_t>(static_cast<double>(time_us) / (kSecond_us * conditions_.fade_s));

@@ -71,7 +71,7 @@ class Radio {
 
   /// Time must not go backwards, here or in advance().
   Sent send(int from, int to, std::string data, std::uint64_t now_us);
-  /// `places`: antennas of the stations.
+  /// Ends all messages that are over by now; `places` are the antenna positions of the stations.
   void advance(std::uint64_t now_us, std::span<const Place> places);
   /// Messages in order of arrival, up to the last advance().
   std::vector<ReceivedMessage> take(int station);

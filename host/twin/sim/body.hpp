@@ -51,13 +51,13 @@ class Body {
   JointLoad load(int joint) const;
   /// The joint's link and all beyond, about its axis, in the present pose.
   std::vector<double> inertias_kg_m2() const;
-  /// Scales the inertia; the shape stays.
+  /// Changes the mass and scales the inertia; the shape stays.
   void set_mass(int node, double mass_kg);
   /// About the link's x, y or z. Throws std::invalid_argument unless it stays positive definite.
   void set_inertia(int node, int axis, double inertia_kg_m2);
-  /// The velocities stay.
+  /// Moves the whole robot; its velocities stay.
   void move(const Transform& by_world);
-  /// About the body's origin.
+  /// Adds a rigid velocity to the whole robot; the rotation is about the body's origin.
   void add_velocity(const Vec3& linear_world_m_s, const Vec3& angular_world_rad_s);
   dBodyID ode_body(int node) const { return links_[static_cast<std::size_t>(node)].body; }
   std::vector<GeomTag*> tags(int node) const;
@@ -66,7 +66,7 @@ class Body {
   void release();
   bool held() const { return hold_ != nullptr; }
 
-  /// Counts whole turns.
+  /// Counts turns: no jump at half a revolution.
   double angle_rad(int joint) const { return angle_rad_[static_cast<std::size_t>(joint)]; }
   double rate_rad_s(int joint) const { return rate_rad_s_[static_cast<std::size_t>(joint)]; }
   const std::vector<double>& angles_rad() const { return angle_rad_; }

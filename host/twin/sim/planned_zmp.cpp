@@ -37,7 +37,7 @@ Place actual(const FootTruth& foot) {
 std::optional<Vec2> planned_zmp_world_m(const Tuning& tuning, const gait::GaitState& gait,
                                         const Truth& truth) {
   if (gait.queued == 0 || !truth.foot[0].present || !truth.foot[1].present) return std::nullopt;
-  // Goals run ahead of the robot.
+  // Goals run ahead of the robot, which may still be in the previous step.
   std::int32_t time_us = gait.clock_us - math::to_int32(tuning.gait.look_ahead_s * 1e6F);
   const gait::Step& step = time_us < 0 ? gait.previous : gait.queue[0];
   if (time_us < 0) time_us += step.duration_us();

@@ -74,7 +74,7 @@ class Plant {
   virtual ServoMeasurement measure(int joint) = 0;
   virtual ServoRating rating(int) const { return {}; }
   virtual ImuMeasurement imu() = 0;
-  /// Front-left, front-right, back-left, back-right.
+  /// Normal force counts of one foot: front-left, front-right, back-left, back-right.
   virtual std::array<std::uint16_t, 4> foot_counts(int foot) = 0;
 };
 

@@ -29,7 +29,7 @@ Probes::Probes(const model::Entity& entity, Body& body, int owner, bool noise, s
     wrench_.emplace_back(each, Random(seed, Draw::kForceTorque, index++));
     body.meter(each.node - 1);
   }
-  // Contacts have no noise.
+  // Contacts have no noise: nothing is drawn from that stream.
   for (const model::ContactSensor& each : entity.contacts)
     contact_.emplace_back(each, Random(seed, Draw::kForceTorque));
   index = 0;

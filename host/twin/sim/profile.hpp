@@ -11,12 +11,12 @@ class Profile {
  public:
   explicit Profile(double count) : goal_count_(count), count_(count) {}
 
-  /// Ends the profile.
+  /// Sets position and speed and ends the profile.
   void stand(double count, double speed_count_s = 0);
   /// step_s: the loop's period, the duration of a step profile.
   void begin(const ServoSetpoint& setpoint, double step_s);
   void advance(double step_s);
-  /// Velocity mode; acceleration 0: at once.
+  /// Velocity mode: accelerates to that speed with at most `accelerate_count_s2`; 0: at once.
   void follow_speed(double goal_count_s, double accelerate_count_s2, double step_s);
 
   double goal_count() const { return goal_count_; }

@@ -21,7 +21,7 @@ struct Thing {
   std::function<Transform()> pose;
   std::function<void(double mass_kg)> set_mass;
   std::function<void(int axis, double inertia_kg_m2)> set_inertia;
-  /// Free-standing things only.
+  /// Only free-standing things; a link follows its robot.
   std::function<void(const Transform& by_world)> move;
   std::function<void(const Vec3& linear_world_m_s, const Vec3& angular_world_rad_s)> add_velocity;
 

@@ -16,7 +16,7 @@ Vec3 along(int axis, double value) {
   return value * Vec3::Unit(axis);
 }
 
-/// One per world axis.
+/// Three quantities, one per world axis.
 struct Vector {
   std::string name, unit, what;
   double most = 0;
@@ -85,7 +85,7 @@ Quantity read_only(std::string name, const char* unit, const char* what,
   return {std::move(name), unit, what, 0, 0, std::move(read), {}};
 }
 
-/// Turns about the thing's origin.
+/// Turns the thing about its own origin until one of its angles has this value.
 void turn_to(const Thing& thing, int axis, double value_rad) {
   const Transform now = thing.pose();
   Vec3 rpy = angles_of(now);

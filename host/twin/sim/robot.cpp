@@ -16,7 +16,7 @@ constexpr double kRadPerDegree = std::numbers::pi / 180;
 /// Least body height above the feet as a share of its initial value, or largest tilt.
 constexpr double kFallenHeight = 0.6;
 constexpr double kFallenTilt = 1.0;
-// Older ones are dropped.
+// If nobody takes the scans, the oldest are dropped.
 constexpr std::size_t kMostScans = 1000;
 
 double made_for_v(const model::Entity& entity) {
@@ -178,7 +178,7 @@ void TwinRobot::update_servos(double step_s) {
   for (std::size_t j = 0; j < servo_.size(); ++j) {
     const double rate_rad_s = body_.rate_rad_s(static_cast<int>(j));
     servo_[j].finish(rate_rad_s, step_s);
-    // Torque of everything but the servo.
+    // The rest of the world applied what the servo did not.
     external_n_m_[j] += inertia_kg_m2_[j] * rate_rad_s / step_s - servo_[j].torque_n_m();
     current_a += servo_[j].supply_current_a();
     joint_work_j_ += std::max(0.0, servo_[j].torque_n_m() * rate_rad_s) * step_s;

@@ -74,7 +74,7 @@ class TwinRobot final : public Plant, private Actor {
 
   std::uint64_t now_us() const override { return world_.now_us(); }
   void advance_to(std::uint64_t time_us) override { time_->advance_to(time_us); }
-  /// A follower's is its driver's.
+  /// For a follower: the set-point of its driver's servo.
   ServoSetpoint& setpoint(int joint) override {
     return setpoint_[static_cast<std::size_t>(motor_of(joint))];
   }
@@ -107,7 +107,7 @@ class TwinRobot final : public Plant, private Actor {
   double weight_n() const { return body_.mass_kg() * world_.options().gravity_m_s2; }
   /// Steps since the start; per joint, steps with duty at its limit.
   std::uint64_t steps() const { return steps_; }
-  /// New since the last call.
+  /// Scans that became available since the last call, with the time of each.
   std::vector<Scan> take_scans() { return std::exchange(scans_, {}); }
   std::vector<Exposure> take_exposures() { return shutters_.take(); }
   ProbeReadings take_readings() { return probes_.take(); }

@@ -30,7 +30,7 @@ class Scenery final : private Actor {
   Transform pose(std::size_t index) const;
   /// Poses in the order of model::moving().
   std::vector<Transform> moving_poses() const;
-  /// A dynamic object; its velocity stays.
+  /// For a dynamic object: moves it at once; its velocity stays.
   void place(std::size_t index, const Transform& pose_world);
 
  private:

@@ -37,7 +37,7 @@ struct ServoConstants {
   double heat_capacity_j_k = 74.0;
   double thermal_resistance_k_w = 13.0;
   double ambient_c = 25.0;
-  /// Copper, IEC 60028.
+  /// Copper's temperature coefficient, IEC 60028.
   double copper_per_k = 0.00393;
   /// XM430 Current Limit register: 1193 units of 2.69 mA, 1.4 times the stall current at 12 V.
   /// Back-driven motors exceed stall torque up to this limit.
@@ -67,7 +67,7 @@ class ServoModel {
   /// the joint besides this servo; with the motor's it loads the gears.
   Drive drive(const ServoSetpoint& setpoint, double angle_rad, double rate_rad_s,
               double external_n_m, double supply_v, double step_s);
-  /// rate_rad_s: the joint's new speed.
+  /// Ends the step; rate_rad_s is the joint's new speed.
   void finish(double rate_rad_s, double step_s);
 
   /// Positive as counts increase.

@@ -228,7 +228,7 @@ struct Panel {
     }
   }
 
-  /// Completes the pair's own block.
+  /// The pair's own block, after the earlier columns are summed.
   VERP_INLINE void finish(Index r, double z11, double z21, double z22) const {
     for (Index k = first; k < r; ++k) {
       const double p1 = at(k, r), p2 = at(k, r + 1);

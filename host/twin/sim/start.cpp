@@ -23,7 +23,7 @@ double uniform(Random& random, double low, double high) {
   return low + (high - low) * 0.5 * (1 + random.uniform(-1, 1));
 }
 
-/// Inside their limits, without intersecting links.
+/// Angles inside their limits at which no links intersect.
 std::vector<double> any_angles(const model::Entity& entity, Random& random) {
   constexpr int kMostDraws = 1000;
   std::vector<double> angle_rad;

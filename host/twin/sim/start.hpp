@@ -5,7 +5,7 @@
 
 namespace verp::sim {
 
-/// Includes the variation by the seed.
+/// Angles and pose at the start, including the seed's variation.
 struct Start {
   std::vector<double> joint_rad;
   Transform body_world;  ///< the root link's frame

@@ -56,7 +56,7 @@ class FootLoads {
   Vec2 moment_n_m_ = Vec2::Zero();
 };
 
-/// Counter-clockwise, without collinear points.
+/// Counter-clockwise convex hull without collinear points.
 std::vector<Vec2> convex_hull(std::vector<Vec2> points);
 
 /// (roll, pitch, yaw) of Rz(yaw) Ry(pitch) Rx(roll).

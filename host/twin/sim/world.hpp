@@ -29,7 +29,7 @@ struct Surface {
 
 inline constexpr int kScenery = -1;
 
-/// A number from World::new_owner(), or kScenery.
+/// Owner of a geometry: a number from World::new_owner(), or kScenery.
 struct GeomTag {
   int owner = kScenery;
   int node = 0;  ///< link of the owner's Entity
@@ -139,7 +139,7 @@ class World final : public TimeSource {
                               const RayFilter& filter = {}) const;
   /// Highest surface below 1.5 m within around_m: where a robot can stand.
   double height_m(double x_m, double y_m, double around_m) const;
-  /// Holds from the next step on.
+  /// From the next step on; the direction stays.
   void set_gravity(double gravity_m_s2);
   /// Null: no plane.
   GeomTag* ground_tag() { return ground_; }

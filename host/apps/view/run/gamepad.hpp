@@ -3,7 +3,7 @@
 
 namespace verp::view {
 
-/// From -1 to 1.
+/// From -1 to 1; 0 near the middle.
 struct Sticks {
   double ahead = 0, left = 0, turn = 0;
   bool operator==(const Sticks&) const = default;

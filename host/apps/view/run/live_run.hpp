@@ -45,7 +45,7 @@ class LiveRun {
   void tick_once();
   /// 1: real time; 0: unpaced.
   void set_speed(double factor);
-  /// Played or paused as before.
+  /// Restarts the run and its record, played or paused as before.
   void reset();
 
   /// Handles for actions between two ticks.
@@ -65,7 +65,7 @@ class LiveRun {
 
   /// Saves a trace. These return empty or the reason.
   std::string save(const std::filesystem::path& file);
-  /// Completes the record.
+  /// Ends the run and completes its record. Returns empty or the reason.
   std::string finish();
 
   struct Status {

@@ -10,7 +10,7 @@ class Pace {
   /// 1: real time; 0: unpaced.
   void set_speed(double factor, double simulated_s, double wall_s);
   double speed() const { return speed_; }
-  /// Earlier delay is not made up.
+  /// Restarts here: earlier delay is not made up.
   void begin(double simulated_s, double wall_s);
 
   /// Wait before a tick. A delay above kMostLate_s is not made up: a busy PC never makes a run

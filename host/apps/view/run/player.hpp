@@ -27,7 +27,7 @@ class Player {
   /// Restarts a run; rewinds a trace.
   void reset();
 
-  /// True at a run's newest instant.
+  /// True while a run's newest instant is shown.
   bool follows() const { return follows_; }
   double shown_s() const { return shown_s_; }
   /// Null: nothing to show. Call once a frame with the wall time.

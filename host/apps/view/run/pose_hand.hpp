@@ -40,9 +40,9 @@ class PoseHand {
 
  private:
   kinematics::LegChain chain(int side) const;
-  /// Joints with motors of their own.
+  /// Joints between the body and that link that have their own motors.
   std::vector<std::size_t> joints_to(int node) const;
-  /// False: nothing moved.
+  /// One step of move_link(); false if nothing moved.
   bool step_to(const std::vector<std::size_t>& joints, int node, const scene::Vec3& point_link_m,
                const scene::Vec3& to_body_m);
 

@@ -21,7 +21,7 @@ std::vector<Signal> signals_of(const scene::Entity& entity, bool beside = false)
 std::vector<float> values_of(const scene::RobotView& robot, const scene::Entity& entity,
                              const scene::RobotView* beside = nullptr);
 
-/// -1: no such label.
+/// -1: no signal has that label.
 int signal_number(const std::vector<Signal>& all, const std::string& label);
 
 }  // namespace verp::view

@@ -9,7 +9,7 @@ class Steering {
  public:
   explicit Steering(const Params& params);
 
-  /// Quarters; turn to the left.
+  /// Quarters ahead, to the left, and of a turn to the left.
   void nudge(int ahead, int left, int turn);
   /// Sticks, -1 to 1; all 0: stand.
   void lean(double ahead, double left, double turn);

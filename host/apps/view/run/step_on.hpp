@@ -15,7 +15,7 @@ class StepOn {
   /// `player` must outlive it.
   StepOn(const scene::TracePlayer& player, std::size_t index);
 
-  /// Stops at the trace's end.
+  /// Runs so many ticks; stops at the trace's end.
   void on(int ticks);
   /// As an operator would: one a tick, from the next tick on.
   void write(int id, float value) { writes_.emplace_back(id, value); }
@@ -25,7 +25,7 @@ class StepOn {
   const Inputs& inputs() const { return player_.trace().ticks[index_].inputs; }
   const State& state() const { return state_; }
   const Outputs& outputs() const { return outputs_; }
-  /// The recorded digest so far.
+  /// True if the run so far has the recorded digest.
   bool same_bits() const;
 
  private:

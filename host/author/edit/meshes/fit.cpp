@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kThin_m = 1e-3;  // a solid needs thickness
 
-/// None, and along the principal axes.
+/// Candidate rotations: none, and along the points' principal axes.
 std::vector<Mat3> turns(const Triangles& mesh) {
   Vec3 mean = Vec3::Zero();
   for (const Vec3& p : mesh.points_m) mean += p / double(mesh.points_m.size());

@@ -19,7 +19,7 @@ class Drawer {
   /// One picture, with depth two. Noise depends only on the robot's seed, the camera and the time.
   /// Throws std::invalid_argument for an unknown robot or link.
   std::vector<Picture> draw(const Moment& moment, std::uint32_t camera);
-  /// Throws std::invalid_argument for an unknown view.
+  /// From outside. Throws std::invalid_argument for an unknown view.
   Picture draw(const Moment& moment, const Outside& from);
 
  private:
