@@ -31,10 +31,8 @@ void add_bus_option(CLI::App& app, std::string& bus);
 /// the range, also for NaN, infinity and trailing characters.
 double parse_number(const std::string& text, double low, double high, const std::string& unit);
 
-/// Validates a number option by the rules of parse_number().
 CLI::Validator number_between(double low, double high, const std::string& unit);
 
-/// Validates a whole-number option; accepts digits only.
 CLI::Validator whole_number_between(std::uint64_t low, std::uint64_t high);
 
 }  // namespace verp::cli

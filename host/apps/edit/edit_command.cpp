@@ -118,7 +118,6 @@ int change(const EditWords& words, bool may_be_new, const Change& make) {
   return cli::kGood;
 }
 
-/// In the order of help.
 class Verbs {
  public:
   Verbs(CLI::App& edit, std::shared_ptr<EditWords> words) : edit_(edit), words_(std::move(words)) {}

@@ -35,7 +35,6 @@ inline const char* c_text(const std::string& text, const char* what) {
   throw Error(VERP_BAD_ARGUMENT, std::string(what) + " has a zero character in it");
 }
 
-/// One robot's controller, without a world.
 class Core {
  public:
   explicit Core(const std::string& model = "generic21", const char* bus = nullptr,
@@ -109,7 +108,6 @@ class Core {
   std::unique_ptr<verp_core, Close> core_;
 };
 
-/// One tick, passed to a controller.
 class Moment {
  public:
   explicit Moment(const verp_moment& moment) : moment_(moment) {}

@@ -19,7 +19,7 @@ struct PictureOptions {
 
 void declare_picture(CLI::App& app, PictureOptions& options, const std::string& file_help);
 
-/// Width and height of --size. Throws ToolError.
+/// Throws ToolError.
 render::Size size_of(const std::string& command, const PictureOptions& options);
 
 /// Includes --marks.

@@ -27,7 +27,7 @@ struct ActionRobot {
 /// links to, join them or replace one of the same name. Throws LoadError.
 ActionRobot load_action_robot(const ActionWords& words);
 
-/// Number of the named action. Throws LoadError.
+/// Throws LoadError.
 int require_action(const ActionRobot& robot, const ActionWords& words);
 
 /// `named`: one of the robot's actions, or a file.

@@ -29,7 +29,6 @@ struct BenchRow {
   }
 };
 
-/// `values` must not be empty.
 double median(std::vector<double> values);
 
 /// One heading per place; `headings` describe places ("mps2_an386": "Cortex-M4F ...").

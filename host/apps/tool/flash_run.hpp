@@ -13,7 +13,6 @@ class App;
 
 namespace verp::tool {
 
-/// The checked command line of `verp flash`.
 struct FlashOptions {
   std::string board, port, tool;
   std::string params;   ///< an image, or a robot

@@ -27,7 +27,6 @@ struct LiveOptions {
   std::vector<std::string> origins = {};  ///< further web pages that may watch
 };
 
-/// Declares --live, --live-wait and --live-origin.
 void declare_live(CLI::App& app, LiveOptions& options);
 
 /// Streams to viewers on this PC (host/trace/live). Does nothing without --live.
@@ -49,7 +48,6 @@ class LiveStream final : public session::Observer {
   void run_beside_real_time();
   void finish();
 
-  /// Summary of the stream; empty without --live.
   std::string text() const;
   void add_to(cli::Json& json) const;
 

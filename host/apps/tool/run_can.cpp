@@ -30,7 +30,6 @@ class PatientCan {
   std::uint64_t now_us() { return port_.now_us(); }
   hal::CanErrors errors() const { return port_.errors(); }
 
-  /// Sets the allowance, beyond the time of the frames.
   void set_held(std::uint32_t held_us) { held_us_ = held_us; }
 
  private:

@@ -63,7 +63,7 @@ class TwinInLockstep {
   }
   void report(const app::LoopHealth&) {}
 
-  // Lockstep loses nothing: what was sent has arrived.
+  // Lockstep loses nothing.
   LetGo let_go(int) const { return torque_ ? LetGo::kNo : LetGo::kYes; }
 
  private:

@@ -24,7 +24,6 @@ class SetupReport {
   const std::string& file() const { return file_; }
   /// The file exists, from any run.
   bool written() const { return written_; }
-  /// One line per joint of the robot.
   std::string text(const Params& params) const;
 
  private:

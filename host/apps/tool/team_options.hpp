@@ -24,7 +24,6 @@ struct TeamOptions {
 /// Declares only --robots, for commands with local controllers.
 void declare_robots(CLI::App& app, TeamOptions& options);
 void declare_outside(CLI::App& app, TeamOptions& options);
-/// Declares --radio, with an optional value.
 void declare_radio(CLI::App& app, std::optional<std::string>& radio);
 
 /// Values of MODEL and --robot: NAME=... goes to `seats`, another value is the model. True: there

@@ -22,7 +22,7 @@ struct TraceWords {
   double rate = 1;   ///< play: times real time
 };
 
-/// Loads the trace and prints its warnings; `recover` accepts a damaged trace.
+/// `recover` accepts a damaged trace.
 record::Trace load_trace(const TraceWords& words);
 /// -o must not name the trace.
 void refuse_same_file(const TraceWords& words);

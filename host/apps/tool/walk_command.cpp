@@ -58,7 +58,6 @@ void require_one_robot(const WalkOptions& options, const std::vector<WalkPlan>& 
                                    option));
 }
 
-/// A scenario file holds one run.
 void refuse_many_runs_in_a_scenario(const WalkOptions& options) {
   const char* option = !options.seeds_text.empty()   ? "--seeds"
                        : !options.map.kind.empty()   ? "--map"

@@ -13,7 +13,7 @@ std::string driver_of(const session::WalkPlan& plan);
 /// Null for a controller elsewhere.
 cli::Json digest_json(const session::WalkPlan& plan, const session::WalkResult& result);
 
-/// Way of the body from its start to its end, in the world.
+/// The body's way in the world.
 sim::Vec2 way_of(const session::WalkPlan& plan, const session::WalkResult& result);
 
 std::string outside_text(const session::WalkPlan& plan, const session::WalkResult& result);

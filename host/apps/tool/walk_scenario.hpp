@@ -10,7 +10,7 @@
 /// Command line to Scenario; errors name the wrong option.
 namespace verp::tool {
 
-/// The robot of MODEL. Throws ToolError.
+/// Throws ToolError.
 scenario::Robot robot_of(const WalkOptions& options);
 scenario::World world_of(const WalkOptions& options);
 sim::Lies lies_of(const WalkOptions& options);

@@ -24,7 +24,6 @@ class RunFiles final : public session::Observer {
   void finish_others(const std::vector<WalkResult>& results);
   /// Path of a robot's trace, or empty.
   std::string name(std::size_t robot) const;
-  /// Missing files of all robots but the first.
   std::vector<std::string> lost_of_others() const;
 
  private:

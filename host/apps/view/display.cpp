@@ -69,7 +69,6 @@ void listen_to_xlib() {
 void hear_qt(QtMsgType type, const QMessageLogContext&, const QString& text) {
   if (type == QtFatalMsg) {
     hear_drivers();
-    // No window yet: no platform plugin could start.
     cli::complain("verp view: the display " +
                   std::string(std::getenv("DISPLAY") ? std::getenv("DISPLAY") : "") +
                   " cannot be opened; is DISPLAY right? Without one, try `verp shot` or "

@@ -48,7 +48,6 @@ void MainWindow::get_up() {
   if (!player_->playing()) player_->play();
 }
 
-/// Enabled for a fallen robot without torque that has actions.
 void MainWindow::show_get_up(const scene::RobotView& robot) {
   const bool can = live() != nullptr && !live()->setup().plan().actions.empty();
   const bool limp = !safety::has_torque(static_cast<safety::Mode>(robot.mode));

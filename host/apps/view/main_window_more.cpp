@@ -80,7 +80,6 @@ void MainWindow::show_state() {
           : QString("Goes on by itself: %1 fields are not as recorded").arg(state_->different()));
 }
 
-/// 0: back to the record.
 void MainWindow::step_on(int ticks) {
   if (!trace_) return;
   const scene::TracePlayer& player = trace_->player();

@@ -4,7 +4,7 @@
 
 namespace verp::view {
 
-/// The run for the options of `verp view`. Throws what `verp walk` would.
+/// Throws what `verp walk` would.
 RunSetup run_of(const tool::WalkOptions& options);
 
 }  // namespace verp::view

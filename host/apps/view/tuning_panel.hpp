@@ -16,7 +16,6 @@ class TuningPanel final : public QWidget {
  public:
   TuningPanel(QUndoStack& undo, QWidget* parent = nullptr);
 
-  /// `live`: the numbers can be changed.
   void set_robot(const Tuning& own, bool live);
   /// Numbers in effect.
   void show_tuning(const Tuning& tuning);

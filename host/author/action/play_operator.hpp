@@ -20,7 +20,6 @@ class PlayOperator {
 
   bool done() const { return done_; }
   double played_s() const { return played_s_; }
-  /// Why the robot did not obey, or empty.
   const char* failed() const { return failed_; }
 
  private:

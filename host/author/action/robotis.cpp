@@ -44,7 +44,6 @@ Document document_of(const Params& params, const Page& page) {
   return document;
 }
 
-/// The fault of a page, or empty.
 std::string wrong_with(const Page& page) {
   if (sum_of(page) != 0xFF) return fmt::format("a wrong checksum (byte {})", kChecksum);
   if (page[kStepCount] > kSteps)

@@ -8,7 +8,7 @@ namespace verp::action {
 
 using Torques = std::array<double, kMaxJoints>;
 
-/// Support of a robot in an action; carrying soles stand level.
+/// Carrying soles stand level.
 class Support {
  public:
   explicit Support(const Params& params) : params_(params) {}

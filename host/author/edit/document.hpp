@@ -60,7 +60,6 @@ class Document {
   std::string child_text(int element, std::string_view child) const;
   std::string attribute(int element, std::string_view name) const;
   int child(int element, std::string_view name) const;  ///< -1: none
-  /// The innermost element around a line.
   int at_line(int line) const;
 
  private:

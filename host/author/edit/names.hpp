@@ -5,7 +5,6 @@
 
 #include "host/author/edit/document.hpp"
 
-/// Names of parts, and where other parts mention them.
 namespace verp::edit {
 
 /// The name without "verp:".

@@ -138,7 +138,6 @@ const Saying* saying_of(Tool tool, const std::string& output) {
   return nullptr;
 }
 
-/// State of the flash after a failed step.
 std::string aftermath(const Step& step) {
   const bool wrote = step.kind == Step::Kind::kWrite || step.kind == Step::Kind::kReadBack ||
                      step.kind == Step::Kind::kCompare;

@@ -16,7 +16,7 @@ struct FlashHooks {
 /// Runs until a step fails. Throws FlashError; unless it says otherwise, nothing was written.
 void run(const Job& job, const std::vector<Step>& steps, const FlashHooks& hooks);
 
-/// Folder for runs: $VERP_FLASH_DIR, or build/flash.
+/// $VERP_FLASH_DIR, or build/flash.
 std::filesystem::path work_root();
 
 /// One run's folder: work_root()/BOARD; at first it holds only contents that a failed run could not

@@ -6,7 +6,7 @@
 #include "common/model/params.hpp"
 #include "host/boards/flash/memory_map.hpp"
 
-/// Checks which files may be written where. All functions throw FlashError for invalid files.
+/// These throw FlashError for invalid files.
 namespace verp::flash {
 
 /// loop_<board> or loop_can_<board>; neither can drive the other's robot. Throws FlashError without

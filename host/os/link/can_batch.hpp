@@ -8,7 +8,6 @@
 
 #include "common/base/can_frame.hpp"
 
-/// Conversion between CAN frames and the kernel's structures.
 namespace verp::link {
 
 canfd_frame to_kernel(const CanFrame& frame);

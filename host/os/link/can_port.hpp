@@ -66,7 +66,6 @@ class CanPort {
   void drop_what_waits();
   /// Reads frames as far as there is room.
   void drain();
-  /// False: the kernel has no more frames for now.
   bool receive_some();
   void take(CanBatch& batch, std::size_t index, std::uint64_t now_ns, std::uint64_t now_wall_ns);
   bool take_from_inbox(CanFrame& frame);

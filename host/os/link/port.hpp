@@ -11,7 +11,6 @@
 
 namespace verp::link {
 
-/// A file descriptor with one owner.
 class Descriptor {
  public:
   explicit Descriptor(int number = -1) : number_(number) {}
@@ -44,7 +43,6 @@ class Port {
   /// Called after a loss.
   virtual void close() = 0;
   virtual std::uint32_t retry_us() const = 0;
-  /// Endpoint for a peer; see Link::place().
   virtual std::string place() const = 0;
   /// Baud set by a peer; 0: none.
   virtual std::uint32_t rate() const { return 0; }

@@ -88,7 +88,6 @@ class PtyPort final : public Port {
   std::string place() const override { return path_.empty() ? name_ : path_; }
 
  private:
-  /// Target of the symbolic link at path_; empty if there is none.
   std::string target() const {
     std::array<char, 64> target{};
     return ::readlink(path_.c_str(), target.data(), target.size() - 1) > 0 ? target.data() : "";

@@ -36,7 +36,6 @@ class Child {
   Child& operator=(const Child&) = delete;
 
   pid_t id() const { return pid_; }
-  /// Sends a signal to the process group.
   void tell(int signal) const;
   /// Exit status, or 128 + signal; nothing while it runs; does not wait.
   std::optional<int> status();

@@ -264,7 +264,6 @@ inline std::vector<std::size_t> outward(const Entity& entity) {
   return order;
 }
 
-/// Value of protocol="..." in a file.
 const char* protocol_name(BusProtocol protocol);
 
 }  // namespace verp::model

@@ -42,7 +42,7 @@ const char* meaning(ImageFault fault) {
   return "unknown";
 }
 
-/// Name of the first invalid number; empty: all are valid.
+/// Empty: all numbers are valid.
 std::string bad_number(const Params& params) {
   FieldName bad;
   numbers_fit(params, bad);

@@ -82,7 +82,6 @@ struct FixFact {
   bool fixes(const std::string& name) const;
 };
 
-/// A joint turned by another joint's motor.
 struct MimicFact {
   XmlElement at;
   std::string joint, driver;

@@ -33,7 +33,7 @@ struct Hinge {
   int direction;
 };
 
-/// Writes one humanoid. `side` is +1 on the left and -1 on the right.
+/// `side` is +1 on the left and -1 on the right.
 class HumanoidWriter {
  public:
   explicit HumanoidWriter(RobotTable& table) : t_(table) {}

@@ -74,7 +74,6 @@ void check_channels(const XmlSource& source, const Facts& facts, const Entity& e
                                  "objects",      "changed",     "robot_description"};
   for (const LaserSensor& each : entity.lasers) taken.insert(each.name);
   for (const CameraSensor& each : entity.cameras) taken.insert(each.name);
-  /// Returns the error, or an empty text.
   const auto take = [&](const std::string& topic) -> std::string {
     if (!is_topic(topic)) return "'" + topic + "' is no name of a channel";
     return taken.insert(topic).second ? "" : "another channel is called /" + topic;

@@ -22,7 +22,6 @@ class RobotTable {
   bool has(const std::string& key) const { return entries_.contains(key); }
   /// Keys with this prefix, in table order.
   std::vector<std::string> keys(const std::string& beginning) const;
-  /// Throws LoadError at the key's line.
   [[noreturn]] void fail(const std::string& key, const std::string& message,
                          const std::string& fix) const;
   /// Throws LoadError with the first unread key.

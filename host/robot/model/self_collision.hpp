@@ -22,7 +22,6 @@ std::vector<Overlap> overlaps(const Entity& entity, const std::vector<double>& j
 /// Number of joints between two links; kMaxJoints if neither carries the other.
 int joints_between(const Entity& entity, int link, int other);
 
-/// Links that overlap in a resting pose.
 struct Clash {
   Overlap overlap;
   const char* pose;

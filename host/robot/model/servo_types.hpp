@@ -29,7 +29,6 @@ struct ServoType {
   std::string source;
 };
 
-/// Comma-separated names, for error messages.
 template <class Type>
 std::string names_of(const std::vector<Type>& types) {
   std::string list;

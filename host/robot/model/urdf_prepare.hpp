@@ -27,7 +27,6 @@ class PreparedUrdfs {
   PreparedUrdfs(const PreparedUrdfs&) = delete;
   PreparedUrdfs& operator=(const PreparedUrdfs&) = delete;
 
-  /// The copy of this file, or the file itself.
   std::string copy_of(const std::string& path) const;
   /// Its line numbers mean nothing to users.
   bool is_copy(const std::string& path) const;

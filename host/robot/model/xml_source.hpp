@@ -25,7 +25,6 @@ class XmlElement {
   std::vector<XmlElement> children() const;
   std::vector<XmlElement> children(const char* name) const;
 
-  /// Throws LoadError at this element.
   [[noreturn]] void fail(const std::string& message, const std::string& fix) const;
 
   /// Throws LoadError for any other attribute, inner element or text.

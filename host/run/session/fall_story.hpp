@@ -13,7 +13,7 @@ class FallStory {
   /// `tries` in a row; 0: unknown.
   explicit FallStory(int tries = 0) : most_(tries) {}
 
-  /// Observes the last tick. Returns news as text; empty: none.
+  /// Returns news as text, or empty.
   std::string observe(const State& state, const Outputs& outputs);
 
   int falls() const { return falls_; }

@@ -18,7 +18,6 @@ class FallVerdict {
     (torque || tipping_ ? fell_ : lay_down_) = true;
   }
 
-  /// The user set it on its feet.
   void set_upright() { tipping_ = lay_down_ = false; }
 
   void forget() { fell_ = lay_down_ = false; }

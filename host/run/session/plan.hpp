@@ -85,7 +85,7 @@ struct Hooks {
   bool open_end = false;                 ///< only the caller ends the run, no fall or length
 };
 
-/// Traffic on a CAN bus from the first tick on.
+/// From the first tick on.
 struct CanTraffic {
   double bits_per_tick = 0, bare_bits_per_tick = 0;  ///< with and without stuff bits
   std::uint32_t overruns = 0;                        ///< lost by the controller

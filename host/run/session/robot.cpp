@@ -271,7 +271,6 @@ void Robot::count_traffic() {
                  each_tick(can_->bare_bits_on_wire(), bare_bits_before_), can_->errors().overruns};
 }
 
-/// A full disk ends the trace, not the walk.
 void Robot::append(const sim::Truth& truth, const std::vector<sim::Scan>& scans) {
   try {
     const record::ros::BodyPose body = pose_of(truth.body_world);

@@ -27,7 +27,6 @@ class Robot {
   Robot(sim::World& world, const WalkPlan& plan, Hooks hooks, Interrupted interrupted);
 
   const WalkPlan& plan() const { return plan_; }
-  /// The plan's actions, which orders select by number.
   const action::Library& actions() const { return actions_; }
   std::string name() const { return plan_.name.empty() ? plan_.params.name : plan_.name; }
   sim::TwinRobot& twin() { return twin_; }

@@ -19,7 +19,6 @@ struct Options {
   std::function<bool()> interrupted;  ///< at each tick; true ends the run
 };
 
-/// Two robots would start in the same place.
 class NoRoom : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
@@ -91,7 +90,7 @@ class Observer {
   virtual ~Observer() = default;
   /// A robot joins; the observer may set hooks.
   virtual void join(std::size_t, const WalkPlan&, Hooks&) {}
-  /// All robots have joined, before the first tick.
+  /// All robots have joined.
   virtual void begin(Session&) {}
   /// A robot's tick, or its controller keeps the world waiting.
   virtual void tick(std::size_t, Robot&) {}

@@ -43,7 +43,6 @@ class Check {
   const std::string& gap() const { return gap_; }
 
  protected:
-  /// `own`: this robot's actions on this PC.
   Check(const Params& params, const action::Library& own) : params_(params), own_(own) {}
   ~Check() = default;
 

@@ -44,7 +44,6 @@ class TickListener {
 
   void take(const CanFrame& frame);
   bool next(HeardTick& tick);
-  /// Ticks whose digest or record was missed.
   std::uint64_t missed() const { return missed_; }
   /// A boot since the last call.
   bool take_boot();

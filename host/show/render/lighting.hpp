@@ -17,9 +17,7 @@ class Lighting {
  public:
   Lighting() { make_shadow_map(kShadowTexels); }
 
-  /// The light that casts shadows, or -1.
   static int shadow_light(const scene::Scene& scene, const Effects& effects);
-  /// Draws solid items as the sun sees them.
   void draw_shadows(const std::vector<Placed>& placed, const Mat4& sun, const Effects& effects);
   /// The program in use, with a picture's shared uniforms.
   Program& program(const scene::Scene& scene, const View& view, const Effects& effects,

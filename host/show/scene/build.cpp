@@ -136,7 +136,6 @@ class RobotBuilder {
     add(index, node.name, Shape::kBox, edges_m, pose);
   }
 
-  /// Adds the file's camera and draws its lens.
   void add_camera(const model::CameraSensor& sensor) {
     scene_.cameras.push_back({sensor.name, robot_, sensor.node, sensor.pose,
                               sensor.horizontal_fov_rad(), sensor.width_px, sensor.height_px,

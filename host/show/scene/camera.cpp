@@ -24,7 +24,6 @@ Vec3 around(double azimuth_rad, double elevation_rad) {
           std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad)};
 }
 
-/// Heading of the link's x axis.
 double heading_rad(const Transform& body) {
   const Vec3 ahead = body.linear().col(0);
   return std::atan2(ahead.y(), ahead.x());

@@ -9,7 +9,6 @@
 /// Values of the robot's sensors, where the truth is unknown.
 namespace verp::scene {
 
-/// Text of a name in Params.
 std::string text_of(const char (&name)[kNameLength]);
 
 std::vector<double> measured_rad(const Inputs& inputs, const Params& params);

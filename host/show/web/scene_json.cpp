@@ -57,7 +57,6 @@ Json rgb(const scene::Colour& c) {
   return {c.r, c.g, c.b};
 }
 
-/// viewer.js has a studio of its own.
 Json air_json(const scene::Scene& scene) {
   Json lights = Json::array();
   for (const scene::Light& light : scene.lights) {

@@ -24,11 +24,9 @@ class Motion {
   /// Begin of a gait or action after the first tick. nullopt: never, or this program decides
   /// differently from the recording one.
   const std::optional<double>& begun_s() const { return begun_s_; }
-  /// When the operator first ordered a walk or an action.
   const std::optional<double>& ordered_s() const { return ordered_s_; }
   /// End of the last ordered walk; 0: there was none.
   double walked_until_s() const { return walked_until_s_; }
-  /// Gait cycle in force at the end.
   double cycle_s() const { return cycle_s_; }
   const Command& order(double time_s) const;
 

@@ -26,7 +26,6 @@ void set_number(model::Entity& entity, const std::string& type, const Number& nu
 
 /// Null: there is no such servo.
 const model::Servo* servo_of(const model::Entity& entity, const std::string& type);
-/// Each type once, in joint order.
 std::vector<std::string> types_of(const model::Entity& entity);
 
 }  // namespace verp::identify

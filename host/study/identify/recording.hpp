@@ -10,7 +10,6 @@ namespace verp::identify {
 
 /// Goals and positions of all servos, from the first to the last tick with full torque.
 struct Recording {
-  /// Counts of each joint in one tick.
   struct Tick {
     std::uint32_t slot = 0;   ///< control periods since the first tick
     std::uint32_t fresh = 0;  ///< bit j: joint j was read

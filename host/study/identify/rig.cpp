@@ -36,7 +36,6 @@ sim::ServoSetpoint armed(const Params& params, int joint, std::int32_t goal) {
   return setpoint;
 }
 
-/// Removes all that does not move the joints.
 model::Entity bare(model::Entity entity) {
   for (model::Node& node : entity.nodes) {
     node.collisions.clear();

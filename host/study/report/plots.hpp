@@ -4,7 +4,6 @@
 
 #include "host/study/report/run_data.hpp"
 
-/// gnuplot scripts that contain their data.
 namespace verp::report {
 
 /// Plots to stdout; the caller sets the terminal, `width` by `height` pixels.

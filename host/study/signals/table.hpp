@@ -22,7 +22,7 @@ class Table {
   bool next();
   std::size_t index() const { return index_; }  ///< in Trace::ticks
   double time_s() const { return numbers_[1]; }
-  /// Value in this tick. NaN: unknown.
+  /// NaN: unknown.
   double number(std::size_t column) const;
   /// CSV: empty if unknown.
   void append_text(std::size_t column, std::string& out) const;

@@ -16,7 +16,6 @@ class Connection {
  public:
   using Clock = std::chrono::steady_clock;
   enum class Stage { kGreeting, kRefused, kOpen, kGone };
-  /// Receives a complete message, text or binary.
   using OnMessage = std::function<void(bool is_text, std::string_view message)>;
 
   /// `origins`: further allowed ones; they outlive the connection.

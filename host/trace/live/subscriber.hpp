@@ -8,7 +8,6 @@
 
 namespace verp::live {
 
-/// A message, shared by all its viewers.
 struct Stamped {
   std::uint64_t time_ns = 0;
   std::shared_ptr<const std::string> data;

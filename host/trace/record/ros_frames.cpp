@@ -5,7 +5,6 @@
 namespace verp::record::ros {
 namespace {
 
-/// Size of a number type in bytes; 0: not a number.
 std::size_t size_of(std::string_view type) {
   static const std::map<std::string_view, std::size_t> kSizes = {
       {"bool", 1},   {"byte", 1},    {"char", 1},   {"int8", 1},   {"uint8", 1},

@@ -34,7 +34,6 @@ inline constexpr const char* kTraceFormat = "1";
 /// Period of kept States (design.md section 8); also kept at every change of the fault bits.
 inline constexpr std::uint64_t kKeyframeTicks = 125;
 
-/// State after the tick at `index` of Trace::ticks.
 struct Keyframe {
   std::size_t index = 0;
   State state;
@@ -90,7 +89,7 @@ enum class Read {
 /// Throws TraceError if missing, truncated, edited, foreign or of another layout.
 Trace read_trace(const std::filesystem::path& file, Read mode = Read::kStrict);
 
-/// Version of the core that decided these ticks; empty: unknown.
+/// Empty: unknown.
 std::string core_of(const Trace& trace);
 
 /// Source revision, core version, compiler and flags.

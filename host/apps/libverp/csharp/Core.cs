@@ -73,7 +73,6 @@ namespace Verp {
       fixed (uint* said = &flags) Checked(Native.verp_core_leg_ik(handle, side, pose, null, to, said));
       return angle_rad;
     }
-    /// <summary>Plans a walk, tick by tick; see verp_plan.</summary>
     public verp_plan[] Plan(double vx_m_s, double vy_m_s, double wz_rad_s, uint ticks, uint stop = 0) {
       var plan = new verp_plan[ticks <= Native.VERP_MOST_PLANNED ? ticks : 1];  // the library refuses more
       fixed (verp_plan* to = plan) Checked(Native.verp_core_plan(handle, vx_m_s, vy_m_s, wz_rad_s, to, ticks, stop));

@@ -30,7 +30,6 @@ namespace Verp {
     }
   }
 
-  /// <summary>A trace that replays bit for bit.</summary>
   public struct Replayed {
     public ulong Ticks, Digest;
 

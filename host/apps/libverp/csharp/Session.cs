@@ -14,7 +14,6 @@ namespace Verp {
     public bool OpenEnd;
   }
 
-  /// <summary>A world and its robots, run one control tick at a time.</summary>
   public sealed unsafe partial class Session : Handle {
     readonly List<verp_tick[]> ticks = new List<verp_tick[]>();
     readonly List<GCHandle> pinned = new List<GCHandle>();  // the library writes there
@@ -108,7 +107,6 @@ namespace Verp {
       fixed (byte* to = state) Checked(Native.verp_session_state(handle, robot, to, state == null ? 0 : (ulong)state.Length));
     }
 
-    /// <summary>Ends the runs of all robots and completes their traces.</summary>
     public verp_result Result(uint robot = 0) {
       var result = new verp_result { size = (uint)sizeof(verp_result) };
       Checked(Native.verp_session_result(handle, robot, &result));
@@ -148,7 +146,6 @@ namespace Verp {
       return room;
     }
     public void GiveBack(uint robot = 0) { Checked(Native.verp_session_give_back(handle, robot)); }
-    /// <summary>While pressed, the robot is limp.</summary>
     public void EmergencyStop(bool pressed = true, uint robot = 0) {
       Checked(Native.verp_session_emergency_stop(handle, robot, pressed ? 1 : 0));
     }

@@ -20,7 +20,6 @@ class Pace {
   /// The delay, even if not made up.
   double late_s() const { return late_s_; }
 
-  /// Real-time factor over the last second.
   double factor() const;
   void ticked(double simulated_s, double wall_s);
 

@@ -25,7 +25,6 @@ class StepOn {
   const Inputs& inputs() const { return player_.trace().ticks[index_].inputs; }
   const State& state() const { return state_; }
   const Outputs& outputs() const { return outputs_; }
-  /// True if the run so far has the recorded digest.
   bool same_bits() const;
 
  private:

@@ -24,7 +24,6 @@ struct Filling {
 };
 Filling filling(const Triangles& mesh);
 
-/// The smallest solid of that kind around all points.
 Solid fitted(const Triangles& mesh, Solid::Kind kind);
 
 }  // namespace verp::edit
