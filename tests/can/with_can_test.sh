@@ -18,7 +18,7 @@ is() { # what got wanted
 }
 processes() { pgrep -f "$scratch/tmp"; }
 nothing_left() { # after-what
-  for _ in {1..40}; do
+  for _ in {1..600}; do
     [[ -z $(processes) ]] && break
     sleep 0.05
   done
@@ -37,7 +37,7 @@ launch_and_interrupt() { # signal wanted-status
   env --default-signal=INT setsid "$with_can" --vm --writable "$scratch/kept" \
     sh -c "echo yes >'$scratch/kept/started'; sleep 100" 2>/dev/null &
   process=$!
-  for _ in {1..400}; do
+  for _ in {1..2400}; do
     [[ -s $scratch/kept/started ]] && break
     sleep 0.05
   done
