@@ -9,8 +9,8 @@ missing() { echo "$1" && failed=1; }
 
 boards_of_full='mps2_an385 mps2_an500 mps3_an547 nucleo_f446re'
 # The core, and readers of foreign bytes.
-sanitized='unit math replay contract hil host.action host.bus host.can host.edit host.eds host.files host.libverp host.link host.live
-  host.model host.radio host.record host.shadow host.tool.verp_tool_test.input_tests'
+sanitized='unit math replay contract host.action host.bus host.can host.edit host.eds host.files host.link host.live host.model host.radio
+  host.record host.shadow'
 # Bits of every instruction set, loops over every bus, walks, faults, gates.
 kept='replay.golden replay.matrix trace.mps2_an386 loop.mps2_an386 tour.mps2_an386 bench.mps2_an386 unit.mps2_an386 hil.olimex_h405.walk
   budget.olimex_h405 budget.opencr trace.qemu_rv32 can.qemu_rv32 trace.zcu102_r5 can.zcu102_r5 can_loop.zcu102_r5
@@ -18,7 +18,7 @@ kept='replay.golden replay.matrix trace.mps2_an386 loop.mps2_an386 tour.mps2_an3
   gate.symbols gate.layers gate.format gate.merge launcher.promises contract.mps2_an386'
 merge=$(tests/run --plan) full=$(tests/run --plan --full)
 
-runs_board() { grep -q "^fw-$2 tests: ctest " <<<"$1"; } # plan board
+runs_board() { grep -q "^boards tests: .* $2 .* ctest " <<<"$1"; } # plan board
 boards=$(sed -nE 's/.*"name": "fw-([a-z0-9_]+)".*/\1/p' CMakePresets.json | sort -u)
 for board in $boards; do
   runs_board "$full" "$board" || missing "tests/run: not even --full runs the board $board"
@@ -30,7 +30,7 @@ promised=$(sed -nE 's/.*kPromisedBoard = "([a-z0-9_]+)".*/\1/p' host/boards/boar
   missing "tests/run: the merge gate leaves out ${promised:-?}, the board of the cost promises (host/boards/board/cost_promise.hpp)"
 
 option() { sed -nE "s/^$1 tests: .* -$2 ([^ ]+).*/\1/p" <<<"$merge"; } # stage letter
-left_out=$(option fw-mps2_an386 E)
+left_out=$(option boards E)
 for each in $kept; do
   [[ $left_out && ! $each =~ $left_out ]] || missing "tests/full.md: the merge gate leaves out $each"
 done
@@ -38,13 +38,13 @@ names=$(option host-asan-ubsan R)
 for each in $sanitized; do
   [[ $names && $each.0 =~ $names ]] || missing "tests/run: the sanitizers of the merge gate leave out $each"
 done
-grep -q 'TEST_LIST input_tests' tests/host/tool/CMakeLists.txt || missing 'tests/host/tool: no list of input_tests'
 grep -q '^host-asan-ubsan tests: ' <<<"$full" || missing 'tests/run: --full has no sanitizers'
 [[ ! $(sed -nE 's/^host-release tests: .* -E ([^ ]+).*/\1/p' <<<"$full") ]] || missing 'tests/run: --full leaves tests out'
 
 # Suite.Name for GoogleTest, the name for CMake.
 tests=$(grep -rhozE --include='*_test.cpp' 'TEST(_F|_P)?\(\w+,\s*\w+\)' tests | tr -d '\n ' | tr '\0' '\n' | sed -E 's/.*\((.*),(.*)\)/\1.\2/'
-  grep -rhoE --include=CMakeLists.txt --include='*.cmake' 'NAME [a-z0-9_.]+' tests | sed 's/.* //')
+  grep -rhoE --include=CMakeLists.txt --include='*.cmake' 'NAME [a-z0-9_.]+' tests | sed 's/.* //'
+  grep -oE 'verp_can_(test|split)\([a-z.]+ [a-z_.]+' tests/can/CMakeLists.txt | sed 's/.* //; p; s/$/.more/')
 of_boards=$(grep -rhoE --include=CMakeLists.txt --include='*.cmake' '\w+\.\$\{VERP_BOARD|_test\(\w+ ' boards | sed -E 's/.*\(//; s/[. ].*//')
 is_there() { # `*` is any part of a name
   local board kind=${1%%.*}
