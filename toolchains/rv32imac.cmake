@@ -14,7 +14,7 @@ set(verp_picolibc /usr/lib/picolibc/riscv64-unknown-elf)
 file(GLOB verp_riscv_cxx /usr/include/newlib/c++/*)
 set(verp_riscv_flags "${verp_riscv_cpu} -ffunction-sections -fdata-sections -ftls-model=local-exec")
 set(CMAKE_C_FLAGS_INIT "${verp_riscv_flags} -isystem ${verp_picolibc}/include")
-# For the headers' extern templates. No threads and no exit, as on Arm.
+# No library has the headers' extern templates. No threads and no exit, as on Arm.
 set(CMAKE_CXX_FLAGS_INIT
   "${verp_riscv_flags} -isystem ${verp_riscv_cxx} -isystem ${verp_riscv_cxx}/arm-none-eabi -isystem ${verp_picolibc}/include \
 -D_GLIBCXX_EXTERN_TEMPLATE=0 -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-use-cxa-atexit")

@@ -9,6 +9,7 @@
 #include "hal/chip/stm32/watchdog.hpp"
 #include "robot_port.hpp"
 
+/// The chip's drivers and their start-up. They are static, so that interrupts find them.
 namespace verp::board {
 
 using Io = stm32::MemoryIo;

@@ -39,9 +39,10 @@ constexpr std::uint64_t kGreeting_us = 300'000;
 constexpr std::uint64_t kForever_us = ~std::uint64_t{0};
 /// Silence after which a twin's torque no longer blocks the operator.
 constexpr std::uint64_t kTwinSilent_us = 5'000'000;
-/// Ticks of 5 to 20 ms; shorter would fire when a lost reply delays the loop.
+/// For ticks of 5 to 20 ms. A shorter timeout would fire when a lost reply delays the loop.
 constexpr std::uint32_t kWatchdog_us = 100'000;
 
+// After this many ticks a run counts as healthy.
 constexpr std::uint32_t kSettledTicks = 1000;
 /// A real-time loop stops serving the operator so long before the period ends: one SysTick
 /// millisecond, if the compare interrupt is late, and a slice of bytes.
@@ -93,6 +94,7 @@ struct Board {
     if (sign.changed) gpio.write(kLed, sign.lit);
     say(sign.tone);
   }
+  // Stops all ticks and torque for good and keeps reporting the reason.
   [[noreturn]] void refuse(StartFault why) {
     fault = why;
     operator_device.show(why);

@@ -41,6 +41,7 @@ class ServoPower {
     if (relax_asked && !gpio_.read(stop_)) taken_ = false;
     if (!on_ && gpio_.read(stop_)) taken_ = true;
   }
+  /// A stop cut the power, and permit() has not allowed it again.
   bool taken() const { return exists() && taken_; }
   dxl::controller::ServoPower state() const {
     using State = dxl::controller::ServoPower;

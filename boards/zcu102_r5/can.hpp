@@ -10,7 +10,7 @@ namespace verp::board {
 class Can0Io {
  public:
   Can0Io() {
-    // PMCR: every 64th cycle; PMCNTENSET: that counter (ARMv7-AR ARM, B4.1.116).
+    // PMCR: cycle counter on, every 64th cycle; PMCNTENSET: that counter (ARMv7-AR ARM, B4.1.116).
     __asm__ volatile(
         "mcr p15, 0, %0, c9, c12, 0\n"
         "mcr p15, 0, %1, c9, c12, 1\n" ::"r"(0xDu),
@@ -29,8 +29,8 @@ class Can0Io {
     last_ = count;
     return (high_ + count) * 64 / kCyclesPerUs;
   }
-  /// Nothing wakes this core. It counts for some microseconds: polling at once would stop QEMU's
-  /// other threads.
+  /// Nothing wakes this core. It counts for some microseconds: polling again at once would stop
+  /// QEMU's other threads.
   void doze_until(std::uint64_t) {
     for (int i = 0; i < kPause; ++i) __asm__ volatile("");
     asked_ = 0;

@@ -43,6 +43,7 @@ KeptFault check_kept(const void* bytes, std::size_t size, const Params& params);
 /// check_kept() for whichever robot the mark names.
 KeptFault check_any_kept(const void* bytes, std::size_t size);
 
+/// Bytes of a sound library and its mark, for any robot; 0: none.
 std::size_t kept_size(const void* bytes, std::size_t size);
 
 struct KeptLibrary {

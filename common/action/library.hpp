@@ -11,7 +11,7 @@ namespace verp::action {
 /// Raise when the image's layout or meaning changes.
 inline constexpr std::uint32_t kLibraryVersion = 1;
 inline constexpr char kLibraryMagic[8] = {'V', 'E', 'R', 'P', 'A', 'C', 'T', '1'};
-inline constexpr int kMaxActions = 255;  ///< 0 means no action
+inline constexpr int kMaxActions = 255;  ///< a number is one byte, 0: no action
 inline constexpr int kMaxFrames = 4096;
 
 struct LibraryHeader {
@@ -33,14 +33,15 @@ struct Action {
 };
 VERP_PACKED(Action);
 
-/// The controller starts these itself: a pose that bears a fall, and getting up from each side.
+/// The controller starts these actions itself: a pose that bears a fall, and getting up from each
+/// side.
 inline constexpr char kFallSafe[kNameLength] = "fall_safe";
 inline constexpr char kGetUpFront[kNameLength] = "get_up_front";
 inline constexpr char kGetUpBack[kNameLength] = "get_up_back";
 inline constexpr char kGetUpLeft[kNameLength] = "get_up_left";
 inline constexpr char kGetUpRight[kNameLength] = "get_up_right";
 
-/// A frame that returns to the stand: `next`, `otherwise` or `exit`.
+/// As `next`, `otherwise` or `exit` of a frame: back to the stand.
 inline constexpr std::uint16_t kToStand = 0xFFFF;
 
 enum class Condition : std::uint8_t {
@@ -95,7 +96,7 @@ enum class LibraryFault : std::uint8_t {
 inline constexpr const char* kLibraryFaultNames[] = {
     "none", "truncated", "no action library", "of another version", "damaged", "out of bounds"};
 
-/// View of an image that must outlive it.
+/// View of an image, which must outlive the view. Without an image there are no actions.
 class Library {
  public:
   constexpr Library() = default;

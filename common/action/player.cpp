@@ -7,7 +7,7 @@
 namespace verp::action {
 namespace {
 
-constexpr float kLies_up = 0.5F;     // more than 60 degrees of tilt
+constexpr float kLies_up = 0.5F;     // cosine of the tilt: more than 60 degrees
 constexpr float kUpright_up = 0.9F;  // less than 26 degrees
 constexpr float kAtStand_rad = 0.005F;
 constexpr float kLeastReturn_s = 0.4F, kMostReturn_s = 10.0F;
@@ -105,6 +105,7 @@ PlayerOut look(const Params& params, const Library& library, const PlayerState& 
   return out;
 }
 
+// Starts a motion from the present angles and rates.
 void set_out(const Params& params, const Library& library, const PlayerIn& in, PlayerState& state) {
   float rate_rad_s[kMaxJoints] = {};
   const PlayerOut here = look(params, library, state, in, rate_rad_s);
@@ -124,7 +125,7 @@ void go_back(const Params& params, const Library& library, const PlayerIn& in, P
     const float way_rad = math::abs(in.stand_rad[j] - state.from_rad[j]);
     if ((state.moved >> j & 1U) == 0 || way_rad < kAtStand_rad) continue;
     const float limit_rad_s = math::max(params.joint[j].velocity_limit_rad_s, 0.1F);
-    // Peak speed is twice the mean.
+    // Peak speed is twice the mean, and a return takes half of the limit.
     longest_s = math::max(longest_s, math::max(4.0F * way_rad / limit_rad_s, kLeastReturn_s));
   }
   state.part = Part::kReturn;
@@ -132,8 +133,8 @@ void go_back(const Params& params, const Library& library, const PlayerIn& in, P
   state.return_us = static_cast<std::int32_t>(1e6F * math::min(longest_s, kMostReturn_s));
 }
 
-// `late_us`: since the previous motion ended. Without it a joint would rest for a tick at each key
-// frame.
+// `late_us`: time since the previous motion ended. Without it a joint would rest for a tick at each
+// key frame.
 void go_to(const Params& params, const Library& library, const PlayerIn& in, std::uint16_t frame,
            std::int32_t late_us, PlayerState& state) {
   if (frame == kToStand) return go_back(params, library, in, state);

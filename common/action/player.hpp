@@ -11,14 +11,14 @@ enum class Part : std::uint8_t { kFrame = 0, kReturn = 1 };
 struct PlayerState {
   std::int32_t time_us = 0;  ///< in the frame or the return
   std::int32_t return_us = 0;
-  std::uint32_t moved = 0;  ///< bit j: joint j had a goal
+  std::uint32_t moved = 0;  ///< bit j: joint j had a goal since the stand
   std::uint16_t frame = 0;  ///< frame index in the library
   std::uint16_t reserved[3] = {};
   std::uint8_t number = 0;  ///< action that plays; 0: none
   std::uint8_t asked = 0;   ///< previous tick's request: each plays once
   std::uint8_t loops = 0;   ///< done so far
   Part part = Part::kFrame;
-  float carry_left = 0;  ///< left foot's share at the motion's start
+  float carry_left = 0;  ///< left foot's share of the weight at the motion's start
   float balance = 0;     ///< PlayerOut::balance at the motion's start
   float from_rad[kMaxJoints] = {};
   float from_rad_s[kMaxJoints] = {};

@@ -3,7 +3,7 @@
 namespace verp::balance {
 namespace {
 
-// about a person's; sole friction holds the rest
+// about as far as a person's; sole friction holds the rest
 constexpr float kFarthest_rad = 0.6F;
 
 }  // namespace

@@ -6,7 +6,8 @@
 /// (Params::arm_rad_per_m).
 namespace verp::balance {
 
-/// Adds the swing to the goals `angle_rad` [joint_count].
+/// Adds the swing to the goals `angle_rad` [joint_count]. Does nothing without arms or if
+/// BalanceTuning::arm_swing is 0.
 void swing_arms(const Params& params, const BalanceTuning& tuning, const gait::Posture& posture,
                 float* angle_rad);
 

@@ -7,7 +7,7 @@ constexpr float kLeastLevel2 = 0.01F;  // x axis nearly vertical: no heading
 // After a rise the joints still settle by 0.3 degrees, which would look like a bias. Tuning seeds
 // 1001-1010, 60 s at 4 cm: heading error 0.6 degrees rms, 0.9 with 0.35 s.
 constexpr float kSettle_s = 1.2F;
-// Above a MEMS gyro's bias (ICM-20648 data sheet: 5 deg/s), below real motion.
+// Per axis: above a MEMS gyro's bias (ICM-20648 data sheet: 5 deg/s), below real motion.
 constexpr float kStillRate_rad_s = 0.12F;
 // Clamps readings, so that a wrong one cannot end the calibration.
 constexpr float kMostOfOne_rad_s = 2.0F * kStillRate_rad_s;
@@ -15,7 +15,7 @@ constexpr float kMostOfOne_rad_s = 2.0F * kStillRate_rad_s;
 // robot.
 constexpr float kTremble_s = 0.25F;
 
-// Shaking: mean square over all axes of the clamped readings.
+// More is shaking: mean square over all axes of the clamped readings.
 constexpr float kMostShake_rad2_s2 = 0.045F;
 
 Vec3 clamped(const Vec3& rate_rad_s) {

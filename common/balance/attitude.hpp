@@ -10,7 +10,7 @@ namespace verp::balance {
 struct AttitudeState {
   Xyz up_body{0, 0, 1};       ///< unit vector, body frame
   Xyz slow_up_body{0, 0, 1};  ///< for the heading, with a slower accelerometer
-  float heading_rad = 0;      ///< left, since power-up, in (-pi, pi]
+  float heading_rad = 0;      ///< left turn since power-up, in (-pi, pi]
   Xyz gyro_bias_rad_s;        ///< learnt while standing still
   float still_s = 0;          ///< time stood still, up to kBestKnown_s
   float mean_s = 0;           ///< averaging time of both, up to kHeadingTime_s
@@ -21,9 +21,9 @@ struct AttitudeState {
 };
 VERP_PACKED(AttitudeState);
 
-/// Accelerometer: far longer than a step, whose accelerations average out.
+/// Time constant of the accelerometer: far longer than a step, whose accelerations average out.
 inline constexpr float kAccelTime_s = 1.0F;
-/// For the heading: an "up" that sways with each step would add degrees in a minute.
+/// Time constant for the heading: an "up" that sways with each step would add degrees in a minute.
 inline constexpr float kHeadingTime_s = 6.0F;
 /// Still for this long: the gyro's bias is known.
 inline constexpr float kCalibrated_s = 3.0F;
@@ -35,12 +35,12 @@ struct AttitudeIn {
   bool anew = false;   ///< discard the estimate
   Vec3 gyro_body_rad_s{0, 0, 0};
   Vec3 accel_body_m_s2{0, 0, 0};  ///< specific force: +g up at rest
-  bool standing = false;          ///< on both feet: may learn the bias
+  bool standing = false;          ///< stands still on both feet: may learn the bias
   float period_s = 0.01F;
 };
 
 struct AttitudeOut {
-  float roll_rad = 0;
+  float roll_rad = 0;   ///< about x, left side up positive
   float pitch_rad = 0;  ///< nose down positive
   float heading_rad = 0;
   float roll_rate_rad_s = 0;  ///< bias removed

@@ -6,9 +6,9 @@
 namespace verp::balance {
 namespace {
 
-// How fast the estimate follows the legs (critically damped): higher, encoder counts become
-// velocity noise; lower, the accelerometer's offset does. Tuning seeds 1001-1030 of random robots;
-// leads below 1001-1006.
+// How fast the estimate follows the legs (critically damped): a higher value turns encoder counts
+// into velocity noise, a lower one the accelerometer's offset. From tuning seeds 1001-1030 of
+// random robots; the leads below from 1001-1006.
 constexpr float kBelief_per_s = 22.0F;
 // Age of the IMU's data: filters and bus.
 constexpr float kTiltLead_s = 0.005F;
@@ -81,7 +81,7 @@ void stand_on_ground(const EstimatorIn& in, const Leg* leg, float period_s, Esti
   state.uneven = math::to_xyz(before + (period_s / state.stood_s) * (now - before));
 }
 
-// Tilt by the accelerometer's offset. The ground counts less as it leans.
+// Tilt that the accelerometer's offset causes. The ground counts less as it leans.
 Vec3 offset_of(const EstimatorState& state) {
   const Vec3 uneven = math::to_vec(state.uneven);
   const float part2 = uneven.squaredNorm() / (kMostUneven_rad * kMostUneven_rad);

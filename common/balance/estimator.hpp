@@ -12,7 +12,7 @@ namespace verp::balance {
 struct EstimatorState {
   /// AttitudeState's, corrected for the body's motion and the accelerometer's offset.
   Xyz up_body{0, 0, 1};
-  Xyz body_m;
+  Xyz body_m;  ///< origin of the body frame
   Xyz body_velocity_m_s;
   Xyz ahead_m;                     ///< the legs' body position minus body_m
   Xyz sole_from_body_m[kFeet];     ///< middle of each sole, odometry axes
@@ -23,8 +23,8 @@ struct EstimatorState {
   float stood_s = 0;               ///< its averaging time, up to kUnevenTime_s
   float left = 0.5F;               ///< left foot's share of the weight
   std::uint8_t feet_silent = 255;  ///< ticks since the soles' cells reported, up to 255
-  std::uint8_t blind = 255;        ///< ticks without leg motion, up to 255
-  std::uint8_t grounded = 0;       ///< 1: cells bear weight
+  std::uint8_t blind = 255;        ///< ticks since a leg last reported, up to 255
+  std::uint8_t grounded = 0;       ///< 1: the soles' cells bear weight
   std::uint8_t begun = 0;          ///< 0 until masses are known
   VERP_FIELDS(up_body, body_m, body_velocity_m_s, ahead_m, sole_from_body_m, com_from_body_m,
               com_velocity_m_s, slow_m_s, uneven, stood_s, left, feet_silent, blind, grounded,
@@ -32,7 +32,7 @@ struct EstimatorState {
 };
 VERP_PACKED(EstimatorState);
 
-/// For the soles' up. Standing in many places improves the mean.
+/// Averaging time of the soles' up: long, because standing in many places improves the mean.
 inline constexpr float kUnevenTime_s = 8.0F;
 
 struct EstimatorIn {
@@ -48,6 +48,7 @@ struct EstimatorIn {
   std::uint32_t carrying = gait::kBoth;
 };
 
+/// Does nothing without two legs or before masses are known.
 void update(const Params& params, EstimatorState& state, const EstimatorIn& in);
 
 inline Vec3 com_m(const EstimatorState& state) {

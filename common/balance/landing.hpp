@@ -23,7 +23,8 @@ inline constexpr float kOffPlan_m = 0.002F;
 void learn_landing(const Params& params, const gait::GaitState& gait, const gait::GaitOut& plan,
                    const Inputs& inputs, bool as_planned, LandingState& state);
 
-/// A landed foot returns to its plan while its servos come to rest.
+/// Aims a swing foot short of its plan. A landed foot returns to its plan while its servos come to
+/// rest.
 gait::FootPose aim(const gait::GaitState& gait, const LandingState& state, int side,
                    const gait::FootPose& planned);
 

@@ -34,6 +34,7 @@ float beyond(float value, float free) {
   return value - math::clamp(value, -free, free);
 }
 
+// Distance of the soles if the swing foot lands `by_m` off.
 float apart_m(const Params& params, const gait::Step& step, Xy by_m) {
   gait::Foothold foot[kFeet] = {step.after(gait::kLeft), step.after(gait::kRight)};
   foot[step.swing].at_m = foot[step.swing].at_m + by_m;
@@ -120,7 +121,7 @@ void swing_aside(const Params& params, const Tuning& tuning, const SteppingIn& i
   const float now_s = time_s - tuning.gait.look_ahead_s;
   Xy wanted_m{};
   if (answers(tuning, in)) {
-    // Still in the previous step, or position unknown.
+    // Still in the previous step, or position unknown: keep the offset.
     if (now_s < 0.0F || in.estimator->blind != 0) return;
     wanted_m = landing_off(params, tuning, in, step, now_s, math::atan2(body(1, 0), body(0, 0)));
   }

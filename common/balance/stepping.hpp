@@ -28,8 +28,8 @@ struct SteppingIn {
 void step_aside(const Params& params, const Tuning& tuning, const SteppingIn& in,
                 SteppingState& state, gait::GaitOut& plan);
 
-/// True if a push moves a standing robot's DCM out of its soles: it must step now. False if it may
-/// not stand on its soles.
+/// True if a push moves a standing robot's DCM out of its soles: it must step now. False if it is
+/// not known to stand on its soles.
 bool pushed(const Params& params, const Tuning& tuning, const SteppingIn& in, SteppingState& state);
 
 bool as_planned(const SteppingState& state, float most_m);

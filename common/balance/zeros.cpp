@@ -6,13 +6,13 @@ namespace verp::balance {
 namespace {
 
 constexpr float kLearning_s = 1.0F;  // averages out sway
-constexpr float kMost_rad = 0.05F;   // three zeros a degree off
+constexpr float kMost_rad = 0.05F;   // three zeros a degree off, all one way
 
 }  // namespace
 
 bool stands_flat(const std::uint16_t* foot_count) {
-  // Front left, front right, back left, back right. In the middle half, edges differ by less than 3
-  // to 1.
+  // Front left, front right, back left, back right. In the middle half, opposite edges differ by
+  // less than 3 to 1.
   const std::int32_t front = foot_count[0] + foot_count[1], back = foot_count[2] + foot_count[3];
   const std::int32_t left = foot_count[0] + foot_count[2], right = foot_count[1] + foot_count[3];
   return front < 3 * back && back < 3 * front && left < 3 * right && right < 3 * left;

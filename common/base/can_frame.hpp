@@ -50,7 +50,7 @@ struct CanFrame {
   }
 };
 
-/// The smaller one wins the bus. Bits in wire order: 11 identifier bits, RTR (SRR), IDE, the rest
+/// The smaller rank wins the bus. Bits in wire order: 11 identifier bits, RTR (SRR), IDE, the rest
 /// of an extended identifier (ISO 11898-1: a dominant 0 overwrites a recessive 1).
 constexpr std::uint32_t can_rank(const CanFrame& frame) {
   const std::uint32_t remote = frame.remote ? 1 : 0;

@@ -21,8 +21,8 @@ struct CanSampling {
 };
 
 /// The exact rate, sampled as close to `sampling.best` as possible, then with the most quanta of 8
-/// to 25. SJA1000, bxCAN and ZynqMP: at most 16 quanta before and 8 after; at least 2 after, which
-/// an SJA1000 needs to read a bit.
+/// to 25. Limits of SJA1000, bxCAN and ZynqMP: at most 16 quanta before and 8 after; at least 2
+/// after, which an SJA1000 needs to read a bit.
 constexpr CanTiming can_timing(std::uint32_t clock_hz, std::uint32_t bit_rate_hz,
                                std::uint32_t most_prescaler, CanSampling sampling = {}) {
   CanTiming timing;

@@ -11,7 +11,7 @@ namespace {
 
 using safety::Mode;
 
-constexpr float kPressed_n = 2.0F;  // more than an unloaded cell
+constexpr float kPressed_n = 2.0F;  // more than an unloaded cell reports
 
 bool plays(Mode mode) {
   return mode == Mode::kActing || mode == Mode::kFalling || mode == Mode::kGettingUp;
@@ -26,7 +26,7 @@ bool shall_stop(const State& state, const Inputs& inputs, const AdmitOut& admitt
          (state.machine.faults & safety::kPowerFaults) != 0;
 }
 
-// Without sensors, a foot is where the action wants it.
+// Without sensors, a foot is assumed to be where the action wants it.
 bool is_pressed(const Params& params, const Inputs& inputs, int side) {
   if (params.feet.device_id[side] == 0) return true;
   std::int32_t sum = 0;

@@ -4,7 +4,8 @@
 
 namespace verp::control {
 
-/// Asks for an action; drops a walk request meanwhile: the walk ends first.
+/// Sets the condition of a requested action. Drops a walk request meanwhile, so that the walk ends
+/// first.
 void ask_action(const action::Library& actions, const State& state, const Inputs& inputs,
                 AdmitOut& admitted);
 

@@ -9,8 +9,9 @@ namespace verp {
 /// Bad readings in a row that alarm a servo. Each of 21 servos is read every 0.2 s: in half a
 /// second no glitch lasts and no hot servo cools.
 inline constexpr int kAlarmReadings = 3;
-/// Low readings in a row, of any servos, because they share the supply. 0.2 s at 10 ms outlasts a
-/// step's current peak. A single low servo has a bad cable and reports a hardware error.
+/// Low readings in a row, of any servos, that mean a low supply: all servos share it. 0.2 s at 10
+/// ms outlasts a step's current peak. A single low servo has a bad cable and reports a hardware
+/// error.
 inline constexpr std::uint8_t kSupplyReadings = 21;
 
 /// Equal fresh readings in a row that mean a frozen IMU. Noise moves an ICM-20648's counts by 1.5
@@ -24,9 +25,9 @@ inline constexpr std::uint8_t kNeverHeard = 255;
 struct AdmitState {
   std::uint8_t servo_age[kMaxJoints] = {};  ///< since the servo last reported, up to 255
   std::uint32_t tick = 0;                   ///< Inputs::tick of the last tick
-  std::uint32_t operator_age = 0;           ///< since the last order
-  /// Bit j: readings in a row of servo j with heat or an error. Gray code (high, low): 00, 01, 11,
-  /// 10 for 0 to kAlarmReadings.
+  std::uint32_t operator_age = 0;           ///< since the last order, saturating
+  /// Bit j of both: readings in a row of servo j with heat or an error. Gray code (high, low): 00,
+  /// 01, 11, 10 for 0 to kAlarmReadings.
   std::uint32_t alarm_low = 0;
   std::uint32_t alarm_high = 0;
   std::int16_t imu_count[6] = {};  ///< last fresh gyro and accelerometer

@@ -8,7 +8,8 @@ namespace verp::control {
 /// An inverted pendulum of 0.25 m takes 0.4 s from detection (a third of a radian) to the ground;
 /// the rest is bouncing.
 inline constexpr std::int32_t kFallLasts_us = 700'000;
-/// The robot gets up after so long: it lies still, and the accelerometer gives its tilt.
+/// The robot gets up after it was limp for this long: it lies still, and the accelerometer gives
+/// its tilt.
 inline constexpr std::int32_t kLieStill_us = 1'000'000;
 
 /// Sets the conditions of a fall and of getting up. Without the actions (common/action) it falls

@@ -11,6 +11,7 @@ using namespace kinematics;
 
 constexpr std::uint32_t kSeed = 0x564b;  // so that zeros count
 
+// Knuth's linear congruential generator; its upper bits are the good ones.
 float next_share(std::uint32_t& random) {
   random = random * 1664525u + 1013904223u;
   return static_cast<float>(random >> 8) * 0x1p-24F;

@@ -3,7 +3,7 @@
 
 namespace verp::control {
 
-/// Posture `seed`, spread over each joint's range. `angle_rad` holds kMaxJoints.
+/// Angles of posture number `seed`, spread over each joint's range. `angle_rad` holds kMaxJoints.
 void golden_posture(const Params& params, std::uint32_t seed, float* angle_rad);
 
 /// Kinematics of that posture: the same bits on every core.

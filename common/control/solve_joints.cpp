@@ -59,8 +59,8 @@ balance::LegLoad load_of(const Params& params, const gait::GaitOut& plan, int si
           gravity + math::to_vec(foot.accel_m_s2)};
 }
 
-// Start of each leg's search. A robot that does not walk may be in any pose: take its last
-// weighing.
+// Start of each leg's search. A robot that does not walk may be in any pose: take the angles of its
+// last weighing.
 struct Before {
   float leg_rad[kFeet][kLegJoints];
 };

@@ -18,7 +18,7 @@ constexpr float kMaxHeadingError_rad = 0.5F;         // a robot turned by hand c
 // clock gains a tick in this many, then loses one. Not in calm steps: the sway adds 0.5 mm of ZMP
 // bias.
 constexpr std::uint32_t kSway_ticks = 256;
-constexpr float kHurried = 0.5F;  // the clock sways from here: 0.31 m/s for generic21
+constexpr float kHurried = 0.5F;  // Step::haste from which the clock sways: 0.31 m/s for generic21
 
 std::int32_t gait_period_us(const Params& params, const State& state) {
   const auto period_us = static_cast<std::int32_t>(params.period_us);

@@ -10,12 +10,13 @@ namespace {
 // Room between passing soles. Joint errors, slip and the swing's bend take up to 5 mm. At 3 mm one
 // of ten fast curves touched (tuning seeds 1001-1026).
 constexpr float kSoleClearance_m = 0.005F;
-// Outward shift of a turning foot: generic21 needs it for 0.4 rad a step.
+// Largest outward shift of a turning foot: generic21 needs it for 0.4 rad a step.
 constexpr float kMostWider_m = 0.045F;
 // Mean swing speed, in hip heights per second, above which servos lag (generic21: 0.4 m/s).
 constexpr float kUnhurried_per_s = 2.7F;
-// A hurried foot that lands late jolts the robot, so haste lowers its target. Random robots, seeds
-// 1001-1030, 0.25 m/s: CoM velocity error 9 % less.
+// A hurried foot that lands late jolts the robot, so haste lowers its target by the share
+// kComesDown per unit, kMostDown at most. Random robots, seeds 1001-1030, 0.25 m/s: CoM velocity
+// error 9 % less.
 constexpr float kComesDown = 0.45F, kMostDown = 0.25F;
 constexpr float kMostHaste = 2.0F;  // 1.2 m/s: beyond any known servo
 
@@ -32,7 +33,7 @@ Xy middle(const Params& params, const Step& step) {
                  sole_center(params, kRight, step.after(kRight)));
 }
 
-// Rounds to whole key points.
+// Rounds the duration to whole key points.
 void set_times(const GaitTuning& tuning, float duration_s, Step& step) {
   step.key_us = math::to_int32(tuning.cycle_s * 1e6F) / (2 * kKeyPointsPerStep);
   step.key_us = step.key_us < 1 ? 1 : step.key_us;
@@ -142,6 +143,7 @@ float clearance_m(const Params& params, const GaitTuning& tuning) {
   return math::min(kSoleClearance_m, standing_m);
 }
 
+// How much further out the swing foot must land to clear the stance sole.
 float short_of_m(const Params& params, const GaitTuning& tuning, const Step& step, float yaw_rad) {
   const Foothold left = step.after(kLeft), right = step.after(kRight);
   const float wanted_m = clearance_m(params, tuning);

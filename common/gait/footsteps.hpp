@@ -43,8 +43,8 @@ struct VelocityIn {
   bool stop = false;
 };
 
-/// Room across the better of two lines along a sole; up to 0 they may overlap. Arguments are sole
-/// frames.
+/// Room between two soles, across the better of two lines along a sole; up to 0 they may overlap.
+/// Arguments are sole frames.
 float soles_apart_m(const Params& params, const Foothold& left, const Foothold& right);
 
 Xy sole_center(const Params& params, int side, const Foothold& foot);

@@ -74,6 +74,7 @@ void set_dcm_ends(const Params& params, const Tuning& tuning, const VelocityIn& 
   }
 }
 
+// Key points that must lie ahead of the clock before a hurried walk begins.
 constexpr int kHurry = 2;
 
 // In a hurried start the ZMP throws the resting pendulum to the DCM at the step's end: further out
@@ -120,7 +121,7 @@ void shorten(std::uint16_t note, FootstepState& footsteps) {
 }
 
 // Shortens strides while the ZMP would leave the sole; lengthens them after a cycle with room. The
-// correction is linear in misses, so it is trusted with half a sole.
+// multibody correction is linear in misses, so it is trusted with half a sole.
 void watch_zmp(const Params& params, const Tuning& tuning, const Step& step, Xy miss_m,
                GaitState& state) {
   if (step.swing == kBoth) return;

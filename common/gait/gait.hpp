@@ -46,8 +46,8 @@ struct GaitOut {
   Xy accel_m_s2;                      ///< planned, of the body, goals' moment
   Phase phase = Phase::kIdle;         ///< now: look_ahead_s before the goals' moment
   std::uint8_t swing = kBoth;         ///< foot in the air now; kBoth: none
-  std::uint8_t carrying = kBoth;      ///< stance foot now, in double support the next
-  std::uint8_t cycle_state = 0;       ///< 0..15, now
+  std::uint8_t carrying = kBoth;  ///< stance foot now, in double support the next; kBoth: standing
+  std::uint8_t cycle_state = 0;   ///< 0..15, now
 };
 
 GaitOut update(const Params& params, const Tuning& tuning, GaitState& state, const GaitIn& in);

@@ -59,7 +59,8 @@ Laid lay_key_point(const Params& params, const Tuning& tuning, const Step* queue
 
 void fix_key_point(const Step& step, PreviewState& state);
 
-/// `fraction` (0..1) after key point `index` (mod 256), by a cubic through four.
+/// Body position `fraction` (0..1) after fixed key point `index` (mod 256), by a cubic through
+/// four.
 Xy body_at(const PreviewState& state, std::uint8_t index, float fraction);
 
 /// Acceleration there, m/s^2, from second differences.

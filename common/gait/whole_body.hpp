@@ -37,7 +37,7 @@ struct Masses {
   Vec3 point_m[kPoints];
   Vec3 com_m;
   float mass_kg = 0;
-  std::uint8_t leg_flags = 0;  ///< both legs; 0: both soles reach
+  std::uint8_t leg_flags = 0;  ///< both legs; 0: both soles reach their targets
 };
 
 /// Newton's start is the stand: at zero a knee may bend the wrong way.

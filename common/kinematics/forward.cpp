@@ -27,7 +27,7 @@ Mat3 axis_rotation(const JointParams& joint, float angle_rad) {
   return math::rotation(math::to_vec(joint.axis), angle);
 }
 
-// Most joints sit on an axis of their parent.
+// Skips zeros: most joints sit on an axis of their parent.
 inline void place(const Pose& parent, const Xyz& origin_m, Vec3& position_m) {
   position_m = parent.position_m;
   if (origin_m.x != 0.0F) position_m += origin_m.x * parent.rotation.col(0);
@@ -74,7 +74,7 @@ Pose node_pose(const Params& params, const Pose& body, const float* angle_rad, i
 
 void all_poses(const Params& params, const Pose& body, const float* angle_rad, Pose* node) {
   node[0] = body;
-  // Followers may carry earlier joints.
+  // Followers come last but may carry earlier joints.
   for (int j = params.servo_count(); j < params.joint_count; ++j) {
     node[j + 1] = node_pose(params, body, angle_rad, j + 1);
   }

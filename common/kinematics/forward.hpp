@@ -36,8 +36,8 @@ Vec3 center_of_mass(const Params& params, const Pose& body, const float* angle_r
 /// Joint axis from the rotation of the link that the joint moves.
 Vec3 joint_axis(const JointParams& joint, const Mat3& link_rotation);
 
-/// Poses of six links, hip to ankle, in the frame of `body`, from the joints' sines if known
-/// (LegAngles::turn), else their angles.
+/// Poses of a leg's six links, hip to ankle, in the frame of `body`, from the joints' sines if
+/// known (LegAngles::turn), else their angles.
 struct LegChain {
   Pose link[kLegJoints] = {Pose(math::Unset{}), Pose(math::Unset{}), Pose(math::Unset{}),
                            Pose(math::Unset{}), Pose(math::Unset{}), Pose(math::Unset{})};

@@ -63,7 +63,7 @@ LegAngles solve_leg_closed_form(const Params& params, const LegParams& leg, cons
   const float distance_m = math::hypot(hip_m.x(), height_m);
   const SinCos knee = knee_of(leg, distance_m, result);
 
-  // At zero ankle pitch.
+  // The hip at zero ankle pitch; the pitch turns it onto (x, along).
   const float bent_x_m = -leg.thigh_m * knee.sin;
   const float bent_z_m = leg.shank_m + leg.thigh_m * knee.cos;
   const float pitch_sin = bent_x_m * along_m - bent_z_m * hip_m.x();

@@ -24,7 +24,8 @@ Residual residual_of(const Pose& wanted, const Pose& reached) {
           math::rotation_vector(wanted.rotation * reached.rotation.transpose())};
 }
 
-// J^T J + damping and J^T e with scaled angular rows. Eigen may use a blocked product.
+// J^T J + damping and J^T e with scaled angular rows. Written out, because Eigen may use a blocked
+// product.
 bool newton_step(const Mat6& jacobian, const Residual& residual, Vec6& step_rad) {
   Mat6 scaled;
   Vec6 error;

@@ -16,7 +16,7 @@ constexpr float round_even(float x) {
   return copysign((size + 8388608.0F) - 8388608.0F, x);
 }
 
-/// At most 64 bits. Monotonic.
+/// Integers of at most 64 bits. Monotonic.
 template <class Integer>
 constexpr Integer round_to(float x) {
   using Limits = std::numeric_limits<Integer>;

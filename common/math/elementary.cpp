@@ -227,7 +227,7 @@ float exp(float x) {
   p = 0x1.fffffcp-2F + high * p;
   const float fraction = 1.0F + (high + (low + (high * high) * p));
   const auto exponent = static_cast<std::int32_t>(bits_of(shifted) - bits_of(kRoundingShift));
-  // 2^128 and 2^-150 are not normal floats. Only the second product can round.
+  // Two factors, because 2^128 and 2^-150 are not normal floats. Only the second product can round.
   const int half = exponent >> 1;
   const float result = (fraction * power_of_two(half)) * power_of_two(exponent - half);
   return result <= kMaxFloat ? result : kMaxFloat;

@@ -50,7 +50,7 @@ Vec3 rotation_vector(const Mat3& rotation) {
     const float scale = twice_sin > 2e-3F ? angle / twice_sin : 0.5F;
     return twice_axis_sin * scale;
   }
-  // Near half a turn: R + R^T + (1 - trace) I = 2 (1 - cos) axis axis^T.
+  // Near half a turn the sine is too small: R + R^T + (1 - trace) I = 2 (1 - cos) axis axis^T.
   int column = 0;
   for (int i = 1; i < 3; ++i) {
     if (rotation(i, i) > rotation(column, column)) column = i;

@@ -9,6 +9,7 @@
 /// an offset. Both come from the driver's counts.
 namespace verp::model {
 
+/// The joint whose servo moves `joint`: itself unless it is a follower.
 inline int driver_of(const Params& params, int joint) {
   const std::uint8_t id = params.joint[joint].servo_id;
   for (int j = 0; joint >= params.servo_count() && j < params.servo_count(); ++j) {

@@ -63,6 +63,7 @@ enum class ImageFault : std::uint8_t {
 
 std::uint32_t params_crc(const Params& params);
 
+/// Fills in the header.
 void seal_image(ParamsImage& image);
 
 /// `size` may exceed the image (a flash section).

@@ -5,7 +5,7 @@
 namespace verp {
 namespace {
 
-// Ten times wider than any known robot's.
+// Bounds ten times wider than any known robot's.
 constexpr Range kPlace_m{-10, 10};
 constexpr Range kLength_m{0, 10};
 constexpr Range kMass_kg{0, 1000};

@@ -17,7 +17,7 @@ inline constexpr int kMaxNodes = kMaxJoints + 1;  ///< node 0 is the body; joint
 inline constexpr int kLegJoints = 6;
 inline constexpr int kNameLength = 24;
 
-/// A named axis costs 12 operations, others 45.
+/// A rotation about a named axis costs 12 operations, others 45.
 enum class AxisKind : std::uint8_t { kX, kY, kZ, kMinusX, kMinusY, kMinusZ, kGeneral };
 
 /// Joints with a servo come first, parents before children; then followers (Params::followers),
@@ -79,8 +79,9 @@ struct LegParams {
 };
 VERP_PACKED(LegParams);
 
+/// Registers that the firmware writes to arm a servo, and bus features that the servo supports.
 struct ServoProfile {
-  /// 1030 is XM430-W210, 30 is MX-28(2.0). On CAN, product code (1018h:2).
+  /// Register 0: 1030 is XM430-W210, 30 is MX-28(2.0). On CAN, product code (1018h:2).
   std::uint16_t model_number = 0;
   std::uint16_t position_p_gain = 0;  ///< control table units
   std::uint16_t position_i_gain = 0;

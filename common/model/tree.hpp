@@ -9,7 +9,7 @@ namespace verp::model {
 /// Returns -1 if there is none.
 int find_joint(const Params& params, const char* name);
 
-/// Bit j: joint j is in the subtree of `node`.
+/// Bit j: joint j is in the subtree of `node`, including joint node - 1; node 0: all joints.
 std::uint32_t subtree(const Params& params, int node);
 
 struct Path {
@@ -20,6 +20,7 @@ struct Path {
 /// Nodes `from` to `to`, inclusive, through the nearest common ancestor.
 Path path(const Params& params, int from, int to);
 
+/// Mass of all links, kg.
 float total_mass(const Params& params);
 
 }  // namespace verp::model

@@ -63,11 +63,11 @@ struct BalanceTuning {
 VERP_PACKED(BalanceTuning);
 
 struct SafetyTuning {
-  float fall_tilt_rad = 0.8f;  ///< beyond this tilt the robot has fallen: limp
-  float fall_confirm_s = 0.05f;
-  float stale_hold_s = 0.05f;        ///< servo or IMU silent this long: hold
+  float fall_tilt_rad = 0.8f;        ///< beyond this tilt the robot has fallen: limp
+  float fall_confirm_s = 0.05f;      ///< for how long that tilt must last
+  float stale_hold_s = 0.05f;        ///< servo or IMU silent this long: stop the gait, hold
   float stale_release_s = 0.5f;      ///< silent this long: sit, then release torque
-  float command_hold_s = 0.5f;       ///< operator silent this long: stand
+  float command_hold_s = 0.5f;       ///< operator silent this long: walk becomes stand
   float command_release_s = 30.0f;   ///< operator silent this long: sit, then release torque
   float rise_s = 1.0f;               ///< from the pose at power-up to the stand
   float sit_s = 1.5f;                ///< from the held pose to the sitting pose

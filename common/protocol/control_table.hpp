@@ -10,8 +10,8 @@ namespace verp::dxl {
 inline constexpr std::uint16_t kModelXm430W210 = 1030;  ///< e-Manual, Model Number (0)
 inline constexpr std::uint16_t kModelXm430W350 = 1020;  ///< likewise
 inline constexpr std::uint16_t kModelMx28 = 30;         ///< likewise
-inline constexpr std::uint16_t kModelImu = 0x7601;      ///< ours; the vendor's end below 0x4000
-inline constexpr std::uint16_t kModelFoot = 0x7602;     ///< ours
+inline constexpr std::uint16_t kModelImu = 0x7601;  ///< ours; the vendor's numbers end below 0x4000
+inline constexpr std::uint16_t kModelFoot = 0x7602;  ///< ours
 
 namespace address {
 // EEPROM
@@ -69,7 +69,8 @@ inline constexpr std::uint16_t kPositionTrajectory = 140;    // 4, R
 inline constexpr std::uint16_t kPresentVoltage = 144;        // 2, R, 0.1 V
 inline constexpr std::uint16_t kPresentTemperature = 146;    // 1, R, degrees Celsius
 inline constexpr std::uint16_t kBackupReady = 147;           // 1, R
-// Two blocks of 28 pairs: Indirect Data n stands for the byte at Indirect Address n.
+// Two blocks of 28 pairs: Indirect Data n (1 byte) stands for the byte at Indirect Address n (2
+// bytes).
 inline constexpr std::uint16_t kIndirectAddress1 = 168;
 inline constexpr std::uint16_t kIndirectData1 = 224;
 inline constexpr std::uint16_t kIndirectAddress29 = 578;
@@ -87,7 +88,7 @@ inline constexpr std::uint8_t kPositionMode = 3;           ///< Operating Mode; 
 inline constexpr std::uint16_t kFullPwm = 885;             ///< PWM Limit of 100 %
 
 /// After this many units with torque and no instruction packet on the bus the servo stops in place,
-/// and goals are refused until 0 is written. 0: off.
+/// and goals are refused until 0 is written to Bus Watchdog. 0: off.
 inline constexpr std::uint32_t kBusWatchdogUnit_us = 20000;
 inline constexpr std::uint8_t kBusWatchdogMost = 127;
 inline constexpr std::uint8_t kBusWatchdogTripped = 0xFF;  ///< -1, read after a trip

@@ -98,7 +98,7 @@ enum class ResetCause : std::uint8_t {
   kLowPower,
   kFault
 };
-/// As in hal/chip/stm32/clock.hpp.
+/// As in hal/chip/stm32/clock.hpp. kUnknown: not reported.
 enum class ClockSource : std::uint8_t { kUnknown, kCrystal, kInternalPll, kInternal, kAbsent };
 /// Why a board never gives torque, and how often its LED flashes; one flash is the sign of life.
 enum class StartFault : std::uint8_t {

@@ -172,6 +172,7 @@ class Parser {
   bool push(std::uint8_t byte);
   bool next();
   const Packet& packet() const { return packet_; }
+  /// Forgets all bytes; the counters stay.
   void reset() { begin_ = size_ = done_ = need_ = 0; }
 
   std::uint32_t crc_errors() const { return crc_errors_; }

@@ -22,7 +22,8 @@ constexpr Row kTable[] = {
     {bit(Mode::kStopped), kAskRelax, kEmergency, Mode::kRelaxed},
     {kUpright, kFell, 0, Mode::kFallen},
     {bit(Mode::kFallen), kAskRelax, 0, Mode::kRelaxed},
-    // Hold, then sit, then release torque. Sit at once on a relax request or power trouble.
+    // Silence: hold, then sit, then release torque. Sit at once on a relax request or power
+    // trouble.
     {kMoving | bit(Mode::kGettingUp), kStale, 0, Mode::kHolding},
     {bit(Mode::kHolding), kLost, 0, Mode::kSitting},
     {kMayRest, kAskRelax, 0, Mode::kSitting},

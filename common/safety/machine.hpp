@@ -17,7 +17,7 @@ enum class Mode : std::uint8_t {
   kFallen,   ///< limp until a relax request
   kStopped,  ///< e-stop: limp until released and relaxed
   kActing,
-  kFalling,    ///< certain to fall: into a pose that bears it
+  kFalling,    ///< certain to fall: with little strength into a pose that bears it
   kGettingUp,  ///< from the floor to the stand, by an action
 };
 inline constexpr int kModes = 11;
@@ -59,7 +59,7 @@ enum Fault : std::uint32_t {
   kFaultServoError = 1 << 7,
   kFaultJointBeyond = 1 << 8,    ///< stand refused: a joint is beyond its limits
   kNoteOverrun = 1 << 16,        ///< a tick ended after its deadline
-  kNoteParameter = 1 << 17,      ///< a parameter write was out of range
+  kNoteParameter = 1 << 17,      ///< a parameter write was out of range and ignored
   kNoteStrideLimited = 1 << 18,  ///< the velocity needs longer steps than allowed
   kNotePlanShortened = 1 << 19,  ///< steps shortened: reach, ZMP near the edge, or soles collide
   kNotePlanRefused = 1 << 20,    ///< no step keeps the ZMP in the sole
@@ -82,8 +82,8 @@ VERP_PACKED(MachineState);
 
 struct Row {
   std::uint32_t from;     ///< bit mask of modes
-  std::uint32_t all_of;   ///< conditions
-  std::uint32_t none_of;  ///< conditions
+  std::uint32_t all_of;   ///< conditions that must hold
+  std::uint32_t none_of;  ///< conditions that must not hold
   Mode to;
 };
 

@@ -63,8 +63,10 @@ class AnswerWatch {
     owing_ = 0;
     if (prompt_times_ < kKnown) ++prompt_times_;
   }
+  /// True if no source counts: the whole bus may be late.
   bool all_owe() const { return planned_ != 0 && (owing_ | owing_since_) == planned_; }
 
+  /// Rates an answer that came after SYNC `window`.
   Answer take(int source, std::uint8_t window) {
     Source& each = source_[source];
     const NodeMask bit = node_bit(source);
@@ -92,7 +94,8 @@ class AnswerWatch {
     if (each.group != last_window) move(each, last_window);
   }
 
-  /// Sources that should answer this SYNC, or did in the last tick, and have not yet.
+  /// Sources that should answer this SYNC, or did in the last tick, and have not yet. Excludes
+  /// `given_up`.
   NodeMask due(std::uint8_t window, NodeMask given_up) const {
     NodeMask mask = 0;
     for (int i = 0; i < kSources; ++i) {
@@ -121,6 +124,7 @@ class AnswerWatch {
              return ((before_ & ~answered_) >> i & 1) != 0 && source_[i].planned == window;
            }) == window;
   }
+  /// All nodes answer their planned SYNCs from now on.
   void realign() {
     for (Source& each : source_) {
       each.group = each.planned;
@@ -176,7 +180,7 @@ class AnswerWatch {
   NodeMask before_ = 0;
   NodeMask spoilt_ = 0;
   NodeMask owing_ = 0;        ///< owe an answer that may still come
-  NodeMask owing_since_ = 0;  ///< the same since the last tick
+  NodeMask owing_since_ = 0;  ///< the same since the last tick, whatever other frames show
   std::uint16_t tardy_ticks_ = 0;
   std::uint8_t prompt_times_ = 0;
 };

@@ -18,7 +18,7 @@ struct NoImu {
   std::uint32_t faults() const { return 0; }
 };
 
-/// A PC user may substitute another (host/run/session).
+/// The core as the controller of a tick. A PC user may substitute another (host/run/session).
 struct Core {
   action::Library actions;
   void operator()(const Params& params, State& state, const Inputs& inputs, Outputs& outputs) {

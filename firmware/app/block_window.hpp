@@ -23,8 +23,8 @@ inline constexpr std::uint8_t kBlockNotKept = 254;
 
 enum class Taken : std::uint8_t {
   kYes = 0,
-  kNotYet = 1,  ///< write the block again
-  kNo = 2,      ///< start the image again
+  kNotYet = 1,  ///< the memory is being prepared: write the block again
+  kNo = 2,      ///< the memory failed: start the image again
 };
 
 /// Call between ticks; no call waits.
@@ -32,9 +32,9 @@ enum class Taken : std::uint8_t {
 ///  - room(kind): for a new image; 0: none accepted.
 ///  - read(kind, offset, to, count): copies from the active image, `offset` + `count` at most its
 ///    size.
-///  - begin(kind): discards a new image.
-///  - write(kind, offset, from, count): a block of the new image, in any order. Actions need torque
-///    off, because they are written to flash.
+///  - begin(kind): discards what was written of a new image.
+///  - write(kind, offset, from, count): a block of the new image, in any order, within its room.
+///    Actions need torque off, because they are written to flash.
 ///  - commit(kind, crc): only with torque off. 0: the CRC-32 fits and the image is valid; the
 ///    controller starts with it next time. Otherwise the fault, and nothing changed.
 template <class Store>

@@ -97,6 +97,7 @@ class BringUp {
     return transact(frame, id, address, nullptr, 0);
   }
 
+  // Makes `size` registers hold `data`; writes only if they differ.
   bool establish(std::uint8_t id, std::uint16_t address, const std::uint8_t* data,
                  std::size_t size) {
     std::uint8_t found[kMostBytes];

@@ -29,8 +29,8 @@ class BusMaster {
 
   /// Bytes to read in front of the wanted ones in a read that repeats every tick: a reply does not
   /// name its request, so its length must. 0 after an answered request, since bytes keep their
-  /// order. Otherwise different from the last two reads, whose replies may still arrive. At most
-  /// two reads a tick.
+  /// order. Otherwise different from the last two reads, whose replies may still arrive. Call for
+  /// at most two reads a tick, so that a number repeats only after three ticks.
   std::uint8_t spare_bytes() {
     if (missed_) spare_ = spare_ < kMostSpare ? static_cast<std::uint8_t>(spare_ + 1) : 0;
     missed_ = false;
@@ -122,7 +122,7 @@ class ReadChain {
   }
 
   void begin() { next_ = 0, missed_ = -1; }
-  /// -1: no device due has this id.
+  /// The slot of this reply; -1: no device due has this id.
   int match(std::uint8_t id) {
     for (int i = next_; i < count_; ++i) {
       if (id_[i] != id) continue;
@@ -133,7 +133,7 @@ class ReadChain {
     return -1;
   }
   bool ended() const { return next_ == count_; }
-  /// Call after the read. True: all answered.
+  /// Call after the read. True if all answered; otherwise moves the first device missed to the end.
   bool complete() {
     if (next_ < count_) note_missed();
     if (missed_ < 0) return true;

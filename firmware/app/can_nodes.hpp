@@ -6,6 +6,7 @@
 
 namespace verp::app {
 
+/// Slots of a robot's nodes: joints by index, then IMU and feet. A set of slots is a mask.
 inline constexpr int kImuNode = kMaxJoints;
 inline constexpr int kFootNode = kImuNode + 1;
 inline constexpr int kCanNodes = kFootNode + kFeet;

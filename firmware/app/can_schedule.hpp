@@ -14,7 +14,7 @@ inline constexpr std::uint32_t kReactionUs = 300;
 /// Frames that may precede the last answer to a SYNC: one under way, an SDO answer, an EMCY.
 inline constexpr std::uint32_t kForeignFrames = 3;
 
-/// Classic frames. Without a baud rate: the maximum.
+/// Time of classic frames of `bytes` bytes. Without a baud rate: the maximum.
 constexpr std::uint32_t can_frames_us(std::uint8_t bytes, std::uint32_t frames,
                                       std::uint32_t baud) {
   if (baud == 0) return 0xFFFFFFFFu;

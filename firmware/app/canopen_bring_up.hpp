@@ -51,7 +51,7 @@ class CanopenBringUp {
 
  private:
   static constexpr int kAttempts = 3;
-  /// A drive boots and leaves a fault: an allowance, not a measurement.
+  /// Time for a drive to boot and to leave a fault: an allowance, not a measurement.
   static constexpr std::uint32_t kBootUs = 2'000'000;
   static constexpr int kResets = 2;   ///< of nodes without a boot-up message
   static constexpr int kRepeats = 3;  ///< of unconfirmed commands
@@ -111,6 +111,7 @@ class CanopenBringUp {
     }
   }
 
+  // The nodes of `missing` that did not boot in time.
   NodeMask await_boot(NodeMask missing) {
     CanFrame frame;
     const std::uint64_t end_us = master_.now_us() + kBootUs;

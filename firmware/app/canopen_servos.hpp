@@ -48,6 +48,7 @@ class CanopenServos {
   }
   void limit_torque(std::uint8_t percent) { writer_.limit_torque(percent); }
 
+  /// Runs all SYNCs of the tick; keeps the sensors' answers for read_sensors().
   void read_positions(Inputs& inputs) {
     answers_.begin();
     if (params_.servo_count() == 0) answers_.prompt();  // no drive could show it
@@ -207,7 +208,7 @@ class CanopenServos {
       renewal_.proceed(master_);
     } else {
       if (!is_joint(slot)) return false;
-      if (efforts_.receive(slot, frame)) return true;  // may be ticks old
+      if (efforts_.receive(slot, frame)) return true;  // may be ticks old: no proof of a prompt bus
       if (!telemetry_.receive(slot, frame)) return false;
       if (window_ <= 1) answers_.prompt();
     }
@@ -238,7 +239,7 @@ class CanopenServos {
   void renew() {
     const int renewed = renewal_.run(master_, doubts_.to_renew(torque_, present_));
     repair_.cancel(renewal_.slot());                              // answers belong to the renewal
-    if (renewal_.slot() >= 0) doubts_.rebooted(renewal_.slot());  // a partial renewal does not do
+    if (renewal_.slot() >= 0) doubts_.rebooted(renewal_.slot());  // a partial renewal is not enough
     if (renewed < 0) return;
     doubts_.renewed(renewed);
     silent_ticks_[renewed] = 0;

@@ -23,9 +23,9 @@ namespace verp::app {
 ///    its goal or may have lost its set-up. All servos get one tick's outputs; if the bus lost
 ///    some, those of a tick soon after.
 ///  - limit_torque(percent): of every servo's strength from the next send() on; 1 to 100.
-///  - now_us(): bus time, as read_positions() ended.
-///  - counters(), damaged(), noise(): so far. damaged: packets or frames in pieces; noise: bytes or
-///    frames that came to nothing.
+///  - now_us(): bus time; after read_positions(), when that ended.
+///  - counters(), damaged(), noise(): errors so far. damaged: packets or frames in pieces; noise:
+///    bytes or frames that came to nothing.
 ///  - efforts(): of kMaxJoints joints, from time to time; null if the protocol lacks them.
 /// A lost, late or foreign answer never blocks a tick beyond its timeout and never counts as an
 /// answer. No call allocates.
@@ -65,6 +65,7 @@ concept OperatorLink = requires(Link& link, std::uint32_t tick) {
   { link.order(tick) } -> std::same_as<OperatorOrder>;
 };
 
+/// The pacing clock's report on the tick that begins.
 struct Beat {
   std::uint32_t periods = 0;  ///< since the previous tick; 0: no clock, use bus time
   bool overran = false;       ///< the previous tick was late

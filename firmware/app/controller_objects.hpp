@@ -59,10 +59,10 @@ void publish_ticks(Objects& objects, std::uint8_t node, bool on) {
 /// effect of a write.
 ///
 /// 5001h is the Params image, 5002h the actions. A downloaded image takes effect at the next start.
-/// It is refused while any servo holds torque; actions also while their memory is being prepared.
-/// 5003h and 5004h are the last tick and earlier ones (tick_log.hpp), readable while register
-/// tick_hold is 1. TPDOs 2 to 4 report each tick (canopen/published_tick.hpp) after
-/// publish_ticks().
+/// It is refused while any servo holds torque; actions also while their memory is being prepared:
+/// retry a little later. 5003h and 5004h are the last tick and earlier ones (tick_log.hpp),
+/// readable while register tick_hold is 1. TPDOs 2 to 4 report each tick
+/// (canopen/published_tick.hpp) after publish_ticks().
 template <Images Store>
 class ControllerObjects {
  public:

@@ -44,7 +44,7 @@ class DoubtedServos {
   }
 
   /// Call in ticks with room on the bus: queries a few servos, or sets them up again. `torque`:
-  /// wanted.
+  /// torque is wanted.
   void resolve(BusMaster<Bus>& master, bool torque) {
     if (!torque) limp_ = 0;
     if (torque) renewals_ = 0;

@@ -115,7 +115,7 @@ class DriveTelemetry {
   int urgent_ = -1;
   std::uint32_t plain_ = 0;
   Part part_ = Part::kAll;
-  bool more_ = false;
+  bool more_ = false;  ///< ask the same drive again
   bool fresh_ = false;
   canopen::Address at_;
   canopen::plan::Telemetry value_;

@@ -20,7 +20,7 @@ struct ImuCalibration {
   static constexpr std::int32_t kOne = 1 << 14;
 
   std::int16_t gyro_bias_count[3] = {};
-  /// Chip's vectors to the mounting in Params; row-major, in 1/kOne.
+  /// Rotates the chip's vectors to the mounting in Params; row-major, in 1/kOne.
   std::int16_t turn[9] = {kOne, 0, 0, 0, kOne, 0, 0, 0, kOne};
 
   hal::ImuSample corrected(const hal::ImuSample& raw) const {

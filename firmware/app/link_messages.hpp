@@ -33,7 +33,7 @@ enum class Kind : std::uint8_t {
   kRecord = 'R',   ///< TickRecord of a finished tick
   kState = 'X',  ///< State after the next kRecord's tick (every HelloReply::state_every ticks, and
                  ///< when fault bits change)
-  kQuit = 'Q',   ///< Quit, then text
+  kQuit = 'Q',   ///< Quit, then text; the controller ends
 };
 
 struct MessageHeader {
@@ -78,7 +78,7 @@ VERP_PACKED(Poll);
 
 enum PollFlag : std::uint16_t {
   kStop = 1,        ///< finish this tick, send kQuit
-  kSendFailed = 2,  ///< refused a frame before this poll
+  kSendFailed = 2,  ///< the bus refused a frame sent before this poll
 };
 
 /// `size` bytes from the bus follow. Every reply repeats the current tick's order; OperatorLink

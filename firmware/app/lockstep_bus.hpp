@@ -42,8 +42,8 @@ concept IdleHook = requires(Idle& idle) {
 template <hal::ByteLink Link, IdleHook Idle>
 class LockstepBus {
  public:
-  /// Longest wait of one link read, at first. A clock that wakes every millisecond stretches short
-  /// waits, which add up.
+  /// Longest wait of one link read: at first, and after kEager_us without data. A clock that wakes
+  /// every millisecond stretches short waits, which add up.
   static constexpr std::uint32_t kSlice_us = 100;
   static constexpr std::uint32_t kLongSlice_us = 1000;
 
@@ -182,6 +182,7 @@ class LockstepBus {
     return Outcome::kNothing;
   }
 
+  // The bytes that preceded a packet of the clock.
   struct Brought {
     const std::uint8_t* bytes;  ///< the first `room` of them
     std::size_t count, room;

@@ -83,6 +83,7 @@ class LockstepCan {
     return true;
   }
 
+  // Queues a frame; waits for room as long as `idle` allows.
   bool push(const CanFrame& frame) {
     CanFrame stray;
     while (!bus_.send(frame)) {
@@ -97,6 +98,7 @@ class LockstepCan {
     return bus_.poll(frame, static_cast<std::uint32_t>(bus_.now_us() - pushed_us_) + slice_us_);
   }
 
+  // Gets one new answer of the twin into burst_ and now_us_.
   bool advance(std::uint32_t timeout_us) {
     const lockstep::CanAdvance request{
         .sequence = ++sequence_, .sent = sent_, .sent_sum = sent_sum_, .timeout_us = timeout_us};

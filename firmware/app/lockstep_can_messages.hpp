@@ -27,8 +27,8 @@
 ///    overtaken.
 ///  - Both ends state how many frames they sent and the sum of their checks (sum_of()), in any
 ///    order. If frames to the twin do not match, it uses them as received and sets kFrameDamaged.
-///  - The controller repeats a mismatched CanAdvance alone. The twin keeps its last answer and
-///    advances time only for a new number.
+///  - The controller drops a mismatched answer and repeats its CanAdvance alone. The twin keeps
+///    its last answer and advances time only for a new number.
 ///  - The controller repeats an unanswered CanAdvance after half a second, then later, up to 2 s.
 ///    Sooner, a loaded PC's answer would come twice and overflow a small FIFO.
 namespace verp::lockstep {
@@ -66,7 +66,7 @@ VERP_PACKED(CanAdvance);
 static_assert(sizeof(CanAdvance) == kMaxCanData);
 
 struct CanAdvanced {
-  std::uint8_t sequence = 0;     ///< of its CanAdvance
+  std::uint8_t sequence = 0;     ///< of the CanAdvance that this answers
   std::uint8_t flags_count = 0;  ///< flags: low three bits; above: frames of the burst
   std::uint16_t burst_sum = 0;   ///< sum_of() of the burst
   std::uint32_t now_low_us = 0;  ///< bus time at the burst's end, modulo 2^32
@@ -111,6 +111,7 @@ constexpr bool is_clock_frame(const CanFrame& frame) {
   return frame.extended && frame.id >= kCanHelloId;
 }
 
+/// Collects the parts of a Hello in any order.
 struct CanHello {
   Hello hello;
   std::uint32_t parts = 0;

@@ -19,8 +19,8 @@
 /// serve a master in real time. The reply names the first difference between both ends; the error
 /// field is then Data Range (4).
 ///
-/// A controller without this project's core leaves all but `version` 0; refused if a user checks
-/// every tick against that core.
+/// A controller without this project's core leaves all but `version` 0; the twin refuses it if a
+/// user checks every tick against that core.
 ///
 /// Advance, for each FrameBus::poll(): the frames sent since the last one, then a Write to address
 /// 96. The PC returns the bytes from the bus, then the clock's status packet. A control tick:
@@ -105,8 +105,8 @@ enum AdvanceFlag : std::uint8_t {
 };
 
 struct Advanced {
-  std::uint64_t now_us = 0;
-  std::uint8_t sequence = 0;  ///< of its Advance
+  std::uint64_t now_us = 0;   ///< bus time
+  std::uint8_t sequence = 0;  ///< of the Advance that this answers
   std::uint8_t flags = 0;     ///< AdvanceFlag bits
   std::uint16_t size = 0;     ///< bus bytes in front of this packet
   std::uint16_t crc = 0;      ///< their CRC-16
@@ -160,7 +160,7 @@ class ClockSieve {
     return complete_ ? Look::kPacket : Look::kDrop;
   }
 
-  /// The packet before was cut short.
+  /// A header within a packet: the packet before it was cut short.
   bool begins_again() const {
     if (size_ < kHeadless + sizeof kHeader) return false;
     for (std::size_t i = 0; i < kHeadless; ++i) {

@@ -25,6 +25,7 @@ class NodeRenewal {
     if (slot == slot_) slot_ = -1;
     to_stop_ |= node_bit(slot);
   }
+  /// Stops one node that has rebooted; false: there is none.
   template <hal::CanBus Bus>
   bool stop_one(CanMaster<Bus>& master) {
     for (int slot = 0; slot < kCanNodes; ++slot) {
@@ -84,6 +85,7 @@ class NodeRenewal {
     canopen::put_le(data_, setting_.value, 4);
     client_.download(setting_.at, data_, setting_.bytes, canopen::SdoClient::Mode::kPlain, now_us);
   }
+  // Moves on when a setting is written; false if the node refused it or was silent.
   bool advance(std::uint64_t now_us) {
     using State = canopen::SdoClient::State;
     if (client_.state() == State::kBusy || finished_) return true;

@@ -26,6 +26,7 @@ class SettingList {
   SettingList(const Params& params, int slot, int wanted)
       : params_(params), slot_(slot), wanted_(wanted) {}
 
+  /// False: the list is shorter.
   bool pick(Setting& setting) {
     is_joint(slot_) ? drive() : sensor();
     setting = found_;
@@ -56,7 +57,7 @@ class SettingList {
     add({object::kQuickStopOption, canopen::plan::kQuickStopAndHold, 2});
     add({object::kAbortConnection,
          static_cast<std::uint32_t>(canopen::cia402::AbortConnection::kQuickStop), 2});
-    // The next heartbeat enables a drive that stopped by itself.
+    // A drive that stopped by itself keeps answering, and the next heartbeat enables it again.
     add({canopen::plan::kErrorBehaviour, static_cast<std::uint8_t>(canopen::ErrorBehaviour::kStay),
          1, true, true});
     const std::uint32_t watched = std::uint32_t{canopen::plan::kControllerNode} << 16;

@@ -55,8 +55,8 @@ class OperatorDevice {
   void show(table::ServoPower power) { registers_.report().servo_power(power); }
   void show(table::ImuCalibrationState state) { registers_.report().imu_calibration(state); }
 
-  /// The twin that played the servos is gone: no servo can hold torque. The operator regains what
-  /// torque blocks, such as a restart, until the next tick. Orders stay.
+  /// Call when the twin that played the servos is silent or gone: no servo can hold torque. The
+  /// operator regains what torque blocks, such as a restart, until the next tick. Orders stay.
   void servos_gone() { registers_.report().servos_gone(); }
 
   /// `count`: actions in the loop's library; `fault`: why stored ones are not available.

@@ -9,7 +9,7 @@ namespace verp::app {
 /// A tick's deadline is the start of the next period.
 struct Deadlines {
   std::uint64_t ticks = 0;
-  std::uint64_t missed = 0;         ///< ticks that ended late or skipped periods
+  std::uint64_t missed = 0;         ///< ticks that ended late or were followed by skipped periods
   std::uint64_t skipped = 0;        ///< periods without a tick
   std::uint64_t worst_late_us = 0;  ///< longest delay of a tick's start
 };
@@ -33,6 +33,7 @@ class Pacer {
     return started;
   }
 
+  /// Call after a tick: waits for the next one.
   Beat next() {
     const bool late = clock_.now_us() > due_us_;
     const std::uint32_t begun = clock_.wait();

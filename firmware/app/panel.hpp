@@ -37,8 +37,9 @@ struct PanelReading {
   bool button_pressed[kPanelButtons] = {};
 };
 
-/// Adds the panel to another OperatorLink's orders. A stop counts as pressed until it was read
-/// released; without a stop it never is. Buttons are mailbox bits, button 0 the lowest.
+/// Adds the panel to another OperatorLink's orders. Pins::read() returns a PanelReading. A stop
+/// counts as pressed until it was read released; without a stop it never is. Buttons are mailbox
+/// bits, button 0 the lowest.
 template <OperatorLink Link, class Pins>
 class WithPanel {
  public:

@@ -8,7 +8,7 @@ namespace verp::app {
 
 namespace table = dxl::controller;
 
-/// A wrong name does not compile.
+/// Address of a register; a wrong name does not compile.
 consteval std::uint16_t reg(const char* name) {
   return table::find(name)->address;
 }

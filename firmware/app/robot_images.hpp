@@ -10,6 +10,7 @@ namespace verp::app {
 
 /// Flash where new actions wait until they are complete.
 ///  - room(): bytes; bytes(): memory address, aligned to 4.
+///  - begin(): discards the contents. ready(): it may be written.
 ///  - write(offset, from, count): in any order, repeats allowed. False: the memory failed.
 template <class Place>
 concept ActionPlace = requires(Place& place, const Place& seen, std::size_t offset,
@@ -36,6 +37,7 @@ class RobotImages {
         place_(place) {}
 
   const ParamsImage* accepted_robot() const { return robots_.accepted(); }
+  /// Bytes of the committed new actions, or 0.
   std::size_t accepted_actions() const { return accepted_bytes_; }
   /// Bytes of the active actions; 0: none, or damaged.
   std::size_t actions_bytes() const { return actions_bytes_; }

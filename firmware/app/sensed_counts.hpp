@@ -29,7 +29,7 @@ class SensedCounts {
     return false;
   }
 
-  /// `imu`: wanted. `present`: the robot's nodes.
+  /// `imu`: IMU counts are wanted. `present`: the robot's nodes.
   void put(Inputs& inputs, bool imu, NodeMask present) const {
     constexpr NodeMask kImu = node_bit(kImuNode) | node_bit(AnswerWatch::kImuSecond);
     if (imu && (sensed_ & kImu) == kImu) {

@@ -63,7 +63,7 @@ class ServoWriter : public JointStrength {
  private:
   static constexpr std::uint8_t kRepeats = 3;
 
-  // A tripped watchdog ignores goals: clear before, set again after.
+  // A servo with a tripped watchdog ignores goals: clear it before them, set it again after.
   void clear_watchdogs(BusMaster<Bus>& master) {
     first_ = 0;
     last_ = params_.servo_count() - 1;

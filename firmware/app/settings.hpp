@@ -15,7 +15,7 @@ inline constexpr std::uint16_t kSettingsKey = 1;  ///< key in the board's Store
 struct Settings {
   std::uint8_t id = table::kDefaultId;
   table::ImuSource imu_source = table::ImuSource::kBus;
-  /// A reset during first steps must not restore full strength.
+  /// Kept, because a reset during a robot's first steps must not restore full strength.
   std::uint8_t torque_limit_percent = 100;
 
   friend bool operator==(const Settings&, const Settings&) = default;
@@ -43,7 +43,7 @@ class SettingsKeeper {
   }
 
   /// Call regularly: stores changes, one step of the memory per call. True while something is not
-  /// durable. A change that the memory refuses is not retried until the next start.
+  /// durable. A change that the memory refuses is not retried: it holds until the next start.
   bool keep(const Settings& now, bool may_erase) {
     const hal::WorkState state = memory_.work(may_erase);
     if (now == kept_) return state == hal::WorkState::kWorking;

@@ -5,7 +5,7 @@
 
 namespace verp::app {
 
-/// 0 ms: none.
+/// A tone for a person nearby; 0 ms: none.
 struct Tone {
   std::uint32_t hz = 0;
   std::uint32_t duration_ms = 0;

@@ -10,7 +10,8 @@
 namespace verp::app {
 
 /// The order in registers request to emergency_stop, and whether it still counts. The core gets up
-/// on a level: a repeated or stale order must not raise a robot that nobody watches.
+/// on a level, not on an edge. So this class keeps a repeated or stale order from raising a robot
+/// that nobody watches.
 class StandingOrder {
  public:
   StandingOrder(const Params& params, RegisterImage& image) : params_(params), image_(image) {}
@@ -22,7 +23,7 @@ class StandingOrder {
     relaxed_once_ = true;
     relax_asked_ = relax_asked_ || image_.get<Request>(reg("request")) == Request::kRelax;
   }
-  /// A request to relax was written; returned once.
+  /// A request to relax was written, even if it was one before; returned once.
   bool take_relax() {
     const bool asked = relax_asked_;
     relax_asked_ = false;
@@ -47,7 +48,7 @@ class StandingOrder {
     if (!armed) image_.set(reg("request"), Request::kRelax);
   }
 
-  /// The order is fresh only once.
+  /// The order for the next tick. It is fresh only once.
   Command take(std::uint16_t& flags) {
     Command command;
     command.request = image_.get<Request>(reg("request"));

@@ -92,8 +92,8 @@ class SyncRepair {
   int slot_ = -1;
   int last_ = kCanNodes - 1;
   std::uint8_t step_ = 0;
-  std::uint8_t waited_ = 0;
-  std::uint8_t missed_ = 0;
+  std::uint8_t waited_ = 0;  ///< ticks
+  std::uint8_t missed_ = 0;  ///< answers
   bool asked_ = false;
 };
 

@@ -4,7 +4,8 @@
 /// pointer and calls verp_reset().
 namespace verp::boot {
 
-/// Called first: enables float instructions and routes faults to verp_fault().
+/// Called first: enables float instructions and routes faults to verp_fault(). Code before it may
+/// use neither.
 void enable_core();
 
 }  // namespace verp::boot

@@ -23,7 +23,8 @@ __attribute__((always_inline)) static inline std::uintptr_t stack_pointer() {
 }
 
 __attribute__((noinline)) std::uintptr_t paint_stack() {
-  // Volatile: the compiler must not call a function, which needs this stack.
+  // Volatile: the compiler must neither drop the stores nor call a function, which needs this
+  // stack.
   volatile std::uint32_t* word = verp_stack_limit;
   while (reinterpret_cast<std::uintptr_t>(word) < stack_pointer()) *word++ = kPattern;
   return stack_pointer();

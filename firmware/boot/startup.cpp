@@ -18,7 +18,7 @@ extern const Constructor verp_init_end[];
 
 namespace {
 
-// Volatile: memcpy and memset need not work yet on every core.
+// Volatile keeps the compiler from calling memcpy and memset, which may not work yet.
 void fill_memory() {
   const volatile std::uint32_t* from = verp_data_image;
   for (volatile std::uint32_t* to = verp_data_begin; to != verp_data_end; ++to) *to = *from++;

@@ -84,8 +84,9 @@ class FlashStore {
     return other();
   }
   bool lent() const { return lent_; }
-  /// Records that the flash lost. Their keys have older values or none.
+  /// Damaged records that open() found: the flash lost bits. Their keys have older values or none.
   std::uint32_t damaged() const { return damaged_; }
+  /// Bytes left before the next erase.
   std::size_t free_bytes() const { return active_ == kNone ? 0 : page_[active_].bytes() - tail_; }
 
  private:

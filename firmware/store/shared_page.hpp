@@ -9,9 +9,10 @@
 #include "firmware/store/record.hpp"
 #include "hal/contract/flash_pages.hpp"
 
-/// Two images in one flash page, robot and actions. New contents are first written to another page;
-/// a note in front of them completes the request. From then on the copy home finishes despite power
-/// cuts, now or at the next start. Before that, home is untouched.
+/// Two images in one flash page, robot and actions, which can only be erased together. New contents
+/// are first written to another page; a note in front of them completes the request. From then on
+/// the copy home finishes despite power cuts, now or at the next start. Before that, home is
+/// untouched.
 namespace verp::store {
 
 /// memory(page) is the page's address for the processor.
@@ -111,15 +112,15 @@ class WaitingRoom {
     wanted_ = page_state_ == PageState::kUsed;
   }
   bool ready() const { return !wanted_; }
-  /// Writes a block, in any order, repeats allowed. False: the memory failed, or the log took the
-  /// page.
+  /// Writes a block within the room, in any order, repeats allowed. False: the memory failed, or
+  /// the log took the page.
   bool write(std::size_t offset, const std::uint8_t* from, std::size_t count) {
     const bool erased = page_state_ != PageState::kBad;
     page_state_ = PageState::kUsed;
     return erased && log_.lent() &&
            program_bytes(other_, page_, kBehindNote + second_ + offset, from, count, [] {});
   }
-  /// Performs a wanted erase when torque is off: it stops the processor.
+  /// Call regularly. Performs a wanted erase when torque is off, because it stops the processor.
   void work(bool may_erase) {
     if (!wanted_ || !may_erase) return;
     wanted_ = false;
@@ -152,7 +153,7 @@ class WaitingRoom {
   enum class PageState : std::uint8_t {
     kUsed,
     kBlank,  ///< erased and verified, not written
-    kBad,
+    kBad,    ///< erase failed
   };
   bool erase() {
     const bool good = Page<Other>(other_, page_).erase();

@@ -16,8 +16,8 @@
 ///  - Loss: bytes sent before a peer closed are still read; unplugging a device loses its unread
 ///    bytes. The read() that sees the loss returns at once; later calls wait out their timeout.
 ///    Queued bytes may be lost, but never appear twice or after later ones.
-///  - errors(): counts since open, modulo 2^32. A byte with a framing or noise error may be
-///    delivered or dropped.
+///  - errors(): counts since open, modulo 2^32; a loss does not reset them. A byte with a framing
+///    or noise error may be delivered or dropped.
 ///  - No call throws or blocks past its timeout; on a microcontroller none allocates.
 namespace verp::hal {
 

@@ -6,7 +6,8 @@
 ///
 /// A backend promises:
 ///  - start(period_us): the first tick begins now, tick k at start + k * period_us, without drift.
-///    False, with nothing changed, if the clock cannot make the period exactly (0 is refused).
+///    False, with nothing changed, if the clock cannot make the period exactly (0 is refused). A
+///    second start begins anew.
 ///  - wait(): returns when a tick has begun that no earlier wait() returned; at once if one has.
 ///    Returns their number: n > 1 means the loop missed n - 1. After start() the first wait()
 ///    returns for tick 1; before start() it returns 0 at once.

@@ -7,8 +7,8 @@
 /// A backend promises:
 ///  - start(timeout_us): arms it; only a reset disarms it. False, with nothing changed, if the
 ///    hardware cannot wait that long, timeout_us is 0, or it is armed already.
-///  - feed(): restarts the timeout. Feed only after a completed tick, never from an interrupt:
-///    interrupts still run when the loop is dead.
+///  - feed(): restarts the timeout; does nothing before start(). Feed only after a completed tick,
+///    never from an interrupt: interrupts still run when the loop is dead.
 ///  - Unfed, it resets between timeout_us and kWatchdogSlack * timeout_us: its oscillator is
 ///    independent and inaccurate.
 ///  - caused_reset(): whether it caused the last reset; constant until the next one.

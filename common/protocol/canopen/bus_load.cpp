@@ -78,7 +78,7 @@ FrameBits exact_bits(const Frame& frame) {
   const std::uint8_t size = can_fd_size(frame.size);
   wire.number(can_length_code(size), 4);
   for (unsigned i = 0; i < size; ++i) wire.number(i < frame.size ? frame.data[i] : 0u, 8);
-  // After the last data bit it is the CRC field's.
+  // A stuff bit after the last data bit is the CRC field's fixed one.
   const std::uint32_t data = wire.all() - slow - (wire.just_stuffed() ? 1 : 0);
   const std::uint32_t fast = data + (size > 16 ? 4u + 21u + 7u : 4u + 17u + 6u);
   return frame.bit_rate_switch ? FrameBits{slow + end, fast} : FrameBits{slow + fast + end, 0};

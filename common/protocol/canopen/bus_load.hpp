@@ -10,7 +10,8 @@
 ///     FD        header 22 (41) | data || stuff count 4, CRC 17 (21), fixed stuff bits 6 (7) |
 ///               delimiters, ACK, end 10 | intermission 3
 ///
-/// In brackets: 29-bit identifiers; FD with more than 16 bytes. Stuffing ends at the double line.
+/// In brackets: 29-bit identifiers; FD with more than 16 bytes. Stuffing ends at the double line;
+/// FD has fixed stuff bits behind it.
 namespace verp::canopen {
 
 /// Stuff bits: none, mean of random bits, maximum.
@@ -58,13 +59,14 @@ constexpr std::uint32_t stuff_bits(std::uint32_t bits, Stuffing stuffing) {
   return 0;
 }
 
+/// Data frame with `size` bytes, and the intermission.
 constexpr FrameBits classic_bits(std::uint8_t size, Stuffing stuffing, bool extended = false) {
   const std::uint32_t stuffed = (extended ? 39u : 19u) + 8u * size + 15u;
   return {stuffed + stuff_bits(stuffed, stuffing) + kFrameEndBits + kIntermissionBits, 0};
 }
 
-/// With room for `size` bytes and the intermission. `switched`: data rate from after BRS to the CRC
-/// delimiter; these two count as nominal.
+/// Frame with room for `size` bytes, and the intermission. `switched`: data rate from after BRS to
+/// the CRC delimiter; these two count as nominal.
 constexpr FrameBits fd_bits(std::size_t size, Stuffing stuffing, bool switched,
                             bool extended = false) {
   const std::uint32_t bytes = can_fd_size(size);
@@ -72,7 +74,7 @@ constexpr FrameBits fd_bits(std::size_t size, Stuffing stuffing, bool switched,
   const std::uint32_t stuffed_data = 5 + 8 * bytes;      // ESI, data length code, data
   const std::uint32_t crc = bytes > 16 ? 4 + 21 + 7 : 4 + 17 + 6;
   const std::uint32_t arbitration_stuff = stuff_bits(arbitration, stuffing);
-  // At the very end it is the CRC field's.
+  // A stuff bit after the last data bit would be the CRC field's first fixed one.
   const std::uint32_t data_stuff =
       stuff_bits(arbitration + stuffed_data - 1, stuffing) - arbitration_stuff;
   const std::uint32_t slow = arbitration + arbitration_stuff + kFrameEndBits + kIntermissionBits;

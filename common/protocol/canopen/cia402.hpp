@@ -68,8 +68,8 @@ constexpr State state_of(std::uint16_t statusword) {
 /// A controlword's command or an internal event.
 enum class Trigger : std::uint8_t {
   kShutdown,
-  kSwitchOn,         ///< or "disable operation"
-  kEnableOperation,  ///< and switch on before
+  kSwitchOn,         ///< if operation is enabled: "disable operation"
+  kEnableOperation,  ///< if not switched on: switch on first
   kDisableVoltage,
   kQuickStop,
   kFaultReset,
@@ -94,7 +94,8 @@ struct Transition {
   std::uint8_t number = 0;  ///< 0: no transition
   State next = State::kNotReady;
 };
-/// `stays_in_quick_stop`: quick stop option code 5 to 8, which waits in kQuickStopActive.
+/// `stays_in_quick_stop`: quick stop option code 5 to 8, which waits in kQuickStopActive and may be
+/// enabled from there.
 Transition transition(State state, Trigger trigger, bool stays_in_quick_stop);
 
 /// Quick stop option code, object 605Ah.

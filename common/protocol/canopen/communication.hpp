@@ -36,8 +36,8 @@ struct DeviceSize {
   std::size_t tpdos = 1;
   std::size_t entries = 8;       ///< of a mapping; 8: classic frames
   std::size_t watched = 1;       ///< nodes, 1016h
-  bool beats = true;             ///< false: 1017h is read-only
-  bool falls_back = true;        ///< 1029h; false: stays operational
+  bool beats = true;             ///< false: another sender beats for it, and 1017h is read-only
+  bool falls_back = true;        ///< 1029h; false: stays operational after errors
   bool stores = false;           ///< 1010h, 1011h
   std::size_t further_sdos = 0;  ///< 1201h and on
 };

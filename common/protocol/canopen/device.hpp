@@ -8,7 +8,7 @@
 /// A CANopen device: CiA 301's services around an application's objects.
 ///
 ///  - receive() takes each frame of the bus, next() returns frames to send until there are none;
-///    neither waits. Call next() regularly: heartbeats are due by time.
+///    neither waits. Call next() after each receive() and regularly: heartbeats are due by time.
 ///  - PDOs pass only in NMT state operational; SDO, SYNC and EMCY also in pre-operational.
 namespace verp::canopen {
 
@@ -103,7 +103,7 @@ class Device {
     return true;
   }
   /// Reports an error by EMCY, 1001h and 1003h; with over kErrorHistory waiting, by 1003h only.
-  /// `error_register`: the application's part of 1001h.
+  /// Code 0 (no error) leaves no entry there. `error_register`: the application's part of 1001h.
   void report(ErrorCode code, std::uint8_t error_register) {
     hold_error(code, error_register);
     tell(code);

@@ -5,8 +5,8 @@
 #include "common/protocol/canopen/dictionary.hpp"
 
 /// A CiA 402 drive in cyclic synchronous position mode: the one source of a virtual drive's
-/// dictionary, a master's mapping and a description for tools. Encoder increments (608Fh a turn),
-/// increments per second, thousandths of the rated torque (6076h).
+/// dictionary, a master's mapping and a description for tools. Units: encoder increments (608Fh a
+/// turn), increments per second, thousandths of the rated torque (6076h).
 namespace verp::canopen::cia402 {
 
 /// Modes of operation (6060h) in use.
@@ -51,7 +51,7 @@ struct DriveObjects {
   std::int32_t target_position = 0;
   std::int32_t actual_position = 0;
   std::int32_t actual_velocity = 0;
-  std::int32_t home_offset = 0;  ///< encoder position of zero
+  std::int32_t home_offset = 0;  ///< encoder position of the application's zero
   std::int32_t min_position = INT32_MIN;
   std::int32_t max_position = INT32_MAX;
   std::uint32_t following_window = UINT32_MAX;  ///< UINT32_MAX: no check
@@ -105,6 +105,7 @@ Abort check_mappable(Address at, std::uint8_t bits, bool receive);
 /// 60C2h: value times ten to the exponent seconds. 0 if invalid or over a minute.
 std::uint32_t interpolation_period_us(std::uint8_t value, std::int8_t exponent);
 
+/// Following error: the distance of target and actual position (6065h, 6066h).
 class FollowingMonitor {
  public:
   /// Call each cycle while following. True after too long outside the window.

@@ -79,7 +79,7 @@ constexpr std::uint64_t get_bits(const std::uint8_t* bytes, unsigned at, unsigne
 }
 
 /// Fills data and size, in an FD frame up to the next valid size. `get(at, bits)` returns an
-/// object's value; dummies are zero.
+/// object's value; dummies are zero. At most 64 bits, 512 in an FD frame.
 template <std::size_t kEntries, class Get>
 constexpr void pack_pdo(const PdoMapping<kEntries>& mapping, Frame& frame, Get&& get) {
   const unsigned bytes = mapping.bytes();

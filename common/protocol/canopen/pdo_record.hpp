@@ -199,7 +199,8 @@ class SyncSchedule {
   bool started_ = false;
 };
 
-/// A synchronous RPDO waits for the next SYNC. A later frame replaces it.
+/// A synchronous RPDO waits for the next SYNC, others take effect at once. A later frame replaces a
+/// waiting one.
 class RpdoLatch {
  public:
   constexpr bool receive(std::uint8_t type, const Frame& frame) {

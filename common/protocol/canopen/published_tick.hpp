@@ -64,7 +64,7 @@ struct Part {
 };
 static_assert(sizeof(Part) == kFrameBytes);
 
-/// Copies the part that frames of record, drives and sensors carry. `imu`: on the bus.
+/// Copies the part that frames of record, drives and sensors carry. `imu`: the IMU is on the bus.
 inline void copy_heard(Inputs& to, const Inputs& from, bool imu) {
   to.tick = from.tick;
   to.fresh = from.fresh;

@@ -15,6 +15,7 @@ struct LoadFormat {
   bool fd = false;  ///< FD frames with more drives each
 };
 
+/// A usual tick, or one with new controlwords and strengths for all drives.
 enum class TickKind : std::uint8_t { kSteady, kChange };
 
 /// `kind` with as many drives as an FD frame's 64 bytes hold.
@@ -114,6 +115,7 @@ constexpr bool has_room_to_publish(const Params& params, bool own_imu) {
          share(TickKind::kChange, true) <= kMostChangePermille;
 }
 
+/// Duration of a steady tick on a classic bus, with the worst stuffing.
 constexpr std::uint32_t tick_us(const Params& params) {
   const FrameBits bits = TickLoad(params, {}).bits(TickKind::kSteady);
   return static_cast<std::uint32_t>((wire_time_ns(bits, {params.baud, params.baud}) + 999) / 1000);

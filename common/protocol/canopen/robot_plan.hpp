@@ -65,7 +65,7 @@ constexpr int sensor_answers(const Params& params) {
   for (const std::uint8_t id : params.feet.device_id) frames += id != 0 ? 1 : 0;
   return frames;
 }
-/// At least 2 (1019h has no 1); also all TPDOs' transmission type.
+/// SYNCs of a tick, at least 2 (1019h has no 1); also all TPDOs' transmission type.
 constexpr std::uint8_t sync_groups(const Params& params) {
   const int joints = params.servo_count();
   const int in_last = joints == 0 ? 0 : (joints - 1) % kAnswersToOneSync + 1;
@@ -91,12 +91,14 @@ constexpr PdoMapping<> drive_answer() {
 }
 inline constexpr std::uint8_t kDriveAnswerBytes = 6;
 static_assert(drive_answer().bytes() == kDriveAnswerBytes);
+/// TPDO 1 and 2 of an IMU.
 constexpr PdoMapping<> imu_answer(const Address (&axes)[3]) {
   PdoMapping<> mapping;
   for (const Address& axis : axes) mapping.add(mapped(axis, 16));
   return mapping;
 }
 inline constexpr std::uint8_t kImuAnswerBytes = 6;
+/// TPDO 1 of a foot.
 constexpr PdoMapping<> foot_answer() {
   PdoMapping<> mapping;
   for (const Address& sensor : kFoot) mapping.add(mapped(sensor, 16));

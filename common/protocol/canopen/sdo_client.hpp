@@ -28,7 +28,7 @@ class SdoClient {
   /// False, without effect, while another runs.
   bool download(Address at, const std::uint8_t* data, std::uint32_t size, Mode mode,
                 std::uint64_t now_us);
-  /// A larger object aborts with kOutOfMemory.
+  /// An object larger than `capacity` aborts with kOutOfMemory.
   bool upload(Address at, std::uint8_t* buffer, std::uint32_t capacity, Mode mode,
               std::uint64_t now_us);
   void cancel(Abort reason = Abort::kGeneral) {

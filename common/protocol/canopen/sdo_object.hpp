@@ -35,7 +35,7 @@ class OpenObject {
     return Abort::kNone;
   }
 
-  /// `given`: the client announced it.
+  /// `given`: the client announced `size`.
   Abort open_write(Address at, bool given, std::uint32_t size) {
     if (const Abort refused = find(at); refused != Abort::kNone) return refused;
     if (!entry_.writable) return Abort::kReadOnly;

@@ -119,6 +119,7 @@ class SdoServer {
     abort(Abort::kCommand);
   }
 
+  // Aborts the transfer unless `refused` is kNone.
   bool granted(Abort refused) {
     if (refused != Abort::kNone) abort(refused);
     return refused == Abort::kNone;

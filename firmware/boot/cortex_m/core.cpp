@@ -14,7 +14,7 @@ void verp_systick();
 
 namespace {
 
-// ARMv7-M ARM, B3.5: memory protection unit.
+// ARMv7-M Architecture Reference Manual (ARM), B3.5: memory protection unit.
 constexpr std::uintptr_t kMpuType = 0xE000ED90, kMpuCtrl = 0xE000ED94, kMpuRnr = 0xE000ED98,
                          kMpuRbar = 0xE000ED9C, kMpuRasr = 0xE000EDA0;
 constexpr std::uint32_t kMpuRegions = 0xFFu << 8;

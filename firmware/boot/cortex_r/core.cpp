@@ -6,8 +6,8 @@
 #include "firmware/boot/fault_capture.hpp"
 #include "firmware/boot/stack.hpp"
 
-/// Cortex-R5; ARMv7-A and ARMv7-R ARM: exceptions (B1.8), system control registers of a PMSA
-/// (B6.1), memory protection (B5).
+/// Cortex-R5; ARMv7-A and ARMv7-R Architecture Reference Manual: exceptions (B1.8), system control
+/// registers of a PMSA (B6.1), memory protection (B5).
 extern "C" {
 extern std::uint32_t verp_stack_guard[];
 extern std::uint32_t verp_code_begin[];

@@ -6,8 +6,8 @@
 #include "firmware/boot/fault_capture.hpp"
 #include "firmware/boot/stack.hpp"
 
-/// RISC-V in machine mode; "The RISC-V Instruction Set Manual, Volume II": traps (3.1), physical
-/// memory protection (3.7).
+/// RISC-V in machine mode; "The RISC-V Instruction Set Manual, Volume II: Privileged Architecture":
+/// traps (3.1), physical memory protection (3.7).
 extern "C" {
 extern std::uint32_t verp_stack_guard[];
 extern std::uint32_t verp_code_begin[];

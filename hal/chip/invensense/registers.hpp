@@ -10,7 +10,7 @@ namespace verp::hal::invensense {
 
 inline constexpr std::uint8_t kReset = 0x80;       ///< PWR_MGMT_1
 inline constexpr std::uint8_t kAutoClock = 1;      ///< PWR_MGMT_1: awake, best clock
-inline constexpr std::uint8_t kI2cOff = 0x10;      ///< USER_CTRL: SPI noise can look like I2C
+inline constexpr std::uint8_t kI2cOff = 0x10;      ///< USER_CTRL: else SPI noise can look like I2C
 inline constexpr std::uint8_t kFifoOn = 0x40;      ///< USER_CTRL
 inline constexpr std::uint8_t kBankSelect = 0x7F;  ///< ICM-20648; bank from bit 4
 
@@ -55,8 +55,8 @@ struct Kind {
 inline constexpr Setting kMpu9250Settings[] = {
     {0, 0x19, 1}, {0, 0x1A, 4},   {0, 0x1B, 0, Setting::kGyro, 3}, {0, 0x1C, 0, Setting::kAccel, 3},
     {0, 0x1D, 4}, {0, 0x23, 0x78}};
-/// Speeds: PS-MPU-9250A-01 table 6; for the FIFO, public drivers. FIFO_RST clears itself; older
-/// chips need FIFO_EN off meanwhile.
+/// Speeds: PS-MPU-9250A-01 table 6; for the FIFO, the value of public drivers. FIFO_RST clears
+/// itself; older chips need FIFO_EN off meanwhile.
 inline constexpr Kind kMpu9250 = {
     .who_am_i_at = 0x75,
     .who_am_i = 0x71,

@@ -14,7 +14,8 @@ enum class Call : std::uint32_t {
 };
 constexpr std::uint32_t kApplicationExit = 0x20026;  // ADP_Stopped_ApplicationExit
 
-// "The semihosting interface". RISC-V's sequence must lie in one memory page.
+// How each core family calls ("The semihosting interface"). RISC-V's sequence must lie in one
+// memory page.
 #if defined(__riscv)
 std::int32_t call(Call number, const void* argument) {
   register std::uint32_t a0 __asm__("a0") = static_cast<std::uint32_t>(number);

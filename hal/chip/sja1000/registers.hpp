@@ -38,7 +38,7 @@ inline constexpr std::uint8_t kSrErrors = 1u << 6;
 inline constexpr std::uint8_t kSrBusOff = 1u << 7;
 inline constexpr std::uint8_t kIrReceive = 1u << 0;
 inline constexpr std::uint8_t kIrTransmit = 1u << 1;
-inline constexpr std::uint8_t kIrWarning = 1u << 2;  ///< error or bus status
+inline constexpr std::uint8_t kIrWarning = 1u << 2;  ///< error or bus status changed
 inline constexpr std::uint8_t kIrOverrun = 1u << 3;
 inline constexpr std::uint8_t kIrBusError = 1u << 7;
 // OCR: normal mode, both outputs push-pull.

@@ -13,8 +13,8 @@
 ///
 /// The chip holds one frame to send and 64 bytes of received frames; the driver queues the rest.
 /// on_interrupt() and every bus call move frames between chip and memory, so a board without
-/// interrupts must only call often enough. A more urgent frame replaces the chip's unless that is
-/// already being sent.
+/// interrupts must only call often enough: before 64 bytes of frames arrive. A more urgent frame
+/// replaces the chip's unless that is already being sent.
 namespace verp::hal::sja1000 {
 
 /// Access to chip and core:
@@ -104,6 +104,7 @@ class Sja1000 {
   void on_interrupt() { serve(); }
 
  private:
+  // Masks interrupts during its lifetime.
   class Held {
    public:
     explicit Held(Access& io) : io_(io), mine_(io.mask_interrupts()) {}

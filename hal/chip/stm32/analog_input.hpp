@@ -7,7 +7,7 @@
 #include "hal/chip/stm32/registers/adc.hpp"
 #include "hal/chip/stm32/registers/rcc.hpp"
 
-/// A slow voltage; poll_mv() never waits.
+/// One ADC channel as a slow voltage; poll_mv() never waits.
 namespace verp::hal::stm32 {
 
 struct AnalogWiring {
@@ -71,7 +71,7 @@ class AnalogInput {
   static constexpr std::uint64_t kPowerUp_us = 4;
   /// A conversion takes 492 cycles of at least 2 MHz (APB2 16 MHz / 8).
   static constexpr std::uint64_t kPatience_us = 1000;
-  static constexpr std::uint32_t kLongest = 7;  ///< SMPR: 480 cycles, for 100 kohm
+  static constexpr std::uint32_t kLongest = 7;  ///< SMPR: 480 cycles, for a divider of 100 kohm
   static constexpr std::uint32_t kWeight = 16;
 
   std::uint32_t at(std::uint32_t offset) const { return wiring_.base + offset; }

@@ -6,6 +6,7 @@
 
 namespace verp::hal::stm32 {
 
+/// Masks interrupts during its lifetime.
 template <Io Access>
 class Masked {
  public:

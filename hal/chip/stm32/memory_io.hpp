@@ -4,7 +4,8 @@
 
 #include "hal/chip/stm32/io.hpp"
 
-/// The real chip: volatile accesses and Armv7-M instructions (Armv7-M ARM, A7.7 DSB, WFI, CPS).
+/// The real chip: volatile accesses and Armv7-M instructions (Armv7-M Architecture Reference
+/// Manual, A7.7 DSB, WFI, CPS).
 namespace verp::hal::stm32 {
 
 class MemoryIo {

@@ -14,8 +14,8 @@
 /// The host gets NAK while the ring is full, so no byte sent while connected is lost. A loss drops
 /// the queued bytes; received bytes are read first.
 ///
-/// The board calls on_interrupt() from OTG_FS's vector. Every wait ends: a stuck transfer loses its
-/// bytes and is counted.
+/// The board calls on_interrupt() from OTG_FS's vector; cancelling a transfer there may take a
+/// fraction of a millisecond. Every wait ends: a stuck transfer loses its bytes and is counted.
 namespace verp::hal::stm32 {
 
 template <Io Access, class Function, class Timer, std::size_t kRing = 1024>
@@ -86,6 +86,7 @@ class OtgFs {
     watch_storm(moved_ == before ? core_.pending() & status : 0);
   }
 
+  /// Register bits that did not change in time.
   std::uint32_t stuck() const { return core_.stuck(); }
 
  private:

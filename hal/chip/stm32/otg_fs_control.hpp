@@ -21,6 +21,7 @@ class OtgFsControl {
   void fetch_setup(std::uint32_t size) { fetch(setup_, sizeof setup_, size); }
   void fetch_data(std::uint32_t size) { data_size_ = fetch(data_, sizeof data_, size); }
 
+  /// True if a packet has left.
   bool serve_in() {
     if (core_.take_in(0) == 0) return false;
     if (stage_ == Stage::kSending) {
@@ -30,6 +31,7 @@ class OtgFsControl {
     }
     return true;
   }
+  /// True if a request or a packet has arrived.
   bool serve_out() {
     const std::uint32_t flags = core_.take_out(0);
     if ((flags & otg_fs::kDoepXfrc) != 0) serve_data();

@@ -61,6 +61,7 @@ class OtgFsCore {
     write(otg_fs::kGotgint, flags);
     return flags;
   }
+  /// Reads and clears the endpoint's flags.
   std::uint32_t take_in(unsigned endpoint) {
     const std::uint32_t flags = read(otg_fs::diepint(endpoint)) & otg_fs::kDiepXfrc;
     if (flags != 0) write(otg_fs::diepint(endpoint), flags);
@@ -118,7 +119,7 @@ class OtgFsCore {
   }
 
   /// Sends one packet, perhaps empty, after the previous one has gone; `byte(i)` is its i-th byte.
-  /// False: an old packet is stuck; silent until the next bus reset.
+  /// False: an old packet is stuck; the endpoint is silent until the next bus reset.
   template <class Byte>
   bool send(unsigned endpoint, std::uint32_t size, Byte&& byte) {
     const std::uint32_t words = (size + 3) / 4;
@@ -237,7 +238,7 @@ class OtgFsCore {
     return is_in(address) ? otg_fs::diepctl(address & 0xFu) : otg_fs::doepctl(address & 0xFu);
   }
 
-  /// Bit 7 of DOEPINT is reserved but not 0.
+  /// Bit 7 of DOEPINT is reserved but not 0: write it as read.
   void clear_out(unsigned endpoint, std::uint32_t flags) {
     write(otg_fs::doepint(endpoint), flags | (read(otg_fs::doepint(endpoint)) & bit(7)));
   }

@@ -22,7 +22,7 @@ template <Io Access>
 ResetCause take_reset_cause(Access io) {
   const std::uint32_t csr = io.read32(base::kRcc + rcc::kCsr);
   modify32(io, base::kRcc + rcc::kCsr, 0, rcc::kCsrRmvf);
-  modify32(io, base::kRcc + rcc::kCsr, rcc::kCsrRmvf, 0);  // for the next start
+  modify32(io, base::kRcc + rcc::kCsr, rcc::kCsrRmvf, 0);  // left set, it would clear later flags
   if ((csr & (rcc::kCsrIwdgrstf | rcc::kCsrWwdgrstf)) != 0) return ResetCause::kWatchdog;
   if ((csr & rcc::kCsrSftrstf) != 0) return ResetCause::kSoftware;
   if ((csr & rcc::kCsrLpwrrstf) != 0) return ResetCause::kLowPower;

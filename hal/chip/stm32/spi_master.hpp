@@ -129,7 +129,7 @@ class SpiMaster {
       if ((flags & kErrors) != 0) return false;
       if ((flags & mask) == value) return true;
       if (late) return false;
-      late = timer_.now_us() >= deadline_us_;  // an interrupt may have delayed us
+      late = timer_.now_us() >= deadline_us_;  // polls once more: an interrupt may have delayed us
     }
   }
 

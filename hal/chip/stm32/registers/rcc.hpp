@@ -34,7 +34,7 @@ inline constexpr unsigned kCfgrSwsShift = 2, kCfgrPpre1Shift = 10, kCfgrPpre2Shi
 /// PPRE1 and PPRE2: divide by 2, by 4.
 inline constexpr std::uint32_t kPpre2 = 4, kPpre4 = 5;
 
-/// Reset bits are the same, except that ADC1's resets all three ADCs.
+/// Enable bits. Reset bits are the same, except that ADC1's resets all three ADCs.
 inline constexpr std::uint32_t kAhb1GpioA = bit(0);  ///< ports B, C, ... follow
 inline constexpr std::uint32_t kAhb1Dma1 = bit(21), kAhb1Dma2 = bit(22);
 inline constexpr std::uint32_t kAhb2OtgFs = bit(7);

@@ -21,7 +21,7 @@ inline constexpr std::uint32_t kCr2Stop = bits(12, 2);
 inline constexpr std::uint32_t kCr3Eie = bit(0), kCr3Hdsel = bit(3), kCr3Dmar = bit(6),
                                kCr3Dmat = bit(7), kCr3Onebit = bit(11);
 
-/// A 0 in RXNE, TC, LBD or CTS clears it; this value clears none.
+/// In SR a written 0 clears RXNE, TC, LBD or CTS; this value clears none.
 inline constexpr std::uint32_t kSrKeep = kSrRxne | kSrTc | kSrLbd | kSrCts;
 
 }  // namespace usart_v1
