@@ -32,7 +32,7 @@ std::optional<std::string> Answers::line() {
       read_.append(piece.data(), static_cast<std::size_t>(count));
     } else if (count == 0 || (errno != EINTR && errno != EAGAIN)) {
       ended_ = true;
-      if (!read_.empty()) read_ += '\n';  // no line break at the end
+      if (!read_.empty()) read_ += '\n';  // the last line had no line break
     }
   }
 }

@@ -14,7 +14,7 @@ constexpr std::size_t kNarrow = 60;
 constexpr std::size_t kIndentOfNarrow = 6;
 constexpr int kElsewhere = 100, kLeast = 20;
 
-/// A word, or its longest part that fits and ends with a comma.
+/// The word, or if it does not fit, its longest part that fits and ends with a comma.
 std::string_view first_piece(std::string_view word, std::size_t room) {
   if (word.size() <= room) return word;
   const std::size_t comma = word.rfind(',', room - 1);

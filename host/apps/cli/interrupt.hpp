@@ -10,7 +10,7 @@ void keep_failing_writes();
 /// program. For subcommands that poll interrupted().
 void catch_interrupts();
 
-/// No signal ends the program: it must first release a robot's torque.
+/// Like catch_interrupts(), but no signal ends the program: it must first release a robot's torque.
 void catch_interrupts_to_the_end();
 
 /// Requests: 0, 1, or 2 for more.

@@ -8,7 +8,7 @@
 namespace verp::cli {
 
 void print_json(const Json& object) {
-  // A model's name may contain any bytes.
+  // A model's name may contain any bytes; JSON must stay valid.
   const std::string text = object.dump(2, ' ', false, Json::error_handler_t::replace);
   std::fputs((text + "\n").c_str(), stdout);
   std::fflush(stdout);

@@ -4,7 +4,7 @@
 
 namespace verp::cli {
 
-/// Silent unless stderr is a terminal, under CI, or if not wanted.
+/// Silent under CI, if not wanted, and unless stderr is a terminal.
 class Progress {
  public:
   explicit Progress(bool wanted);

@@ -13,6 +13,7 @@ struct RealTime {
 /// Between the desktop's audio threads and the kernel's interrupt threads (50).
 inline constexpr int kLoopPriority = 40;
 
+/// For the calling thread.
 RealTime become_real_time();
 /// A loop that cannot keep up must not block other programs.
 void leave_real_time();

@@ -8,7 +8,7 @@ namespace verp::edit {
 
 cli::Subcommand add_edit(CLI::App& root);
 
-/// One a line, with values as PATH=VALUE.
+/// The parts below an element, one a line, with values as PATH=VALUE.
 std::string show(const Document& document, int element);
 
 }  // namespace verp::edit

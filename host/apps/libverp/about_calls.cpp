@@ -9,7 +9,7 @@
 
 using namespace verp::abi;
 
-// verp.h has the controller's layout.
+// The structs of verp.h have the controller's layout.
 static_assert(sizeof(verp_command) == sizeof(verp::Command));
 static_assert(offsetof(verp_command, head_tilt_mrad) == offsetof(verp::Command, head_tilt_mrad));
 static_assert(sizeof(verp_inputs) == sizeof(verp::Inputs));

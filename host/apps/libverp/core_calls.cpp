@@ -43,7 +43,7 @@ const verp::LegParams& leg_of(const Core& core, std::uint32_t side) {
   return core.params.leg[side];
 }
 
-/// Otherwise all results would be infinite, too.
+/// Otherwise no result would be finite.
 void need_finite(const float* values, std::size_t count, const char* name) {
   for (std::size_t i = 0; i < count; ++i) {
     finite(values[i], (std::string(name) + "[" + std::to_string(i) + "]").c_str());
@@ -55,7 +55,8 @@ void need_all_joints(const Core& core, const float* angle_rad, std::uint32_t joi
   need_finite(angle_rad, joints, "angle_rad");
 }
 
-/// A scaled, sheared or mirrored one has no angles. The tolerance admits rotations of a few digits.
+/// A scaled, sheared or mirrored matrix has no angles. The tolerance admits rotations rounded to a
+/// few digits.
 void need_rotation(const float* from, const char* name) {
   constexpr double kTolerance = 1e-3;
   Eigen::Matrix3d r;

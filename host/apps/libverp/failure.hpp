@@ -17,7 +17,7 @@ class Failure : public std::runtime_error {
   verp_status status_;
 };
 
-/// This thread's last error is the current exception; returns its status.
+/// Makes the current exception this thread's last error; returns its status.
 int fail(const char* function) noexcept;
 
 /// No exception leaves an ABI function's body. Without a result: VERP_OK.

@@ -9,7 +9,7 @@
 namespace verp::abi {
 namespace {
 
-/// Those that run now, on any thread.
+/// Moments that run now, on any thread.
 struct Moments {
   std::mutex mutex;
   std::map<std::uint64_t, Moment*> running;

@@ -12,7 +12,7 @@ using namespace verp::abi;
 namespace {
 
 std::int16_t milli(double value, const char* name) {
-  constexpr double kMost = 3.2;  // rad: head joints, and 16 bits
+  constexpr double kMost = 3.2;  // rad: range of head joints, and of 16 bits
   if (std::abs(finite(value, name)) <= kMost)
     return static_cast<std::int16_t>(std::lround(1e3 * value));
   throw Failure(VERP_BAD_ARGUMENT, std::string(name) + " may be -3.2 to 3.2");

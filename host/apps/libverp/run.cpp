@@ -107,7 +107,7 @@ void RobotInstance::decide(const Params& params, State& state, const Inputs& inp
   }
   deciding_.reset();
   if (moment.decided()) return;
-  // The core did not run in this tick.
+  // The core did not run, so its digest does not cover this tick.
   record::Digest32 digest(0);
   digest.add_struct(inputs);
   digest.add_struct(outputs);

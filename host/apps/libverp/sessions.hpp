@@ -16,7 +16,7 @@ class Ticking {
   Ticking(const Ticking&) = delete;
   Ticking& operator=(const Ticking&) = delete;
 
-  /// Null: not on this thread.
+  /// Null: it does not tick on this thread.
   static Run* find(verp_session session);
 
  private:

@@ -17,7 +17,7 @@ class Encoder {
   Encoder(const Encoder&) = delete;
   Encoder& operator=(const Encoder&) = delete;
 
-  /// Throws ToolError with ffmpeg's last line.
+  /// Throws ToolError with ffmpeg's last line if it has ended.
   void add(const render::Image& image);
   void finish();
 

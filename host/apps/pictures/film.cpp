@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kSlack_s = 1e-6;
 
+/// Passes instants at least every_s apart.
 class Shutter {
  public:
   Shutter(double from_s, double every_s) : next_s_(from_s), every_s_(every_s) {}

@@ -40,7 +40,7 @@ bool is_emulated(const std::string& board) {
   return std::any_of(all.begin(), all.end(), [&](const auto& each) { return each.name == board; });
 }
 
-/// It replays a trace for this board.
+/// The emulated board that replays a trace for this board.
 std::string replay_board(const std::string& board) {
   return is_emulated(board) ? board : flash::find_recipe(board).replay_board;
 }

@@ -8,8 +8,8 @@ namespace verp::tool {
 
 std::string first_power_checklist(const Params& params);
 
-/// Asks the user to confirm the checklist; `agreed`: done on the command line. Throws ToolError
-/// without it.
+/// Prints the checklist and asks the user to confirm it; `agreed`: confirmed on the command line.
+/// Throws ToolError without confirmation.
 void confirm_first_power(const Params& params, bool agreed, cli::Answers& answers);
 
 }  // namespace verp::tool

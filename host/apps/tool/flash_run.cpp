@@ -159,7 +159,7 @@ FlashAnswer flash_silicon(const FlashOptions& options, const flash::Recipe& reci
     if (options.dry_run) answer.text += line + "\n";
   }
   if (options.dry_run) return answer;
-  const std::string what = to_text(job.pieces);  // removes temporary files below
+  const std::string what = to_text(job.pieces);  // before the temporary files are removed below
   flash::run(
       job, steps,
       {.progress = [&](const flash::Step& step, double share) { progress.show(share, step.label); },

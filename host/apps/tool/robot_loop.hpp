@@ -29,7 +29,7 @@ inline constexpr int kAsked = 3;  ///< requests to a silent servo
 /// Answer at the end: is the servo's torque off?
 enum class LetGo : std::uint8_t { kYes, kNo, kSilent };
 
-/// Throws ToolError with the remedy if a tick cannot fit.
+/// Throws ToolError with the remedy if a tick cannot fit; warns if it barely fits.
 void judge_fit(const bus::LinkFit& fit, const RunPlan& plan);
 /// Throws ToolError without an IMU on the bus, or with `trouble`.
 void judge_imu(const RunPlan& plan, const std::string& trouble);
@@ -57,7 +57,8 @@ struct RunKeeper {
 };
 
 /// Drives one robot in real time, or in a twin's. Robot is the access to it:
-///  - Bus, bus(): the bus for App; set_held(us): the longest delay of answers;
+///  - Bus, bus(): the bus for App, with the delays of bring-up until set_held(us) sets the longest
+///  delay of answers;
 ///  - connected(), link_errors(); let_go(joint): asks one servo and repeats the release;
 ///  - brought_up(report), record(...) as a Recorder, report(health) after each tick: for observers
 ///    on the bus;

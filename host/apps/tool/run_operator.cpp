@@ -35,7 +35,7 @@ void RunOperator::fail(const std::string& why) {
   sitting_ = true;
 }
 
-// Another source of orders may release torque.
+// Another source of orders may release torque: no failure.
 void RunOperator::observe_obeying(std::uint32_t faults) {
   constexpr std::uint32_t kStopping = 0xFFFF;
   obeyed_s_ += period_s_;

@@ -21,6 +21,7 @@ class SetupGuide {
   SetupGuide(const Params& params, const link::Endpoint& endpoint, const SetupChoice& choice,
              SetupReport& report, cli::Answers& answers);
 
+  /// False: the user stopped, or joints remain.
   bool run();
 
  private:

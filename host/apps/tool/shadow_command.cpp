@@ -33,7 +33,7 @@ namespace {
 struct ShadowWords {
   std::string model, bus, link;
   RunParams params;
-  WalkOptions tuning;
+  WalkOptions tuning;     ///< only its tuning is used
   double for_s = 0;       ///< 0: until an interrupt
   double patience_s = 5;  ///< with a silent controller
   bool json = false;

@@ -16,7 +16,7 @@ struct TeamOptions {
   int robots = 0;  ///< 0: only named ones
   /// NAME=MODEL, NAME=ext:LINK, NAME=on:BOARD, or with a model NAME=MODEL,ext:LINK.
   std::vector<std::string> seats;
-  bool go_on = false;      ///< a lost controller ends only its robot
+  bool go_on = false;      ///< a lost controller ends only its robot's run
   double patience_s = 10;  ///< for a controller elsewhere, wall clock
   std::string of_outside;  ///< the given option for controllers elsewhere
 };

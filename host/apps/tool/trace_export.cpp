@@ -11,7 +11,7 @@
 namespace verp::tool {
 namespace {
 
-/// Files completely or not at all; streams to devices and pipes.
+/// Writes files completely or not at all; streams to devices and pipes.
 void write_whole(signals::Table& table, const std::filesystem::path& file) {
   namespace fs = std::filesystem;
   std::error_code error;

@@ -25,8 +25,8 @@ constexpr int kMostOnMapAxis = 41;
 /// Call it after all options that it excludes.
 void declare(CLI::App& app, MapOptions& options);
 
-/// Survey, answer and page. An interrupted one reports its finished part, status 1. Throws
-/// ToolError.
+/// Runs the survey, answers and writes the page. An interrupted one reports its finished part,
+/// status 1. Throws ToolError.
 int walk_map(const WalkOptions& options, const Walk& walk);
 
 }  // namespace verp::tool

@@ -67,7 +67,7 @@ void declare(CLI::App& app, WalkOptions& options);
 
 /// Options that change the run, with values.
 std::vector<std::pair<std::string, std::string>> changed_options(const CLI::App& app);
-/// That describe the run, also with their default value.
+/// Names of the typed options that describe the run, also with their default value.
 std::vector<std::string> typed_options(const CLI::App& app);
 
 /// Robot and length of its walk.

@@ -15,6 +15,7 @@
 namespace verp::tool {
 namespace {
 
+/// A device on the robot's bus has the modem's id.
 bool has_its_id(const Params& params) {
   for (int j = 0; j < params.servo_count(); ++j) {
     if (params.joint[j].servo_id == bus::modem::kId) return true;

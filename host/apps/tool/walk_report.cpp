@@ -56,7 +56,7 @@ std::optional<double> share_of_asked(const WalkPlan& plan, const sim::WalkMetric
   return *m.speed_steady_m_s / asked_m_s(plan);
 }
 
-/// Excess and cause; empty without share_of_asked().
+/// How much the speed exceeds the order, and why; empty without share_of_asked().
 std::string beyond_asked(const WalkPlan& plan, const sim::WalkMetrics& m) {
   const std::optional<double> share = share_of_asked(plan, m);
   if (!share || !m.slip_steady_m_s) return {};
@@ -107,7 +107,7 @@ std::string falls_text(const WalkResult& result) {
 }
 
 std::string verdict(const WalkPlan& plan, const WalkResult& result, const Sweep& sweep) {
-  constexpr double kAsAsked = 0.15;  // larger: in the first line
+  constexpr double kAsAsked = 0.15;  // a larger deviation is in the first line
   const double gait_s = result.metrics.walk_s;
   if (result.interrupted) return fmt::format("Interrupted after {:.1f} s of gait", gait_s);
   if (!result.failure.empty()) return "Failed: " + result.failure;

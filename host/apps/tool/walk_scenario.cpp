@@ -44,7 +44,7 @@ scenario::Robot robot_of(const WalkOptions& options) {
 
 namespace {
 
-/// Throws ToolError with the known ones. `where` gave it.
+/// Throws ToolError with the known boards. `where`: the place that names `board`.
 void check_board(const std::string& board, const std::string& where) {
   if (board.empty()) return;
   std::string names;

@@ -158,7 +158,7 @@ class Seeds {
                        values.back(), digits, values[values.size() / 2], digits);
   }
 
-  /// Median order; a walk that ended early counts a smaller one.
+  /// Adds the median order; a walk that ended early counts a smaller one.
   static std::string of_asked(std::string line, std::vector<double> asked, int digits) {
     if (line.empty() || asked.empty()) return line;
     std::sort(asked.begin(), asked.end());

@@ -68,7 +68,7 @@ class Drivers {
                     }});
   }
 
-  /// Ends the run if it must end then.
+  /// Ends the run if a lost controller must end it.
   void lose(const session::Robot& lost) {
     if (scenario_.if_lost_go_on) return;
     for (std::size_t i = 0; i < session_.size(); ++i) {

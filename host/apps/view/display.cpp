@@ -59,7 +59,7 @@ int hear_xlib(void*) {
   return 0;
 }
 
-/// Without Xlib headers; only if Qt has loaded Xlib.
+/// Needs no Xlib headers; works only if Qt has loaded Xlib.
 void listen_to_xlib() {
   using Handler = int (*)(void*);
   void* found = ::dlsym(RTLD_DEFAULT, "XSetIOErrorHandler");

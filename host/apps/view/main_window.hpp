@@ -113,11 +113,11 @@ class MainWindow final : public QMainWindow {
   std::unique_ptr<Player> player_;
   std::shared_ptr<const TraceFilm> trace_;     ///< null in a run
   std::unique_ptr<StepOn> shadow_;             ///< continues from a tick of the trace
-  std::size_t state_index_ = ~std::size_t{0};  ///< shown in the panel
+  std::size_t state_index_ = ~std::size_t{0};  ///< tick shown in the panel
   std::shared_ptr<const Film> film_;
   std::shared_ptr<const scene::Entity> entity_;
   std::unique_ptr<Steering> steering_;
-  std::shared_ptr<const scene::Entity> edited_;  ///< until time goes on
+  std::shared_ptr<const scene::Entity> edited_;  ///< shown until time goes on
   std::string chosen_link_;                      ///< in the editor
   QUndoStack* undo_;
   QUndoGroup* undos_;

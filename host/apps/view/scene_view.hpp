@@ -13,7 +13,8 @@ class QLabel;
 
 namespace verp::view {
 
-/// Left drag turns, middle or right drag moves, the wheel zooms; Shift grips.
+/// Left drag turns, middle or right drag moves, the wheel zooms; Shift grips what is under the
+/// mouse.
 class SceneView final : public QOpenGLWidget {
  public:
   explicit SceneView(QWidget* parent = nullptr);

@@ -14,8 +14,8 @@ class QTreeWidgetItem;
 
 namespace verp::view {
 
-/// All fields of State, Inputs and Outputs at a tick. A continuing controller's stand beside the
-/// recorded ones.
+/// All fields of State, Inputs and Outputs at a tick. If a controller continues from there, its
+/// values stand beside the recorded ones.
 class StatePanel final : public QWidget {
  public:
   explicit StatePanel(QWidget* parent = nullptr);

@@ -17,7 +17,7 @@
 namespace verp::view {
 namespace {
 
-/// Drags of one box are one step.
+/// Drags of one box are one undo step.
 class Change final : public QUndoCommand {
  public:
   Change(int id, float from, float to, std::function<void(int, float)> apply)

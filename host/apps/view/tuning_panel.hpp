@@ -30,7 +30,7 @@ class TuningPanel final : public QWidget {
   QUndoStack& undo_;
   QLabel* hint_;
   std::vector<QDoubleSpinBox*> boxes_;
-  Tuning own_, asked_, seen_;  ///< seen_: in effect
+  Tuning own_, asked_, seen_;  ///< seen_: last seen in effect
 };
 
 }  // namespace verp::view

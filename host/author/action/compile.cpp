@@ -186,7 +186,8 @@ class Maker {
     return good;
   }
 
-  /// A joint passes frames in its direction; it rests where it turns back, holds or waits.
+  /// A joint passes key frames while it keeps its direction; it rests where it turns back, holds or
+  /// waits.
   void set_speeds(std::size_t index) {
     Draft& own = drafts_[index];
     for (std::size_t i = 0; i < own.frames.size(); ++i) {
@@ -204,7 +205,7 @@ class Maker {
         const double in = (goal(now) - before) / (1e-3 * now.time_ms);
         const double out = (goal(next) - goal(now)) / (1e-3 * next.time_ms);
         if (in * out <= 0) continue;
-        // Below twice the slower side: no overshoot.
+        // The harmonic mean is below twice the slower side: no overshoot.
         const double speed = 2 * in * out / (in + out);
         now.speed_mrad_s[j] =
             static_cast<std::int16_t>(std::clamp(std::lround(1e3 * speed), -32767L, 32767L));

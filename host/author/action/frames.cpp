@@ -172,7 +172,7 @@ std::string other_side(std::string name) {
   return name;
 }
 
-/// At y = 0 a rotation about (x, y, z) turns into one about (-x, y, -z).
+/// A reflection at y = 0 turns a rotation about (x, y, z) into one about (-x, y, -z).
 float sign_of(const JointParams& joint, const JointParams& other) {
   const float along =
       -joint.axis.x * other.axis.x + joint.axis.y * other.axis.y - joint.axis.z * other.axis.z;

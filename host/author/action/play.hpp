@@ -12,7 +12,7 @@ struct PlayedAction {
   double turned_rad = 0;  ///< to the left
 };
 
-/// Plays it on the twin, with the caller's `hooks`.
+/// Plays action `number` on the twin, with the caller's `hooks`.
 PlayedAction play(session::WalkPlan plan, int number, session::Hooks hooks,
                   session::Options options);
 

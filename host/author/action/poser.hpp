@@ -19,7 +19,7 @@ class Poser {
 
   struct Legs {
     Offset body, foot[kFeet];
-    std::optional<double> over_left;  ///< moves the body for the centre of mass
+    std::optional<double> over_left;  ///< moves the body until the centre of mass is there
   };
   /// Sets only the legs' angles. Returns empty or the reason.
   std::string bend(const Legs& legs, Angles& angle_rad) const;

@@ -48,7 +48,7 @@ Document record_joints(const record::Trace& trace, const RecordOptions& options)
     if (time_s < options.from_s - 1e-9 || time_s > options.to_s + 1e-9) continue;
     if (time_s - last_s < options.every_s - 1e-9) continue;
     FrameText frame;
-    // The pose before is unknown: 1 s.
+    // The pose before the first frame is unknown: 1 s.
     frame.time_s = document.frames.empty() ? 1.0 : in_ms(time_s - last_s);
     last_s = time_s;
     for (int j = 0; j < trace.params.joint_count; ++j) {

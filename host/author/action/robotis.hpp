@@ -17,7 +17,7 @@ using Motion = std::vector<Page>;  ///< kPages of them
 
 /// A page as ROBOTIS' editor resets a page.
 Page blank_page();
-/// All bytes then sum to 255.
+/// Sets the checksum: all bytes then sum to 255.
 void seal(Page& page);
 
 /// Throws LoadError for a wrong size or checksum, too many steps, or steps without positions. Links

@@ -89,7 +89,7 @@ Offer offer_until(ActionPort& port, std::span<const std::uint8_t> image,
   }
 }
 
-/// It does not answer while it writes.
+/// The controller does not answer while it writes.
 bool has_started_anew(ActionPort& port) {
   try {
     return static_cast<WindowState>(port.number("window_state")) != WindowState::kAccepted;

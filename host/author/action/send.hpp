@@ -20,7 +20,7 @@ enum class Offer {
   kRefused,  ///< window_fault has the reason
   kArmed,    ///< its servos hold torque
   kNoRoom,   ///< for so many bytes
-  kNotHere,  ///< not in this way
+  kNotHere,  ///< it takes no actions in this way
 };
 
 /// A controller's registers and the path for its actions. Throws bus::DeviceError if it does not

@@ -67,7 +67,7 @@ class SerialPort : public ActionPort {
   void write(const char* name, const std::vector<std::uint8_t>& bytes) {
     client_.write(id_, table::find(name)->address, bytes);
   }
-  /// The repeat of a lost answer may reach a restarted controller.
+  /// The answer may be lost; the repeat may then reach a restarted controller.
   void commit() {
     try {
       write("window_commit", {1});

@@ -17,7 +17,7 @@ class Support {
   Torques torques(const PlayerOut& now) const;
   /// The centre of mass relative to a standing sole: x and y in its frame, z above.
   Vec3 com_over(const PlayerOut& now, int side) const;
-  /// Inside the carrying soles, for a point in that sole's frame; negative outside.
+  /// Distance inside the carrying soles of a point in that sole's frame; negative outside.
   double margin_m(const PlayerOut& now, int side, const Vec2& point_m) const;
 
  private:

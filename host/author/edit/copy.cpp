@@ -44,7 +44,7 @@ class Copier {
 
   Edit copies(const std::string& what) {
     std::map<int, std::pair<int, std::string>>
-        of_parent;  // the text comes behind the last original
+        of_parent;  // the last original, and the text behind it
     for (const int each : sources_) {
       const Element& element = document_.markup()[each];
       auto& [last, text] = of_parent[element.parent];
@@ -258,7 +258,7 @@ Edit mirror(const Document& document, int element) {
   const std::string what = "mirror " + document.path(element);
   Edit edit = Copier(document, element, other_side, true).copies(what);
   if (kind_of(document, element) != Kind::kNone) return edit;
-  // It refers to the other side's name.
+  // The copy refers to the other side's name.
   return together(document, what, [&](Document& copy) {
     copy.apply(edit);
     const auto& siblings = copy.markup()[copy.markup()[element].parent].children;

@@ -45,7 +45,7 @@ bool grow(const Document& document, Group& group) {
   return more;
 }
 
-/// -1: the element is only placed by the part.
+/// The element that depends on the part; -1: it is only placed by the part.
 int dependent(const Document& document, int element) {
   const Markup& markup = document.markup();
   if (markup[element].name.starts_with("verp:")) return element;

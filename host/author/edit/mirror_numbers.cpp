@@ -104,7 +104,7 @@ class Mirror {
     }
   }
 
-  /// Its horn is on the other side.
+  /// A mirrored servo's horn is on the other side.
   void turn(const Element& servo) {
     if (const Attribute* there = servo.attribute("direction")) {
       return put(there->value_at, there->value == "-1" ? "1" : "-1");

@@ -7,7 +7,7 @@
 namespace verp::edit {
 
 /// An axis in the mirror plane (roll, yaw) keeps its direction: angles change sign. A pitch axis is
-/// normal to it.
+/// normal to it: angles keep their sign.
 bool angle_changes_sign(const Document& document, int joint);
 
 /// Changes for y -> -y. `sign_changes`: joints whose angles do; `joints`: all mirrored.

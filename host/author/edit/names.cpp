@@ -13,7 +13,7 @@ unsigned bit(Kind kind) {
 }
 
 struct Rule {
-  std::string_view element, attribute;  ///< empty: any; the element's text
+  std::string_view element, attribute;  ///< empty element: any; empty attribute: the element's text
   unsigned kinds;
 };
 
@@ -71,7 +71,7 @@ Kind kind_of(const Document& document, int index) {
   const Element& element = document.markup()[index];
   if (element.name == "sensor") return Kind::kSensor;
   if (element.parent != document.model()) {
-    return Kind::kNone;
+    return Kind::kNone;  // a transmission's joints are only mentions
   }
   if (element.name == "link") return Kind::kLink;
   if (element.name == "joint") return Kind::kJoint;

@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds kStart{20};
-/// A boot check in an emulator on a busy machine.
+/// Longer than a boot check in an emulator on a busy machine.
 constexpr std::uint32_t kPatience_us = 5'000'000;
 
 bool is_emulated(const std::string& name) {

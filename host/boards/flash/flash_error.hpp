@@ -18,7 +18,7 @@ class FlashError : public std::runtime_error {
     kProtected,
     kRefused,  ///< the chip refused to erase or write
     kLost,     ///< connection lost during the operation
-    kVerify,
+    kVerify,   ///< the flash reads back differently
     kInterrupted,
     kOther,
   };

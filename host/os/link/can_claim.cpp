@@ -11,7 +11,8 @@
 
 namespace verp::link {
 
-// The name is free when its socket closes; like the interface, it belongs to a network namespace.
+// An abstract socket's name is free when the socket closes; like the interface, it belongs to a
+// network namespace.
 CanClaim::CanClaim(const std::string& interface, const std::string& part, const std::string& who)
     : socket_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
   const std::string name = "verp/can/" + interface + "/" + part;

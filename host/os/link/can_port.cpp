@@ -232,7 +232,7 @@ bool CanPort::send(const CanFrame& frame) {
   anchor_us_ = us_since_opened(monotonic_ns());
   push();
   if (connected()) return true;
-  --trouble_.dropped;
+  --trouble_.dropped;  // not accepted, so not dropped
   return false;
 }
 

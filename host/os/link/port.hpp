@@ -38,7 +38,8 @@ class Port {
   Port& operator=(const Port&) = delete;
   virtual ~Port() = default;
 
-  /// Non-blocking, owned by this Port; -1: no peer yet. Never waits long. Throws LinkError.
+  /// A non-blocking descriptor, owned by this Port; -1: no peer yet. Never waits long. Throws
+  /// LinkError.
   virtual int open() = 0;
   /// Called after a loss.
   virtual void close() = 0;

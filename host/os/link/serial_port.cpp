@@ -154,7 +154,7 @@ class SerialPort final : public Port {
   }
 
   // Closing restores the settings; on an unplugged device that fails, and libserial's destructor
-  // ends the program. So give it a terminal.
+  // ends the program. So give it a terminal on which closing succeeds.
   void give_it_a_terminal() {
     int master = -1;
     int slave = -1;
@@ -204,7 +204,7 @@ class SerialPort final : public Port {
     serial_icounter_struct count{};
     if (!port_ || !port_->IsOpen() ||
         ::ioctl(port_->GetFileDescriptor(), TIOCGICOUNT, &count) != 0) {
-      return at_open_;  // these devices have no counters
+      return at_open_;  // pseudo-terminals and unplugged devices have no counters
     }
     const auto sum = [](int a, int b) { return static_cast<std::uint32_t>(a + b); };
     return {.overruns = sum(count.overrun, count.buf_overrun),

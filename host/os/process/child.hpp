@@ -29,7 +29,8 @@ struct Command {
 /// says otherwise: to the kernel, an ending thread is a dead parent.
 class Child {
  public:
-  /// Throws std::system_error if it cannot start; ENOENT: no such program.
+  /// Returns when the program runs. Throws std::system_error if it cannot start; ENOENT: no such
+  /// program.
   explicit Child(const Command& command);
   ~Child();
   Child(const Child&) = delete;

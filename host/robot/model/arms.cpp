@@ -44,7 +44,7 @@ class Standing {
     }
   }
 
-  /// About the vertical through the body's origin, joint j at 1 rad/s.
+  /// Angular momentum about the vertical through the body's origin, joint j at 1 rad/s.
   double turned_by(std::size_t j) const {
     const Vec3 axis = link_[j + 1].linear() * entity_.joints[j].axis;
     double sum = 0;

@@ -116,7 +116,7 @@ class Assembler {
     }
   }
 
-  /// Controllers have 23 characters; tables and traces one line.
+  /// Controllers have room for 23 characters; tables and traces one line.
   void check_names() const {
     std::vector<std::string> names = {e_.name};
     for (const Joint& joint : e_.joints) names.push_back(joint.name);

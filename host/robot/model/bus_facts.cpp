@@ -86,7 +86,7 @@ ServoFact read_servo(const XmlElement& e, const std::vector<ServoType>& types, B
   return fact;
 }
 
-// CiA 301's without 800 kbit/s, which bxCAN cannot make from 42, 45 or 54 MHz.
+// CiA 301's bit rates without 800 kbit/s, which bxCAN cannot make from 42, 45 or 54 MHz.
 std::uint32_t read_baud(const XmlElement& e, BusProtocol protocol) {
   if (protocol == BusProtocol::kDynamixel2) {
     return static_cast<std::uint32_t>(e.integer("baud", 9600, 4500000, 2000000));

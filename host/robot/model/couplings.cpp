@@ -37,7 +37,7 @@ int place_in_leg(const Entity& entity, const char* name, int joint) {
   return found == leg->joints.end() ? -1 : static_cast<int>(found - leg->joints.begin());
 }
 
-/// Limits in the driver's angle; applies to both joints.
+/// Intersects both limits in the driver's angle and applies the result to both joints.
 void join_limits(const MimicFact& mimic, Joint& driver, Joint& follower) {
   double low = (follower.lower_rad - follower.offset_rad) / follower.ratio;
   double high = (follower.upper_rad - follower.offset_rad) / follower.ratio;

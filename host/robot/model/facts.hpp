@@ -24,7 +24,7 @@ struct ServoFact {
   std::string joint;
   Servo servo;
   std::optional<double> lower_rad, upper_rad;
-  bool gives_p_gain = true;  ///< else the type's
+  bool gives_p_gain = true;  ///< else the type's, until the robot is known
   bool gives_d_gain = true;  ///< otherwise none, until then
 };
 struct ImuFact {

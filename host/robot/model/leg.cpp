@@ -16,7 +16,7 @@ double distance(const Line& line, const Vec3& point) {
   return (d - d.dot(line.axis) * line.axis).norm();
 }
 
-/// Least squares of the distances to the lines.
+/// The point with the least squares of the distances to the lines.
 Vec3 meeting_point(const std::vector<Line>& lines) {
   Mat3 sum = Mat3::Zero();
   Vec3 right = Vec3::Zero();
@@ -34,7 +34,7 @@ double largest_distance(const std::vector<Line>& lines, const Vec3& point) {
   return largest;
 }
 
-/// Turns straight down onto this vector of the sagittal plane.
+/// Angle about +y that turns straight down onto this vector of the sagittal plane.
 double pitch_of(const Vec3& v) {
   return std::atan2(-v.x(), -v.z());
 }

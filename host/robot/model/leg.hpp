@@ -10,9 +10,10 @@ namespace verp::model {
 /// offset between the points. Other legs use Newton.
 struct LegGeometry {
   bool closed_form = false;
-  std::string reason;         ///< against closed form; empty: closed form
-  double residual_m = 0;      ///< distance of an axis from its common point, or the lateral offset
-  Vec3 hip_m = Vec3::Zero();  ///< body frame: meeting point of the hip axes
+  std::string reason;  ///< against closed form; empty: closed form
+  double residual_m =
+      0;  ///< largest distance of an axis from its common point, or the lateral offset
+  Vec3 hip_m = Vec3::Zero();        ///< body frame: meeting point of the hip axes
   Vec3 ankle_m = Vec3::Zero();      ///< the same for the ankle axes
   double thigh_m = 0, shank_m = 0;  ///< in the sagittal plane
   std::array<int, 6> direction{};   ///< joint angle = direction * (canonical - offset)

@@ -5,7 +5,7 @@
 
 namespace verp::model {
 
-/// Libraries' std::cerr is discarded: users get only our line.
+/// While it lives, libraries' std::cerr is discarded: users get only our line.
 class LibraryConsole {
  public:
   LibraryConsole();

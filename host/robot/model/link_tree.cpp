@@ -180,7 +180,7 @@ void LinkTree::put_followers_last() {
   origin_ = std::move(origin);
 }
 
-/// Everything beyond a fixed joint; `turned`: the joint itself.
+/// Transform of everything beyond a fixed joint; `turned`: the joint itself.
 Transform LinkTree::turn_of(const sdf::Joint& joint, const Transform& turned) const {
   const FixFact* const fix = facts_.fix_of(names_.joint_name(joint.Name()));
   if (fix == nullptr || fix->rad == 0) return turned;

@@ -31,8 +31,8 @@ namespace {
 
 using Text = std::optional<std::string>;  // none: the file's content
 
-/// This thread's working directory then has no robot files. Without a directory per thread
-/// (containers) it applies to all threads.
+/// While it lives, this thread's working directory has no file with a robot's name. In a container
+/// that forbids a directory per thread, this applies to all threads.
 class NoFilesHere {
  public:
   NoFilesHere() {

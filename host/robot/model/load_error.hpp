@@ -24,7 +24,7 @@ class LoadError : public std::runtime_error {
   std::string fix;
 
  private:
-  // The message quotes the file: remove control bytes.
+  // The message quotes the file: remove control bytes that a terminal would obey.
   static std::string one_line(std::string text) {
     for (char& c : text) {
       if (c == '\n' || c == '\r' || c == '\t') c = ' ';

@@ -8,7 +8,7 @@
 namespace verp::model {
 
 /// Loads and checks a <world>. Content that the twin cannot simulate throws LoadError with file,
-/// line and remedy. Not thread-safe (load_robot()).
+/// line and remedy. Not thread-safe, like load_robot().
 World load_world(const std::string& path);
 
 /// A path or NAME: common/worlds/NAME/world.sdf, searched as find_model() does. Throws LoadError

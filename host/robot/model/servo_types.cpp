@@ -9,8 +9,8 @@ namespace verp::model {
 
 namespace {
 
-// All MX(2.0) and X-series servos. ams AS5045: 0.03 degrees rms, 384 us delay in slow mode (data
-// sheet). The loop's rate is an estimate: gains are per millisecond.
+// All MX(2.0) and X-series servos. Encoder (e-Manual): ams AS5045, 0.03 degrees rms, 384 us delay
+// in slow mode (data sheet). The loop's rate is an estimate: gains are per millisecond.
 ServoType dynamixel(const char* name, const char* title, std::uint16_t model_number) {
   ServoType type;
   type.name = name;
@@ -20,7 +20,7 @@ ServoType dynamixel(const char* name, const char* title, std::uint16_t model_num
   return type;
 }
 
-// "identified parameters" of the paper, seen from the joint.
+// The paper's table "identified parameters", seen from the joint.
 ServoType identified(ServoType type, double kt_n_m_a, double resistance_ohm, const Gearbox& gears) {
   type.stall_current_a = type.nominal_v / resistance_ohm;
   type.stall_torque_n_m = kt_n_m_a * type.stall_current_a;
@@ -30,9 +30,9 @@ ServoType identified(ServoType type, double kt_n_m_a, double resistance_ohm, con
   return type;
 }
 
-// No parameters of these motors are published. Line: data sheet (e-Manual, at 12 V), friction on
-// top. For the identified MX-64 the sheet gives 6.0 N m and its line 6.3. Rotor and friction are
-// means of the identified MX-64 and MX-106, as shares of what scales them:
+// No parameters of these motors are published. The motor's line is the data sheet's (e-Manual, at
+// 12 V), friction on top. For the identified MX-64 the sheet gives 6.0 N m and its line 6.3. Rotor
+// and friction are means of the identified MX-64 and MX-106, as shares of what scales them:
 //   rotor      0.95, 1.05 (XL-330: 1.10) e-5 kg m2 per N m of stall torque at the rotor, seen
 //              through the gear ratio
 //   f_base     0.98, 0 % of stall torque; f_strib 0.38, 0.93 %

@@ -17,7 +17,7 @@ namespace {
 constexpr double kGravity_m_s2 = 9.80665;
 
 // Tuning's defaults are for generic21: leg 186 mm, hip at 0.81 of it, feet 1.4 mm inside the hips.
-// Lengths scale with the leg, times with its root, like a pendulum's.
+// Lengths scale with the leg, times with its square root, like a pendulum's.
 constexpr double kItsLeg_m = 0.186;
 constexpr double kUsual_v = 12;  // of its servos
 constexpr double kHipShare = 0.808;
@@ -61,7 +61,7 @@ std::vector<Transform> standing_links(const Entity& entity, const Limb& leg) {
   return links;
 }
 
-/// A sole under the hip, at the walk's lateral distance.
+/// A level sole under the hip, at the walk's lateral distance.
 Pose sole_at(const Params& params, int side, double height_m) {
   const LegParams& leg = params.leg[side];
   Pose sole;

@@ -68,7 +68,7 @@ void refuse_loops(const XmlElement& robot) {
   }
 }
 
-/// Nor the joint of a bad number.
+/// urdfdom does not name the joint of a bad number either.
 void refuse_no_ratio(const XmlElement& robot) {
   for (const XmlElement& joint : robot.children("joint")) {
     for (const XmlElement& mimic : joint.children("mimic")) {
@@ -98,7 +98,7 @@ void refuse_second_root(const XmlElement& robot, const Facts& facts) {
       "add the joint that carries one of them");
 }
 
-/// libsdformat rejects it without name or line.
+/// libsdformat rejects such a joint without name or line.
 void refuse_no_direction(const XmlElement& robot) {
   for (const XmlElement& joint : robot.children("joint")) {
     for (const XmlElement& axis : joint.children("axis")) {

@@ -47,7 +47,7 @@ class CommentCheck : public tinyxml2::XMLVisitor {
   const std::string& path_;
 };
 
-/// Libraries silently take one of them.
+/// Libraries silently take one of several.
 void refuse_repeats(const std::string& path, const tinyxml2::XMLElement& element) {
   for (const char* once :
        {"mass", "inertia", "inertial", "pose", "axis", "limit", "parent", "child", "origin",

@@ -8,7 +8,7 @@
 
 namespace verp::own {
 
-/// It cannot be loaded, or commanded an impossible goal.
+/// The controller cannot be loaded, or commanded an impossible goal.
 class OwnError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

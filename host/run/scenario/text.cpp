@@ -345,7 +345,7 @@ bool is_name(const std::string& text) {
   return std::ranges::all_of(text, plain);
 }
 
-/// What no robot can have beside the others.
+/// Refuses robots that cannot be in one world.
 void check_robots(const std::vector<Robot>& robots, const Reader& reader) {
   constexpr double kLeast_m = 0.1;  // session::Session refuses less
   if (robots.empty() || robots.size() > kMostRobots)

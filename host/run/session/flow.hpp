@@ -24,7 +24,7 @@ class Flow {
   /// The body pauses until the next resume().
   void pause();
   /// The body runs `call` on the stack of resume()'s caller, because garbage-collected languages
-  /// identify a thread by its stack.
+  /// identify a thread by its stack. Rethrows the exception of `call`.
   void outside(const std::function<void()>& call);
 
  private:

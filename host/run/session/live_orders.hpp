@@ -19,6 +19,7 @@ class LiveOrders {
   bool driving() const { return driving_; }
   const Command& command() const { return command_; }
 
+  /// While pressed, the robot has no torque.
   void press_emergency_stop(bool pressed);
   bool emergency_stop() const { return stopped_; }
 

@@ -28,7 +28,8 @@ struct ServeOptions {
   Pace pace = Pace::kAuto;
   /// Longest wait for a lockstep controller, wall clock; then the run has lost it. 0: no limit.
   double patience_s = 0;
-  /// When a controller releases the robot and hangs up; else the twin waits for another.
+  /// The run ends when a controller releases the robot and hangs up; else the twin waits for
+  /// another.
   bool ends_with_controller = false;
   // Functions may be empty.
   std::function<void(const std::string&)> told = {};  ///< receives events as text
@@ -98,9 +99,9 @@ class RemoteController : public Controller {
   static constexpr std::uint64_t kListen_ns = 1'000'000'000;
   bool still_listening(bool heard, std::uint64_t listen_ns = kListen_ns);
   void begin_real_time();
-  /// All ticks up to bus time `now_us`, without reports.
+  /// Watches all ticks up to bus time `now_us` of a controller without reports.
   void watch_until(std::uint64_t now_us);
-  /// Ends a turn with `came` bytes or frames. Clock requests count as the controller's patience;
+  /// Ends a turn with `came` bytes or frames. Clock requests measure the controller's patience;
   /// other traffic does not advance the world.
   void waited(const bus::LockstepSession& clock, std::size_t came, const char* unit);
   /// Reports each change of the link. `losses`: their number so far.

@@ -22,7 +22,7 @@ struct Session::Seat final : sim::TimeSource {
     robot.twin().set_time(*this);
   }
 
-  /// Runs on the stack of tick()'s caller.
+  /// A user's controller runs on the stack of tick()'s caller.
   Hooks with_decide_outside(Hooks hooks) {
     if (!hooks.decide) return hooks;
     hooks.decide = [this, decide = std::move(hooks.decide)](const Params& params, State& state,

@@ -48,7 +48,7 @@ class Session {
   /// Runs until one robot did a control tick, or its controller kept the session waiting for some
   /// ms. Null: the run is over.
   Robot* tick();
-  /// It ends every robot's run; empty: no.
+  /// Why the physics diverged, which ends every robot's run; empty: it did not.
   const std::string& diverged() const { return diverged_; }
   /// All robots have finished, or were interrupted.
   bool over() const;

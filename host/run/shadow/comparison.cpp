@@ -16,7 +16,7 @@ State stepped(const Params& params, const action::Library& actions, State state,
   return state;
 }
 
-/// At the held tick: the differing one or slightly later.
+/// Diffs the State at the held tick: the differing one or slightly later.
 void name_fields(record::Divergence& divergence, const Params& params,
                  const action::Library& actions, State state, const Testimony& testimony,
                  std::size_t from) {

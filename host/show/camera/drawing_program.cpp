@@ -89,8 +89,8 @@ DrawingProgram::~DrawingProgram() {
 
 void DrawingProgram::step_back() {
   constexpr int kLastOfAll = 19;
-  // The group: a process id means only its first thread. This cannot fail: every user may lower a
-  // priority.
+  // The whole group, because a process id means only its first thread. This cannot fail: every user
+  // may lower a priority.
   ::setpriority(PRIO_PGRP, static_cast<id_t>(process()), kLastOfAll);
 }
 

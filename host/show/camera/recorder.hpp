@@ -16,7 +16,8 @@ class Recorder {
   /// The arguments outlive it.
   Recorder(Rig& rig, const model::Entity& entity, const Params& params, record::TraceWriter& trace);
 
-  /// A session::Hooks::exposed. Never throws: failure() ends the pictures, not the run.
+  /// A session::Hooks::exposed. Never throws: an error, in failure(), ends the pictures, not the
+  /// run.
   void exposed(const sim::Exposure& exposure, std::uint64_t stamp_ns);
   /// Waits for pictures in progress; before the trace is closed.
   void finish();

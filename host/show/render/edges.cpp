@@ -31,7 +31,7 @@ class Smoother {
  private:
   int luma(int at) const { return luma_[static_cast<std::size_t>(at)]; }
 
-  /// Here and in two neighbours along `step`.
+  /// Curvature of brightness along `step`, here and in two neighbours.
   int bend(int at, int step, int beside) const {
     const auto one = [&](int i) { return std::abs(luma(i - step) - 2 * luma(i) + luma(i + step)); };
     return 2 * one(at) + one(at - beside) + one(at + beside);

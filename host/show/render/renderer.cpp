@@ -120,7 +120,7 @@ struct Renderer::Impl {
     solid.set("glow", linear(material.glow));
     solid.set("roughness", material.roughness);
     solid.set("metallic", material.metallic);
-    // It hides its far side; meshes may be open or wind either way.
+    // A closed shape hides its far side; meshes may be open or wind either way.
     const bool closed = placed.item->shape < scene::Shape::kPlane;
     (closed ? glEnable : glDisable)(GL_CULL_FACE);
     glActiveTexture(GL_TEXTURE1);

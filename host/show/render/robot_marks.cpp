@@ -59,7 +59,7 @@ class RobotMarks {
     marks_.outline(view_.support_world_m, 1.5 * kOver_m, 0.0025 * unit_m_, kSupportEdge);
   }
 
-  /// A third of the robot's height is its weight.
+  /// An arrow of a third of the robot's height is its weight.
   void contacts() {
     double weight_n = 0;
     for (const auto& node : robot_.entity->nodes) weight_n += 9.81 * node.mass_kg;

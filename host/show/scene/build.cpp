@@ -124,7 +124,7 @@ class RobotBuilder {
     if (node.collisions.empty()) add_body_of_inertia(index);
   }
 
-  /// Uniform, with a shapeless link's mass and inertia.
+  /// A uniform box with a shapeless link's mass and inertia.
   void add_body_of_inertia(int index) {
     const model::Node& node = e_.nodes[static_cast<std::size_t>(index)];
     if (node.mass_kg <= 0) return;

@@ -27,7 +27,7 @@ inline constexpr int kLeastDelay = -1;
 Simulated simulate(const model::Entity& entity, const Recording& recording,
                    const RigOptions& options);
 
-/// Us after a tick's start, when servos are read and have their goals.
+/// Times after a tick's start, us, at which servos are read and have their goals.
 struct TickTimes {
   std::uint32_t read_us = 0, goal_us = 0;
 };

@@ -33,7 +33,7 @@ struct PushOptions {
 double least_walk_s(const PushOptions& options, double cycle_s);
 
 struct PushCell {
-  int phase = 0;             ///< 0..phases-1; of 16, the paper's state
+  int phase = 0;             ///< 0..phases-1; with 16 phases, the paper's state
   double direction_rad = 0;  ///< of the push: 0 ahead, positive left
   double at_s = 0;           ///< start of the push, in time of gait
   double heading_rad = 0;    ///< at the push

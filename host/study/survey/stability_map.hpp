@@ -31,7 +31,7 @@ double least_walk_s(const StabilityOptions& options, double cycle_s);
 
 struct StabilityCell {
   enum class End { kNone, kWalked, kShort, kFell, kFailed } end = End::kNone;
-  Velocity asked, ordered;         ///< ordered: for the servos
+  Velocity asked, ordered;         ///< ordered: what the servos can follow of `asked`
   std::optional<Velocity> walked;  ///< over whole cycles; nullopt: it fell before, or did not walk
   std::string why;                 ///< of a failed walk
 };

@@ -10,7 +10,7 @@ namespace verp::tune {
 /// (sep-CMA-ES, Ros and Hansen 2008). Pure: equal seeds and costs give equal points.
 class Evolution {
  public:
-  /// Scaled so that `step` is a good first step everywhere.
+  /// Coordinates are scaled so that `step` is a good first step in each.
   Evolution(const Eigen::VectorXd& start, double step, int children, std::uint64_t seed);
 
   const std::vector<Eigen::VectorXd>& ask();

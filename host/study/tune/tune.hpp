@@ -49,7 +49,8 @@ struct Result {
 Result tune(const session::WalkPlan& plan, const sim::WorldOptions& world, const Options& options,
             const survey::Watch& watch);
 
-/// Stance, a joint's speed, reach, servo strength, or balance.
+/// Why a robot with this Tuning cannot walk at that speed: its stance, a joint's speed, reach,
+/// servo strength, or balance.
 std::string limit_of(session::WalkPlan plan, const sim::WorldOptions& world, double speed_m_s);
 
 }  // namespace verp::tune

@@ -19,7 +19,7 @@ constexpr std::uint64_t kMostMessage = 64 * 1024;  // a viewer's subscription li
 // A viewer that reads nothing is not read either, because answers to it would pile up.
 constexpr std::size_t kMostUntaken = 64 * 1024;
 constexpr std::size_t kAtOnce = 64 * 1024;  // before others have their turn
-constexpr std::size_t kMessage = 64;        // wslay's, per queued message
+constexpr std::size_t kMessage = 64;        // wslay's overhead per queued message
 
 bool would_block() {
   return errno == EAGAIN || errno == EWOULDBLOCK;

@@ -32,7 +32,7 @@ class Connection {
   /// write() sends it as the socket accepts it. False: the connection is closing.
   bool send(bool is_text, std::string_view message);
   void write();
-  /// Unsent, with an overhead per message.
+  /// Unsent bytes, with an overhead per message.
   std::size_t backlog() const;
   /// Queues the close frame, once. Wait until backlog() is 0, or queued messages are lost.
   void close(std::uint16_t code, std::string_view reason);

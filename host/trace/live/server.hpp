@@ -22,7 +22,7 @@ namespace verp::live {
 
 struct ServerOptions {
   std::string name = "VERP";
-  std::vector<std::string> origins = {};           ///< further ones that may connect
+  std::vector<std::string> origins = {};           ///< further Origins whose pages may connect
   std::size_t most_bytes = 16 * 1024 * 1024;       ///< of one viewer's queue
   std::chrono::milliseconds patience{2000};        ///< at the end, for a silent viewer
   std::chrono::milliseconds patience_all{10'000};  ///< for all viewers
@@ -44,7 +44,7 @@ class Server {
   Server& operator=(const Server&) = delete;
 
   std::uint16_t port() const { return port_; }
-  /// Ignores the channel's `id`.
+  /// Returns the channel's number; ignores its `id`.
   std::uint32_t add_channel(Channel channel);
   std::optional<std::uint32_t> find_channel(std::string_view topic) const;
   void send(std::uint32_t channel, std::uint64_t time_ns, std::string_view data);

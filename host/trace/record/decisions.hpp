@@ -10,6 +10,7 @@ namespace verp::record {
 /// differently from the recording one.
 class Decisions {
  public:
+  /// The trace must outlive this object.
   explicit Decisions(const Trace& trace)
       : trace_(trace), actions_(trace.library()), state_(trace.start()) {}
   /// Null: unknown. Call for every tick, in order.

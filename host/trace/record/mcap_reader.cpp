@@ -127,7 +127,7 @@ class Parser {
         return footer(in, content, start);
       default:
         if (opcode > Opcode::kDataEnd || opcode == Opcode{0}) fail(start, "unknown record type");
-        return;  // they repeat the data section; CRCs cover them
+        return;  // indexes and statistics repeat the data section; CRCs cover them
     }
     if (!in.good() || !in.at_end()) fail(start, "edited or damaged: a record's fields overrun it");
   }

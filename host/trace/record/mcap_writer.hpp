@@ -46,9 +46,9 @@ class Writer {
   void add_attachment(std::string_view name, std::string_view media_type, std::string_view data);
   /// Passes the open chunk to the operating system.
   void flush();
-  /// Summary, footer, final name. Nothing may follow.
+  /// Writes summary and footer and renames the file. Add nothing afterwards.
   void close();
-  /// Removes the part file; nothing may follow.
+  /// Removes the part file. Add nothing afterwards.
   void discard();
 
   std::size_t open_bytes() const { return chunk_.size(); }

@@ -56,7 +56,8 @@ class Copy {
     if (seen_++ > ticks_.first && (seen_ - 1 - ticks_.first) % kCutChunkTicks == 0) to_.flush();
   }
 
-  /// Ours follow their tick in the file. Others count by time: a camera's message comes late.
+  /// Our messages follow their tick in the file. Others count by time: a camera's message comes
+  /// late.
   bool is_wanted(const mcap::Message& message) const {
     const mcap::Channel& channel = from_.channels.at(message.channel);
     if (seen_ == 0 || channel.topic == kStaticTopic) return true;

@@ -15,7 +15,7 @@ class AssumedImu {
  public:
   explicit AssumedImu(const ImuParams& imu) {
     if (!(imu.accel_m_s2_per_count > 0)) return;
-    for (int axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < 3; ++axis) {  // body z axis in the IMU frame
       const float g = imu.body_imu[6 + axis] * math::kGravityMS2 / imu.accel_m_s2_per_count;
       sample_.accel_count[axis] = static_cast<std::int16_t>(std::lround(g));
     }

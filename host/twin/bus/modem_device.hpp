@@ -44,6 +44,7 @@ class Aerial {
   virtual std::uint8_t most_bytes() const = 0;
   /// kDataRange: too long, or no such modem. kResultFail: queue full.
   virtual dxl::Error say(std::uint8_t to, const std::string& data) = 0;
+  /// Calls the modem's hear() for each message received so far.
   virtual void listen() = 0;
 };
 

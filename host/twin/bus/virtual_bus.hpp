@@ -54,7 +54,8 @@ class VirtualBus {
   void set_baud(std::uint32_t baud);
   /// Holds the plant: only bytes advance time.
   void hold_plant() { held_ = true; }
-  /// Time restarts at 0; devices keep their settings, bytes on the wire are lost.
+  /// Releases the plant and restarts time at 0; devices keep their settings, bytes on the wire are
+  /// lost.
   void begin_time();
   bool held() const { return held_; }
   bool torque_on() const;

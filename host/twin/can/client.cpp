@@ -18,8 +18,8 @@ using canopen::SdoClient;
 constexpr Address kDeviceType{0x1000, 0};
 constexpr Address kName{0x1008, 0};
 constexpr std::uint16_t kIdentityIndex = 0x1018;
-constexpr std::size_t kMostBytes = 1 << 16;  // limit of an object that is read
-constexpr unsigned kRequestsAtOnce = 16;
+constexpr std::size_t kMostBytes = 1 << 16;      // limit of an object that is read
+constexpr unsigned kRequestsAtOnce = 16;         // of a scan; the size of a queue
 constexpr std::uint32_t kStopAfter_us = 20'000;  // longest wait for Ctrl-C during a scan
 
 std::uint32_t to_number(const std::vector<std::uint8_t>& data) {

@@ -42,6 +42,7 @@ class DeviceNode : public Node {
   Device& device() { return *device_; }
 
  protected:
+  /// Restores the application's factory state, not that of the communication.
   virtual void begin_anew() {}
   /// 1010h or 1011h: stores the application's settings or discards the stored ones.
   virtual void keep_application(bool) {}

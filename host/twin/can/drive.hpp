@@ -30,10 +30,10 @@ struct DriveNews {
 /// machine.
 ///
 /// Mode 8 only. A target, limited by 607Dh, takes effect when written. Straight lines of 60C2h join
-/// the targets. Without a target since torque-on, it holds its position. 6072h limits the duty, as
-/// Goal PWM does in a serial servo. Quick stop stops at once; then the torque goes off (605Ah 1 to
-/// 3) or stays on (5 to 7). Overheating and a watched following error are faults; a wrong supply
-/// voltage is a warning.
+/// the targets. Without a target since torque-on, the drive holds its position. 6072h limits the
+/// duty, as Goal PWM does in a serial servo. Quick stop stops at once; then the torque goes off
+/// (605Ah 1 to 3) or stays on (5 to 7). Overheating and a watched following error are faults; a
+/// wrong supply voltage is a warning.
 class DriveApplication {
  public:
   DriveApplication(sim::Plant& plant, int joint, const DriveSetup& setup);

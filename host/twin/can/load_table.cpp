@@ -28,8 +28,8 @@ Params half_of(const Params& params, int which, int first) {
   return half;
 }
 
-/// Adds the bus whose first drive is that of joint `from`. `own_imu`: the controller's IMU is a
-/// node.
+/// Raises the row to the load of the bus whose first drive is that of joint `from`. `own_imu`: the
+/// controller's IMU is a node.
 void add_bus(LoadRow& row, const Params& params, int from, bool own_imu,
              const canopen::BitRates& rates) {
   const std::uint32_t period_us = 1'000'000 / row.rate_hz;

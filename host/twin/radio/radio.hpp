@@ -14,16 +14,16 @@ namespace verp::radio {
 /// Defaults: an IEEE 802.15.4 modem (250 kbit/s, frames of at most 127 bytes) in a hall.
 /// host/guide/walk.md lists what the model omits.
 struct Conditions {
-  double range_m = 30;          ///< no reception beyond
-  double loss = 0.02;           ///< at short range; all are lost at range_m
-  double fade = 0.02;           ///< share of time that a pair is disconnected,
-  double fade_s = 0.3;          ///< for this long at a time
-  double delay_s = 0.004;       ///< from send() to the air,
-  double jitter_s = 0.004;      ///< plus at most this
-  double bytes_s = 31'250;      ///< shared by all within range_m
-  std::size_t overhead = 31;    ///< bytes per message
-  std::size_t most_bytes = 96;  ///< longer messages are refused
-  std::size_t most_waiting = 16;
+  double range_m = 30;            ///< no reception beyond
+  double loss = 0.02;             ///< at short range; all are lost at range_m
+  double fade = 0.02;             ///< share of time that a pair is disconnected,
+  double fade_s = 0.3;            ///< for this long at a time
+  double delay_s = 0.004;         ///< from send() to the air,
+  double jitter_s = 0.004;        ///< plus at most this
+  double bytes_s = 31'250;        ///< shared by all within range_m
+  std::size_t overhead = 31;      ///< bytes per message
+  std::size_t most_bytes = 96;    ///< longer messages are refused
+  std::size_t most_waiting = 16;  ///< per station; further messages are refused
 
   bool operator==(const Conditions&) const = default;
 };
@@ -41,7 +41,7 @@ struct ReceivedMessage {
   std::uint64_t number = 0;
 };
 
-enum class Sent { kOnItsWay, kTooLong, kTooMany, kNobody };
+enum class Sent { kOnItsWay, kTooLong, kTooMany, kNobody };  ///< kNobody: there is no such station
 
 enum class Fate { kHeard, kTooFar, kCollided, kFaded, kLost };
 inline constexpr int kFates = 5;
@@ -49,7 +49,7 @@ inline constexpr const char* kFateNames[kFates] = {"heard", "too far", "collided
 
 /// Fate of a message at one addressed station.
 struct Outcome {
-  std::uint64_t number = 0, time_us = 0;
+  std::uint64_t number = 0, time_us = 0;  ///< end of its last byte
   int from = 0, to = 0;
   std::size_t bytes = 0;  ///< payload
   Fate fate = Fate::kHeard;

@@ -64,7 +64,8 @@ void set_pose(dBodyID body, const Transform& pose, const Vec3& com_m) {
   dBodySetRotation(body, rotation);
 }
 
-/// Level frame midway between the soles, in body coordinates; x is their mean heading.
+/// Level frame midway between the soles, in body coordinates; z is their mean normal, x their mean
+/// heading.
 Transform between_soles(const model::Entity& entity, const std::vector<Transform>& link_body) {
   Vec3 normal = Vec3::Zero();
   Vec3 heading = Vec3::Zero();

@@ -9,6 +9,7 @@
 /// Links and hinges in the physics engine. Joint j moves node j + 1; node 0 is the body.
 namespace verp::sim {
 
+/// World pose of every node's link frame.
 std::vector<Transform> link_poses(const model::Entity& entity, const Transform& body_world,
                                   const std::vector<double>& joint_rad);
 
@@ -49,7 +50,7 @@ class Body {
   /// load() reports this joint from the next step on.
   void meter(int joint);
   JointLoad load(int joint) const;
-  /// The joint's link and all beyond, about its axis, in the present pose.
+  /// Inertia of each joint in the present pose: its link and all beyond, about its axis.
   std::vector<double> inertias_kg_m2() const;
   /// Changes the mass and scales the inertia; the shape stays.
   void set_mass(int node, double mass_kg);

@@ -8,6 +8,7 @@
 /// Gears, belts or rods: one motor turns two joints, the driver's and the follower's.
 namespace verp::sim {
 
+/// Sets followers to the angles that their drivers give them.
 void lead(const model::Entity& entity, std::vector<double>& joint_rad);
 
 /// A follower has a bearing but no rotor or gears; at a driver, the coupling carries part of the

@@ -37,6 +37,7 @@ struct Thing {
 
 class Quantities final : private Actor {
  public:
+  /// The world must outlive this object.
   explicit Quantities(World& world);
   ~Quantities() override;
   Quantities(const Quantities&) = delete;

@@ -19,6 +19,7 @@ class Scenery final : private Actor {
     std::vector<GeomTag*> tags;
   };
 
+  /// The world must outlive it.
   Scenery(World& world, std::shared_ptr<const model::World> data);
   ~Scenery() override;
   Scenery(const Scenery&) = delete;

@@ -31,7 +31,7 @@ class ImuModel {
            const Vec3& gyro_bias_rad_s = Vec3::Zero());
 
   /// Motion of the sensor's origin, world axes; up_world_m_s2: opposite to gravity. measurement()
-  /// is one latency old, in whole steps; first, the first one.
+  /// is one latency old, in whole steps; until then it is the first one.
   void sample(const Mat3& world_imu, const Vec3& angular_velocity_world_rad_s,
               const Vec3& acceleration_world_m_s2, const Vec3& up_world_m_s2, double step_s);
   const ImuMeasurement& measurement() const { return measurement_; }

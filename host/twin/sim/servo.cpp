@@ -135,8 +135,8 @@ double ServoModel::duty(const ServoSetpoint& setpoint) {
   return std::clamp(duty, duty_for(-setpoint.current_limit_a), duty_for(setpoint.current_limit_a));
 }
 
-// The firmware loop runs at its own instants within physics steps. It uses the angle at that
-// instant, and its duty holds until the next run.
+// The firmware loop runs at its own instants within physics steps. It uses the angle of
+// loop_delay_s earlier, and its duty holds until the next run.
 double ServoModel::mean_duty(const ServoSetpoint& setpoint, double angle_rad, double rate_rad_s,
                              double step_s) {
   constexpr double kSameInstant_s = 1e-9;

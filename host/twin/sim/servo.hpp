@@ -7,8 +7,8 @@
 #include "host/twin/sim/random.hpp"
 
 /// A position servo: encoder, position loop, DC motor, gearbox, housing temperature. Independent of
-/// the physics engine: a step's input is a line in the torque-speed plane, for any implicit
-/// velocity motor; the caller passes back the new speed.
+/// the physics engine: before a step it converts the joint's state to a line in the torque-speed
+/// plane, for any engine with an implicit velocity motor; the caller passes back the new speed.
 namespace verp::sim {
 
 /// One physics step's drive: a line over the joint's new speed, hence stable at any stiffness and
@@ -79,6 +79,7 @@ class ServoModel {
   /// The duty was at its limit in the last step.
   bool saturated() const { return saturated_; }
   double supply_current_a() const { return supply_current_a_; }
+  /// Of the bearing, in addition to the servo's own.
   double joint_damping_n_m_s() const { return joint_.damping_n_m_s; }
   double joint_friction_n_m() const { return joint_.friction_n_m; }
   void set_joint_damping(double damping_n_m_s) { joint_.damping_n_m_s = damping_n_m_s; }

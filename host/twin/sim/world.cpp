@@ -95,7 +95,7 @@ World::World(const WorldOptions& options) : options_(options) {
   static const OdeRuntime runtime;
   dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll));
   world_ = dWorldCreate();
-  // Without it, worlds share ODE's, which two threads must not step at a time.
+  // Own threading: worlds without it share ODE's, which two threads must not step at a time.
   threading_ = dThreadingAllocateSelfThreadedImplementation();
   dWorldSetStepThreadingImplementation(world_, dThreadingImplementationGetFunctions(threading_),
                                        threading_);

@@ -8,7 +8,7 @@ namespace Verp {
   public sealed unsafe class Moment {
     public uint Robot { get; private set; }
     public verp_inputs Inputs;
-    /// <summary>Of the previous tick; the library sends what the controller leaves here.</summary>
+    /// <summary>At first those of the previous tick; the library sends what the controller leaves here.</summary>
     public verp_outputs Outputs;
     ulong token;
     verp_outputs* sent;

@@ -187,9 +187,9 @@ namespace Verp {
     /// <summary>Replaces the robot's own controller from the next tick on; null restores it.</summary>
     public void Control(Controller controller, uint robot = 0) {
       verp_controller callback = controller == null ? (verp_controller)null : Callback(controller);
-      lock (controllers) {  // the one in force
+      lock (controllers) {  // keeps the one that is in force
         Checked(Native.verp_session_control(handle, robot, callback, null));
-        controllers[robot] = callback;  // for the garbage collector
+        controllers[robot] = callback;  // protects it from the garbage collector
       }
     }
 

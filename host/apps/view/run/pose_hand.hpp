@@ -18,7 +18,7 @@ class PoseHand {
   const std::vector<double>& joint_rad() const { return joint_rad_; }
   void stand();
 
-  /// Sole 0 left, 1 right, as near as the leg reaches; it keeps its orientation.
+  /// Moves the sole (0 left, 1 right) as near as the leg reaches and keeps its orientation.
   void move_foot(int side, const scene::Vec3& sole_body_m);
   scene::Vec3 sole_body_m(int side) const;
   /// -1: the node is no foot.

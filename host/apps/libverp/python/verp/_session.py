@@ -125,7 +125,7 @@ class Session(Sight):
         del kept  # keeps the texts alive
         tick, seen = memory("verp_tick", TICK)
         tick.size = TICK.itemsize
-        self._ticks[robot[0]] = seen  # even if interrupted
+        self._ticks[robot[0]] = seen  # before the library writes there, even if interrupted
         calls.session_view(self._session, robot[0], tick)
         return robot[0]
 
