@@ -31,7 +31,7 @@ TargetCost measure_target(const std::string& board, const Params& params,
 struct FunctionCost {
   std::string name;
   double calls_a_tick = 0;
-  double average_a_tick = 0;
+  double average_a_tick = 0;     ///< instructions, callees included
   std::uint64_t worst_tick = 0;  ///< by all its calls in a tick
 };
 

@@ -25,7 +25,7 @@ class RunOnCan : public Program {
  protected:
   Outcome beside_twin(const std::string& command) const {
     const std::string program = VERP_PROGRAM;
-    // An earlier twin's output says the same.
+    // Deletes an earlier twin's output, which says the same.
     return shell("rm -f twin.err; " + program +
                  " hil generic21 --bus can --realtime --link can:vcan0 --for 600 --json "
                  ">twin.out 2>twin.err & twin=$!; "

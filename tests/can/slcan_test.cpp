@@ -52,7 +52,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// While the adapter does not read; returns the frames.
+/// Fills the queue while the adapter does not read; returns the number of frames.
 unsigned jam(CanPort& port) {
   unsigned sent = 0;
   for (unsigned refused = 0; refused < 50;) {

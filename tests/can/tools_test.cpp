@@ -32,10 +32,10 @@ struct CanSocket : link::CanPort {
 using CanController = verp::test::ControllerOn<CanSocket, app::LockstepCan>;
 using Frames = std::vector<Decoded>;
 
-/// A twin that answers late repeats its answer.
+/// A twin that answers late repeats its answer: drops the repeats.
 Frames without_repeats(const Frames& all) {
   Frames kept;
-  std::vector<std::size_t> answer;
+  std::vector<std::size_t> answer;  ///< the twin's frames in `kept` since its last answer
   int last = -1;
   for (const Decoded& each : all) {
     const canopen::Connection on =
@@ -209,7 +209,7 @@ void CanTools::expect_goals(const Outputs& outputs, std::size_t from, std::size_
   }
 }
 
-// So many within the drives' patience.
+// The controller's heartbeats, which drives watch: so many within their patience.
 void CanTools::expect_heartbeats(std::size_t from, std::size_t to) const {
   const std::uint32_t ticks_each = std::uint32_t{plan::patience_ms(params)} * 1000 /
                                    plan::kHeartbeatsInPatience / params.period_us;

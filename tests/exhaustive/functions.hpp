@@ -8,9 +8,9 @@ struct UnaryFunction {
   std::string_view name;
   double bound_ulp;  ///< from common/math/elementary.hpp
   float (*tested)(float);
-  double (*reference)(double);                 ///< double libm: exact to 2^-28 ulp
+  double (*reference)(double);                 ///< double libm: exact to 2^-28 of a float's ulp
   long double (*fine_reference)(long double);  ///< where double cannot decide
-  /// The contract defines the value (NaN, outside the domain).
+  /// True where the contract defines the value itself (NaN, outside the domain).
   bool (*special)(float x, float& expected);
 };
 

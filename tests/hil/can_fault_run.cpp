@@ -94,7 +94,7 @@ class CanFaultRun final : public FaultScene<Line, CanPlan, CanFaultResult> {
     }
   }
 
-  // It loses its settings.
+  // A dip of the node's supply reboots it, and it loses its settings.
   void reboot(std::uint8_t id) {
     bus_.set_powered(id, false);
     bus_.set_powered(id, true);

@@ -17,19 +17,19 @@ enum class CanEvent : std::uint8_t {
   kAllReboot,      ///< all drives and sensors, for a moment
   kImuReboots,
   kFootReboots,
-  kRepeats,   ///< the same position
-  kLateLoop,  ///< now and then busy for more than a period
+  kRepeats,   ///< a drive reports the same position again
+  kLateLoop,  ///< the controller is now and then busy for more than a period
   kReset,
-  kHot,         ///< too hot but goes on
-  kOverheated,  ///< shuts off its torque
+  kHot,         ///< a drive is too hot but goes on
+  kOverheated,  ///< so hot that a drive shuts off its torque
   kLowVoltage,
-  kSags,         ///< only while the robot walks
-  kJointBeyond,  ///< a relaxed robot's joint
+  kSags,         ///< the supply is low, only while the robot walks
+  kJointBeyond,  ///< a relaxed robot's joint is turned beyond its limits
   kImuGone,      ///< unplugged from the bus
   kImuRepeats,
   kBusOff,   ///< the controller's chip, once
   kBusOffs,  ///< while the fault lasts
-  kShort,
+  kShort,    ///< the bus wires are shorted
 };
 
 struct CanPlan {
@@ -46,13 +46,14 @@ struct CanPlan {
 
 struct CanFaultResult : RunResult {
   CanDamage damage;
-  hal::CanErrors bus;
+  hal::CanErrors bus;                ///< at the controller's end
   std::uint32_t intruder = 0;        ///< its frames
   std::uint64_t digest = 0;          ///< after the last tick
   std::uint64_t ticks_recorded = 0;  ///< repeated by a replay
   std::uint32_t faults() const { return damage.faults() + events + intruder; }
 };
 
+/// Everything derives from `seed`.
 CanFaultResult run_can_fault(const Robot& robot, const CanPlan& plan, std::uint32_t seed);
 
 }  // namespace verp::test

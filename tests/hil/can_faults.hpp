@@ -19,7 +19,7 @@ struct CanFaults {
   std::uint32_t late_us = 0;  ///< by up to this
   std::uint32_t held_us = 0;  ///< all frames to the controller, as by a slow gateway
   double broken = 0;          ///< ended by an error frame and sent again; chip's wire only
-  bool down = false;          ///< the controller's interface
+  bool down = false;          ///< the controller's interface neither sends nor receives
 };
 
 struct CanDamage {
@@ -30,6 +30,7 @@ struct CanDamage {
   }
 };
 
+/// All randomness comes from one seed.
 class CanTrouble final : public can::Interference {
  public:
   CanTrouble(can::VirtualCan& bus, std::uint32_t seed) : bus_(bus), random_(seed) {
@@ -43,7 +44,7 @@ class CanTrouble final : public can::Interference {
   bool chance(double share) {
     return share > 0 && std::uniform_real_distribution<double>(0, 1)(random_) < share;
   }
-  /// The node's last order or heartbeat; 0: never.
+  /// When the node last received an order or heartbeat from the controller; 0: never.
   std::uint64_t ordered_us(std::uint8_t node) const {
     const auto found = ordered_us_.find(node);
     return found == ordered_us_.end() ? 0 : found->second;

@@ -12,8 +12,8 @@ class Intruder final : public can::Node {
  public:
   enum class Kind : std::uint8_t {
     kSilent,
-    kUrgent,   ///< a third of the bus
-    kCrowd,    ///< nearly all of the bus
+    kUrgent,   ///< a third of the bus, at top priority
+    kCrowd,    ///< nearly all of the bus, at top priority
     kFlood,    ///< more than the bus can carry
     kForeign,  ///< the robot's identifiers, foreign content
     kTwin,     ///< acts as a drive

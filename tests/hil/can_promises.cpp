@@ -46,7 +46,7 @@ void delayed(const CanFaultResult& result) {
   EXPECT_GT(result.after.strays, 0u) << "what comes too late belongs to nobody";
   keeps_walking(result);
 }
-// All comes a period late.
+// The gateway delivers all a period late, so nothing may count as fresh.
 void held_back(const CanFaultResult& result) {
   EXPECT_GT(result.damage.late, 0u);
   EXPECT_EQ(result.during.fresh, 0u);

@@ -11,14 +11,14 @@ enum class Event {
   kNone,
   kServoGone,       ///< unplugged but powered
   kServoUnpowered,  ///< unplugged; restarts later
-  kRepeats,         ///< the same position
-  kLateLoop,        ///< now and then busy for more than a period
+  kRepeats,         ///< a servo reports the same position again
+  kLateLoop,        ///< the controller is now and then busy for more than a period
   kReset,
-  kHot,         ///< too hot but goes on
-  kOverheated,  ///< shuts off its torque
+  kHot,         ///< a servo is too hot but goes on
+  kOverheated,  ///< so hot that a servo shuts off its torque
   kLowVoltage,
-  kSags,         ///< only while the robot walks
-  kJointBeyond,  ///< a relaxed robot's joint
+  kSags,         ///< the supply is low, only while the robot walks
+  kJointBeyond,  ///< a relaxed robot's joint is turned beyond its limits
   kImuGone,      ///< unplugged from the bus
   kImuRepeats,
 };
@@ -37,6 +37,7 @@ struct FaultResult : RunResult {
   LineDamage damage;
 };
 
+/// Everything derives from `seed`.
 FaultResult run_fault(const Robot& robot, const FaultPlan& plan, std::uint32_t seed);
 
 }  // namespace verp::test

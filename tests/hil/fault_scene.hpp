@@ -62,6 +62,7 @@ class FaultScene {
   virtual void end() = 0;
   virtual void watched_tick() = 0;
   virtual void finish() = 0;
+  /// Called between two ticks.
   virtual void disturb() {}
   /// For a restarted controller's ticks; may be null.
   virtual std::vector<TickRecord>* trace() { return nullptr; }
@@ -174,7 +175,7 @@ class FaultScene {
     for (std::uint64_t ticks = 0; seconds(ticks) < duration_s; ++ticks) tick();
     asks_ = true;
   }
-  /// Beyond the limp joint's limits.
+  /// A hand turns a limp robot's joint beyond its limits.
   void bend() {
     relax(kDown_s);
     const JointParams& joint = params_.joint[result_.joint];

@@ -85,6 +85,7 @@ class SickPlant final : public sim::Plant {
     temperature_c_ = temperature_c;
   }
   void sag_to(double voltage_v) { voltage_v_ = voltage_v; }
+  /// Puts the joint `count` counts from where its servo would have it.
   void bend(int joint, std::int32_t count) {
     bent_joint_ = joint;
     bent_count_ = count;

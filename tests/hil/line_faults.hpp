@@ -62,8 +62,8 @@ class FaultyLine {
   std::minstd_rand random_;
   LineDamage damage_;
   std::deque<Arrived> inbox_;
-  std::uint64_t sent_us_ = 0;      ///< the last frame, delivered or not
-  std::uint64_t bus_sent_us_ = 0;  ///< the last delivered frame
+  std::uint64_t sent_us_ = 0;      ///< when the last frame began, delivered or not
+  std::uint64_t bus_sent_us_ = 0;  ///< when the last delivered frame began
   bool reading_ = false;
   bool spoilt_ = false;  ///< the last frame gets no whole answer
 };

@@ -19,7 +19,7 @@ void walks_again(const RunResult& result);
 void gone_briefly(const RunResult& result);
 void let_go(const RunResult& result);
 void gone_for_good(const RunResult& result);
-/// Only the device's own counter shows it.
+/// One device repeats its position; only its own counter shows it.
 void repeats(const RunResult& result);
 void late(const RunResult& result);
 void cut(const RunResult& result);

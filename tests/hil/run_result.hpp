@@ -28,9 +28,9 @@ struct RunResult {
   int joint = 0;  ///< of the event's servo
   std::uint8_t joint_id = 0;
   Registers before;
-  Registers during;
+  Registers during;  ///< when the fault ended
   Registers after;
-  std::uint32_t seen = 0;
+  std::uint32_t seen = 0;           ///< bit m: was in mode m
   std::uint32_t changes = 0;        ///< of mode, during the fault
   std::uint32_t walking_ticks = 0;  ///< since the fault began
   std::uint32_t ticks = 0;

@@ -135,7 +135,7 @@ void SafeTable::check_transition(const Inputs& inputs, int to) {
   const auto longer = [&](std::uint32_t ticks, double duration_s) {
     return 1e-6 * params_.period_us * ticks >= duration_s - 1e-6;
   };
-  // The core may be early by half a period.
+  // If the period does not divide the time, the core may be early by half a period.
   const auto nearly = [&](std::uint32_t ticks, double duration_s) {
     return longer(ticks, duration_s - 0.5e-6 * params_.period_us);
   };

@@ -16,7 +16,7 @@ class SafeTable {
 
   void tick(const Inputs& inputs, const Outputs& outputs);
 
-  /// With its time; empty if no rule is broken.
+  /// The first broken rule and its time; empty if none.
   const std::string& violation() const { return violation_; }
   int mode() const { return mode_; }
   /// Bit m: mode m.

@@ -13,19 +13,19 @@ enum Event : std::uint32_t {
   kSilentImu = 1 << 1,
   kQuietOperator = 1 << 2,
   kPressStop = 1 << 3,
-  kTip = 1 << 4,    ///< onto its nose
+  kTip = 1 << 4,    ///< tilts onto its nose
   kRight = 1 << 5,  ///< tilts back
   kTremble = 1 << 6,
   kHot = 1 << 7,
   kLowVoltage = 1 << 8,
   kServoAlarm = 1 << 9,
   kLate = 1 << 10,       ///< the tick before overran
-  kFeetInAir = 1 << 11,  ///< the sensors bear no weight
-  kFeetGone = 1 << 12,   ///< the sensors do not answer
-  kYawDrift = 1 << 13,   ///< an unrequested turn
+  kFeetInAir = 1 << 11,  ///< the foot sensors bear no weight
+  kFeetGone = 1 << 12,   ///< the foot sensors do not answer
+  kYawDrift = 1 << 13,   ///< the gyro shows an unrequested turn
   kWrite = 1 << 14,      ///< the first tick writes Episode::value
-  kRestore = 1 << 15,    ///< one tuning value per tick
-  kScan = 1 << 16,       ///< one value per tick: too high, too low, NaN
+  kRestore = 1 << 15,    ///< restores one tuning value per tick
+  kScan = 1 << 16,       ///< writes one value per tick: too high, too low, NaN
   kFrozenImu = 1 << 17,  ///< repeats its last reading
   kBent = 1 << 18,       ///< a joint is beyond its limits
 };

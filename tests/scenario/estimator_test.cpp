@@ -6,7 +6,7 @@
 namespace verp::scenario {
 namespace {
 
-// At 0.25 m/s.
+// The promised accuracy of the estimate, at 0.25 m/s.
 constexpr double kMostAttitude_deg = 0.5;
 constexpr double kMostVelocity_m_s = 0.03;
 

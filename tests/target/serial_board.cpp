@@ -20,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A boot check on a busy machine.
+/// Longer than a boot check on a busy machine.
 constexpr std::uint32_t kPatience_us = 3'000'000;
 constexpr std::chrono::seconds kStart{20};
 /// A controller asks again within a second of its own clock, which stutters in an emulator.

@@ -61,10 +61,10 @@ struct SerialRun {
   std::uint32_t tick = 0;    ///< the controller's
   std::string difference;    ///< see bus::ShadowLoop
   double ticks_per_s = 0;    ///< wall time
-  std::uint64_t faults = 0;  ///< on the cable
+  std::uint64_t faults = 0;  ///< damaged bytes on the cable
   int cuts = 0;
-  std::uint32_t bus_timeouts = 0;  ///< the operator's
-  std::uint32_t bus_noise = 0;     ///< the operator's
+  std::uint32_t bus_timeouts = 0;  ///< as the operator's registers report
+  std::uint32_t bus_noise = 0;     ///< likewise
   bus::LockstepServer::Counters lockstep;
 };
 

@@ -27,7 +27,7 @@ std::int64_t read_i32(bus::VirtualBus& bus, int joint, std::uint16_t address) {
   return INT64_MIN;
 }
 
-// They hold even if the controller is silent or wrong.
+// The servo's limits hold even if the controller is silent or wrong.
 TEST_F(AppLoop, BringUpWritesEachJointsLimitsIntoItsServo) {
   for (int j = 0; j < kJoints; ++j) {
     JointParams& joint = params.joint[j];

@@ -24,7 +24,7 @@ using Controller = app::OperatorNode<VirtualCan, Log>;
 
 enum Effort : unsigned { kVelocity, kTorque, kEfforts };
 
-/// Between a drive's request and answer.
+/// A joint's range between a drive's request and answer.
 struct Truth {
   std::int32_t least = 0, most = 0;
   std::uint64_t at_us = 0;

@@ -87,7 +87,7 @@ TEST_F(EditWord, AMeshBecomesALinkWithItsOwnInertia) {
   EXPECT_TRUE(inside.closed);
   EXPECT_NEAR(inside.volume_m3, 1e-6, 1e-12);  // a sixth
   EXPECT_LT((inside.centre_m - Vec3(0.0025, 0.005, 0.0075)).norm(), 1e-9);
-  // 3/80 (b2 + c2) about x, a b/80 off the diagonal.
+  // A corner of a, b, c has 3/80 (b2 + c2) about x, a b/80 off the diagonal.
   EXPECT_NEAR(inside.inertia_per_kg(0, 0), 3.0 / 80 * (4 + 9) * 1e-4, 1e-10);
   EXPECT_NEAR(inside.inertia_per_kg(0, 1), 2.0 / 80 * 1e-4, 1e-10);
   const Ended ended =

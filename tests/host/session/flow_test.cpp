@@ -44,7 +44,7 @@ TEST(Flow, ThrowsInResumeWhatItsBodyThrew) {
 TEST(Flow, UnwindsABodyThatNobodyRunsToItsEnd) {
   struct Leaves {
     ~Leaves() {
-      flow.pause();  // no caller resumes
+      flow.pause();  // no effect: no caller resumes
       left = true;
     }
     Flow& flow;

@@ -306,7 +306,8 @@ TEST_P(IdentifiedMotor, SwingsAPendulumAsThePaperSaysInOde) {
 
 INSTANTIATE_TEST_SUITE_P(Paper, IdentifiedMotor, testing::Values("mx64", "mx106", "xl330"));
 
-// At 1 kHz. Finer physics sees a duty for four steps, coarser physics runs two loops a step.
+// The loop runs at 1 kHz. Finer physics sees a duty for four steps, coarser physics runs two loops
+// a step.
 TEST(Gearbox, TheLoopRunsAtItsOwnRateWhateverThePhysicsStep) {
   Bench fine(joint_with({}), 0.01, 0.00025);
   fine.setpoint.torque_on = true;

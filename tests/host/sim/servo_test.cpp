@@ -158,7 +158,7 @@ TEST(Servo, NamesTheJointWhoseFactsAreImpossible) {
   }
 }
 
-// K = P/128 * counts/rad / 885 * stall.
+// Duty times stall torque balances gravity: K = P/128 * counts/rad / 885 * stall.
 TEST(ServoInOde, SagsByTorqueOverStiffness) {
   World world;
   TwinOptions options = bench();

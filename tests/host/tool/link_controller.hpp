@@ -40,7 +40,7 @@ class ControllerPort {
   hal::LinkErrors errors() const { return link_ ? link_->errors() : hal::LinkErrors{}; }
 
   unsigned flips_per_million = 0;  ///< of received bytes
-  int cut_every = 0;               ///< reads with data
+  int cut_every = 0;               ///< every so many reads with data
   int cuts = 0;
   std::atomic<bool> opened = false;  ///< the peer accepted the connection
 

@@ -35,6 +35,7 @@ class CanWire {
     heard_.pop_front();
     return true;
   }
+  /// Another node occupies the bus until it is released.
   void hold(bool yes) { held_ = yes; }
   /// The next `frames` frames end in an error frame.
   void spoil(unsigned frames) { spoiled_ = frames; }

@@ -45,6 +45,7 @@ class Bank {
   virtual void run() {}
   /// The bus clocks will change: counts up to now.
   virtual void rebase() {}
+  /// When it next has something to do.
   virtual Time next() const { return kNever; }
   /// True if it wants a transfer now.
   virtual bool dma_request(bool /*transmit*/) const { return false; }

@@ -25,10 +25,10 @@ class CanModel : public Bank {
            const CanModel* keeper = nullptr);
 
   // Script.
-  bool init_stuck = false;
+  bool init_stuck = false;     ///< INAK never sets
   bool line_dominant = false;  ///< nothing is sent or received
-  bool acknowledged = true;
-  unsigned break_next = 0;  ///< our next frames with a bit error
+  bool acknowledged = true;    ///< another node receives us
+  unsigned break_next = 0;     ///< our next frames with a bit error
   /// Called at a frame's end; true: an error frame destroys it and it is sent again.
   std::function<bool(const CanFrame&)> breaks = [](const CanFrame&) { return false; };
   bool abort_stuck = false;  ///< abort requests have no effect

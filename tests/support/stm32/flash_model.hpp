@@ -18,12 +18,12 @@ class FlashModel : public Bank {
   // 16 KB and 4 s for 128 KB; at 16 half, at 32 a quarter.
   Time program_time = us(16);
   Time erase_time_per_kb = ms(8);
-  bool busy_stuck = false;
+  bool busy_stuck = false;              ///< BSY never falls once set
   std::uint32_t fail_next = 0;          ///< operations that end half done with OPERR
   std::uint32_t protected_sectors = 0;  ///< bit s: sector s
 
   void seed(std::uint32_t seed) { random_ = seed * 2654435761u | 1u; }
-  /// In the middle of the operation after `operations` more.
+  /// The power fails in the middle of the operation after `operations` more.
   void cut_power_after(std::uint32_t operations) {
     cut_planned_ = true;
     until_cut_ = operations;
@@ -71,7 +71,7 @@ class FlashModel : public Bank {
   };
 
   std::map<std::uint32_t, Chunk> chunks_;
-  std::map<std::uint32_t, std::uint8_t> unsure_;
+  std::map<std::uint32_t, std::uint8_t> unsure_;  ///< bits, by address
   Time done_at_ = kNever;
   unsigned keys_ = 0, option_keys_ = 0;
   bool key_locked_ = false;

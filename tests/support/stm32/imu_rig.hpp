@@ -37,7 +37,7 @@ struct ImuRig {
     EXPECT_LE(rig.timer.now_us() - before_us, kImuMaxWait_us);
     return status;
   }
-  /// Reads every 8 ms, for a second.
+  /// Reads every 8 ms until there is a sample, at most for a second.
   bool starts() {
     for (int tick = 0; tick < 125; ++tick) {
       if (read() == ImuStatus::kFresh) return true;

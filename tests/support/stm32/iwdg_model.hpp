@@ -12,7 +12,7 @@ class IwdgModel : public Bank {
 
   // Script.
   std::uint32_t lsi_hz = kLsi_hz;  ///< 17 to 47 kHz
-  bool busy_stuck = false;
+  bool busy_stuck = false;         ///< PVU and RVU never fall
 
   bool started() const { return started_; }
   Time bites_at() const { return started_ ? bites_at_ : kNever; }

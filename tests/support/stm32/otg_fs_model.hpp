@@ -32,11 +32,11 @@ class OtgFsModel : public Bank {
   // Script.
   Time core_reset_time = us(1);
   Time flush_time = ns(500);
-  Time disable_time = us(2);  ///< from EPDIS to EPDISD
-  bool core_reset_stuck = false;
-  bool ahb_busy = false;
-  bool flush_stuck = false;
-  bool disable_stuck = false;
+  Time disable_time = us(2);      ///< from EPDIS to EPDISD
+  bool core_reset_stuck = false;  ///< CSRST stays set
+  bool ahb_busy = false;          ///< AHBIDL stays 0
+  bool flush_stuck = false;       ///< RXFFLSH and TXFFLSH stay set
+  bool disable_stuck = false;     ///< EPDISD never comes
 
   void set_vbus(bool on);
   bool vbus() const { return vbus_; }

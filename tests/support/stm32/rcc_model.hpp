@@ -63,7 +63,7 @@ class PwrModel : public Bank {
  public:
   explicit PwrModel(Machine& machine);
   Time overdrive_time = us(100);
-  bool overdrive_stuck = false;
+  bool overdrive_stuck = false;  ///< ODRDY and ODSWRDY never come
 
   bool backup_unlocked() const { return (peek(pwr::kCr) & pwr::kCrDbp) != 0; }
   bool overdrive() const;

@@ -14,6 +14,7 @@ class SpiDevice {
  public:
   virtual ~SpiDevice() = default;
   virtual void select(bool selected, Time now) = 0;
+  /// One byte each way, both complete at `now`.
   virtual std::uint8_t exchange(std::uint8_t out, Time now) = 0;
   /// `mode` is 0 or 3.
   virtual bool takes_mode(unsigned mode) const = 0;
@@ -26,7 +27,7 @@ class SpiModel : public Bank {
 
   // Script.
   bool busy_stuck = false;    ///< no RXNE, BSY for ever
-  bool overrun_next = false;  ///< whatever was fetched
+  bool overrun_next = false;  ///< the next byte overruns, whatever was fetched
   bool miso_stuck_high = false, miso_stuck_low = false;
   void attach(SpiDevice& device, GpioModel& port, unsigned select_pin);
   /// Nothing passes unless the pin has this alternate function.

@@ -65,7 +65,7 @@ class UsartModel : public Bank {
     Time start, end, bit;
     std::uint8_t data;
     Flaw flaw;
-    bool own;
+    bool own;  ///< its own echo
   };
   struct Pin {
     GpioModel* port = nullptr;

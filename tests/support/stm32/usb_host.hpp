@@ -21,8 +21,8 @@ struct UsbSetup {
 enum class UsbResult : std::uint8_t {
   kDone,
   kStalled,
-  kNaked,    ///< for longer than `patience`
-  kNoAnswer  ///< three times
+  kNaked,    ///< NAK for longer than `patience`
+  kNoAnswer  ///< no answer three times in a row
 };
 
 struct UsbReply {
@@ -38,7 +38,7 @@ class UsbHost {
   Time patience = ms(50);
   Time retry = us(20);             ///< from a NAK to the next try
   std::function<void()> firmware;  ///< after each token, and every 100 us of pass()
-  std::uint32_t lose_acks = 0;     ///< so many of the next
+  std::uint32_t lose_acks = 0;     ///< loses so many of the next acknowledgements
   std::uint32_t control_size = 64;
   std::uint32_t bulk_size = 64;
 

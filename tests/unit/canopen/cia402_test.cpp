@@ -42,8 +42,9 @@ struct Command {
   std::uint8_t transitions[5];
 };
 constexpr Command kCommands[] = {
-    {0x87, 0x06, {2, 6, 8}},  // shutdown
-    {0x8F, 0x07, {3, 5}},         {0x8F, 0x0F, {3, 4, 16}},
+    {0x87, 0x06, {2, 6, 8}},       // shutdown
+    {0x8F, 0x07, {3, 5}},          // switch on; disable operation
+    {0x8F, 0x0F, {3, 4, 16}},      // enable operation
     {0x82, 0x00, {7, 9, 10, 12}},  // disable voltage
     {0x86, 0x02, {7, 10, 11}},     // quick stop
 };

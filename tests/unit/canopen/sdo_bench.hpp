@@ -30,8 +30,8 @@ class Dice {
   std::uint32_t state_;
 };
 
-/// 2000h: up to 100 bytes, whole. 3000h: up to kLarge bytes, in pieces. 2001h: read only. 2002h:
-/// write only, 2 to 4 bytes.
+/// 2000h: up to 100 bytes, whole. 3000h: up to kLarge bytes, in pieces. 2001h: read only, 4 bytes.
+/// 2002h: write only, 2 to 4 bytes.
 struct BenchDictionary {
   static constexpr std::uint32_t kSmall = 100;
   static constexpr std::uint32_t kLarge = 2000;

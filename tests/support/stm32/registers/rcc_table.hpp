@@ -5,14 +5,14 @@
 namespace verp::hal::stm32::rcc {
 
 struct FamilyBits {
-  std::uint32_t cr_rw = 0, cr_r = 0;
-  std::uint32_t pllcfgr = 0;  ///< beyond the others'
-  std::uint32_t no_cfgr = 0;  ///< reserved only here
-  unsigned plls = 0;          ///< with interrupts
+  std::uint32_t cr_rw = 0, cr_r = 0;  ///< of a second PLL
+  std::uint32_t pllcfgr = 0;          ///< beyond the others'
+  std::uint32_t no_cfgr = 0;          ///< reserved only here
+  unsigned plls = 0;                  ///< with interrupts
   std::uint32_t ahb1_reset = 0, ahb1_clock = 0, ahb1_sleep = 0;
   std::uint32_t ahb2 = 0, ahb3 = 0, apb1 = 0;  ///< for reset, clock and sleep alike
   std::uint32_t apb2_reset = 0, apb2 = 0;
-  std::uint32_t bdcr = 0;
+  std::uint32_t bdcr = 0;  ///< the LSE's modes
 };
 
 inline constexpr std::size_t kCommon = 22;
