@@ -21,7 +21,7 @@ std::string_view first_piece(std::string_view word, std::size_t room) {
   return comma == word.npos ? word : word.substr(0, comma + 1);
 }
 
-/// Lines of at most `width`, indented by `indent` from the second.
+/// `first` and `text` in lines of at most `width`, indented by `indent` from the second.
 std::string paragraph(std::string first, std::string_view text, std::size_t indent,
                       std::size_t width) {
   std::string out, line = std::move(first);

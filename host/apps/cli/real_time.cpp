@@ -12,7 +12,7 @@ bool lock_memory() {
   rlimit limit{};
   const bool unlimited =
       ::getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY;
-  // Under a memory limit a later allocation may fail.
+  // Under a memory limit the lock may succeed and a later allocation fail.
   if (!unlimited && ::geteuid() != 0) return false;
   return ::mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
 }

@@ -14,7 +14,7 @@ struct Run;
 /// Radios of a session's robots, with queues of received messages.
 class Air {
  public:
-  /// Throws Failure with the invalid number.
+  /// Throws Failure that names the invalid number.
   explicit Air(const verp_radio& what);
 
   /// Call before the first tick, with all robots.

@@ -12,7 +12,7 @@ struct Loaded {
   model::Entity entity;
   Params params;
 };
-/// `bus` and `tuning` may be null. Throws LoadError and Failure.
+/// `bus` and `tuning` may be null. Throws LoadError, and Failure for invalid tuning.
 Loaded load(const char* model, const char* bus, const char* tuning);
 
 scenario::Robot robot_of(const char* model, const char* bus, const char* tuning);

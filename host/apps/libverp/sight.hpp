@@ -19,7 +19,8 @@ class Sight {
   /// The camera's last picture in that encoding (camera::Picture); null: none taken yet. Throws
   /// CameraError.
   const camera::Picture* picture(std::uint32_t robot, std::uint32_t camera, const char* encoding);
-  /// The world now. Throws CameraError, and std::invalid_argument for an unknown view.
+  /// Draws the world as it is now. Throws CameraError, and std::invalid_argument for an unknown
+  /// view.
   camera::Picture render(session::Session& session, std::uint32_t robot,
                          const camera::Outside& from);
 

@@ -25,7 +25,7 @@ render::Size size_of(const std::string& command, const PictureOptions& options);
 /// Includes --marks.
 render::Effects effects_of(const PictureOptions& options);
 
-/// --camera. Throws ToolError with the known views.
+/// The view of --camera. Throws ToolError with the known views.
 scene::Camera camera_of(const std::string& command, const PictureOptions& options,
                         const scene::Scene& scene, const scene::Snapshot& now, render::Size size);
 

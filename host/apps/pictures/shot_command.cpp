@@ -57,7 +57,7 @@ scene::Snapshot instant(const ShotOptions& options, Film& film, cli::Progress& p
                                          kShot, at_s));
 }
 
-/// One per state of a cycle in mid-walk.
+/// One snapshot per state of a cycle in mid-walk.
 std::vector<scene::Snapshot> cycle(Film& film, cli::Progress& progress) {
   constexpr std::uint8_t kTransition = 2;
   std::vector<scene::Snapshot> states;

@@ -6,7 +6,7 @@
 
 namespace verp::tool {
 
-/// Row of one language_bench line, with its promise.
+/// Adds the row of one line of language_bench, with its promise.
 void add_language_row(const cli::Json& line, std::vector<BenchRow>& rows);
 
 }  // namespace verp::tool

@@ -36,7 +36,7 @@ std::string bench_table(const std::vector<BenchRow>& rows, const cli::Json& head
 
 cli::Json bench_json(const std::vector<BenchRow>& rows);
 
-/// Nothing failed and every exact limit holds. Missing programs do not count.
+/// True if nothing failed and every exact limit holds. Missing programs do not count.
 bool bench_held(const std::vector<BenchRow>& rows);
 
 }  // namespace verp::tool

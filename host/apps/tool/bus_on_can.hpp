@@ -5,7 +5,7 @@
 /// data (host/twin/eds) print as bytes.
 namespace verp::tool {
 
-/// Throws link::EndpointError if --link names nothing.
+/// True if --link names a CAN interface. Throws link::EndpointError if it names nothing.
 bool on_can(const BusOptions& options);
 
 int scan_can(const BusOptions& options);

@@ -57,7 +57,8 @@ link::VideoWish wish_of(const CameraWords& words) {
   return wish;
 }
 
-/// Called before any recording. A camera that encodes JPEG offers nothing else.
+/// Checks before any recording that the file's name fits the format. A camera that encodes JPEG
+/// offers nothing else.
 void require_picture_name(const std::string& file, PixelFormat format) {
   const std::string kind = std::filesystem::path(file).extension().string();
   const bool jpeg = format == PixelFormat::kJpeg;

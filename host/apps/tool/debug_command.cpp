@@ -45,7 +45,7 @@ std::string replay_board(const std::string& board) {
   return is_emulated(board) ? board : flash::find_recipe(board).replay_board;
 }
 
-/// Builds with debug information. $VERP_FIRMWARE_DIR's images stay unchanged.
+/// Builds with debug information. If $VERP_FIRMWARE_DIR is set, uses its images unchanged.
 void build_for_gdb(const std::string& board, const std::string& target, const fs::path& folder) {
   if (std::getenv("VERP_FIRMWARE_DIR") != nullptr) return;
   const fs::path tree = files::source_dir() / "build" / ("debug-" + board);
@@ -92,7 +92,7 @@ flash::DebugPlan plan_replay(const DebugWords& words, const fs::path& folder) {
                              static_cast<std::uint32_t>(at - inputs.begin()), folder);
 }
 
-/// A board that exists only in emulation has no link for a twin.
+/// True unless the board exists only in emulation: then its programs have no link for a twin.
 bool has_loop_of_its_own(const std::string& board) {
   const auto& rows = flash::recipes();
   return !is_emulated(board) || std::any_of(rows.begin(), rows.end(), [&](const auto& row) {

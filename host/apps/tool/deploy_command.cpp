@@ -129,7 +129,7 @@ class Deployment {
 
  private:
   bool dry() const { return options_.flash.dry_run; }
-  /// A dry run's image may be stale.
+  /// In a dry run, a later build may still correct the image.
   bool builds_later() const { return dry() && !options_.no_build; }
 
   const fs::path& folder() const {

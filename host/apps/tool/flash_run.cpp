@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The robot for --bus without a robot, as in commands with a default MODEL.
+/// The robot for --bus if the command line names no robot, as in commands with a default MODEL.
 constexpr const char* kUsualRobot = "generic21";
 
 void write_piece(const fs::path& file, const void* bytes, std::size_t size) {

@@ -14,8 +14,8 @@ struct HilResult : session::RemoteResult {
   }
 };
 
-/// Serves the twin to a controller at the end of a link (session::RemoteController) until either
-/// ends. Throws what opening a link throws.
+/// Serves the twin to a controller at the end of a link (session::RemoteController) until the
+/// controller or the walk ends. Throws what opening a link throws.
 HilResult serve_controller(const WalkPlan& plan, session::ServeOptions options,
                            cli::Progress& progress, std::vector<session::Observer*> observers);
 

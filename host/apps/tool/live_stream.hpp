@@ -42,9 +42,10 @@ class LiveStream final : public session::Observer {
   /// Listener for a robot's trace; null without --live. `name`: empty for a single robot.
   record::mcap::Listener* robot(const std::string& name = {});
   live::Server* server();
-  /// --live-wait: until a viewer subscribes, or an interrupt. Call when all channels exist.
+  /// With --live-wait, waits for a viewer's subscription or an interrupt. Call it when all channels
+  /// exist.
   void wait_for_viewer();
-  /// Server priority just below a real-time loop's; call before the loop.
+  /// Gives the server a priority just below a real-time loop's; call it before the loop.
   void run_beside_real_time();
   void finish();
 

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Canonical, with a writable build/.
+/// The canonical path of a folder with a writable build/.
 fs::path checked(const std::string& words) {
   std::error_code error;
   if (!fs::exists(files::source_dir() / "toolchains" / "own_controller.cmake", error)) {

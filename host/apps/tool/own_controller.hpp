@@ -20,11 +20,12 @@ void declare_controller(CLI::App& app, std::string& folder);
 /// compiler's messages.
 std::function<session::Decide()> own_controller(const std::string& folder, bool show);
 
-/// A firmware target with the controller; returns the images' folder.
+/// Builds a firmware target with the controller; returns the images' folder.
 std::string build_firmware_of(const std::string& folder, const std::string& board,
                               const std::string& target, cli::Progress& progress);
 
-/// Builds each robot's own controller, for this PC or its emulated board.
+/// Builds each robot's own controller, for this PC or its emulated board, and puts it into the
+/// plan.
 void take_controllers(const scenario::Scenario& scenario, std::vector<session::WalkPlan>& plans,
                       bool show);
 

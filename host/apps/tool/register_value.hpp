@@ -9,7 +9,7 @@
 
 namespace verp::tool {
 
-/// Decimals or text; elements separated by spaces.
+/// Numbers as decimals, text as it is; elements separated by spaces.
 std::string show_value(const bus::NamedRegister& reg, const std::vector<std::uint8_t>& bytes);
 /// "120 x 0.1 V = 12 V"; unchanged without a unit.
 std::string with_unit(const std::string& shown, std::string_view unit);

@@ -24,14 +24,14 @@ namespace verp::tool {
 
 /// The slowest known adapter holds received bytes for 16 ms.
 inline constexpr std::uint32_t kAnswer_us = 100'000;
-inline constexpr int kAsked = 3;  ///< requests to a silent servo
+inline constexpr int kAsked = 3;  ///< requests to a silent servo for its torque state
 
 /// Answer at the end: is the servo's torque off?
 enum class LetGo : std::uint8_t { kYes, kNo, kSilent };
 
 /// Throws ToolError with the remedy if a tick cannot fit; warns if it barely fits.
 void judge_fit(const bus::LinkFit& fit, const RunPlan& plan);
-/// Throws ToolError without an IMU on the bus, or with `trouble`.
+/// Throws ToolError without an IMU on the bus, or if `trouble` is not empty.
 void judge_imu(const RunPlan& plan, const std::string& trouble);
 
 template <class Robot>
@@ -56,7 +56,7 @@ struct RunKeeper {
   record::TraceWriter* trace;
 };
 
-/// Drives one robot in real time, or in a twin's. Robot is the access to it:
+/// Drives one robot in real time, or in a twin's time. Robot is the access to it:
 ///  - Bus, bus(): the bus for App, with the delays of bring-up until set_held(us) sets the longest
 ///  delay of answers;
 ///  - connected(), link_errors(); let_go(joint): asks one servo and repeats the release;
@@ -195,8 +195,8 @@ class RobotRun {
     result_.walk.fall_story.push_back({at_s, story});
   }
 
-  // Asks each servo, because the release is a broadcast without answers. Repeats: the wire may lose
-  // a frame, a busy PC may read too late. A second Ctrl-C ends this.
+  // Asks each servo whether it released torque, because the release is a broadcast without answers.
+  // Repeats: the wire may lose a frame, a busy PC may read too late. A second Ctrl-C ends this.
   void make_sure() {
     if (twin_ended()) return;  // no torque either
     std::vector<int> silent(static_cast<std::size_t>(params_.servo_count()));

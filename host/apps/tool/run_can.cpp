@@ -39,7 +39,7 @@ class PatientCan {
 static_assert(hal::CanBus<PatientCan>);
 
 /// CiA 402 drives, with this PC's controller as a node beside them. It takes orders with
-/// `--take-orders`, else from the program.
+/// `--take-orders`, else the program that started the run gives them.
 class CanRobot {
   using Ticks = app::TickLog<>;
 

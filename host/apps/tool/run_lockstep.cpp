@@ -18,7 +18,7 @@ constexpr std::uint64_t kSilent_ns = 2'000'000'000;  // an idle twin answers at 
 /// Gives up after a second interrupt, or kGone_ns without the twin.
 struct Waiting {
   link::Link* link;
-  bool* answered;             ///< or the user was warned
+  bool* answered;             ///< answered, or the user was warned
   std::uint64_t lost_ns = 0;  ///< 0: connected
   std::uint64_t asked_ns = link::monotonic_ns();
 

@@ -38,6 +38,7 @@ class RunOperator {
 
   /// From now on: sit down, then release torque.
   void sit_down() { sitting_ = true; }
+  /// From now on: no torque.
   void let_go() { limp_ = true; }
 
   /// Torque has been off long enough for every servo to receive that.

@@ -20,7 +20,7 @@ void set_period(Params& params, double period_ms) {
   }
 }
 
-/// Removes its feedback, too; recorded in the trace.
+/// Removes the IMU and its feedback. The trace records these Params.
 void do_without_imu(Params& params) {
   params.imu.device_id = 0;
   params.tuning.balance.feedback_enable = 0;

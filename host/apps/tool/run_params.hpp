@@ -9,7 +9,7 @@ class App;
 
 namespace verp::tool {
 
-/// Besides tuning, for `verp run` and `verp shadow`.
+/// Changes to a model's Params, besides tuning, for `verp run` and `verp shadow`.
 struct RunParams {
   std::string imu = "bus";
   double period_ms = 0;  ///< 0: the model's

@@ -31,8 +31,9 @@ class SetupGuide {
   struct Stop {};
 
   Answer ask(const std::string& question);
+  /// False: something remains to do.
   bool joint(int index);
-  /// Starts with the changes of earlier attempts.
+  /// Starts the joint's entry with the changes of earlier attempts.
   cli::Json begun(const JointParams& joint) const;
   void set_up(const JointParams& joint, cli::Json& entry);
   /// Saves a written change: a later step may fail.

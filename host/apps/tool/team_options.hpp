@@ -27,7 +27,7 @@ void declare_outside(CLI::App& app, TeamOptions& options);
 void declare_radio(CLI::App& app, std::optional<std::string>& radio);
 
 /// Values of MODEL and --robot: NAME=... goes to `seats`, another value is the model. True: there
-/// is a model. Throws ToolError for two.
+/// is a model. Throws ToolError for two models.
 bool sort_robot_words(const std::vector<std::string>& words, std::string& model,
                       std::vector<std::string>& seats);
 

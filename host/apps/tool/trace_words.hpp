@@ -26,7 +26,7 @@ struct TraceWords {
 record::Trace load_trace(const TraceWords& words);
 /// -o must not name the trace.
 void refuse_same_file(const TraceWords& words);
-/// Goals and phases are unknown from `tick` on.
+/// Warns that goals and phases are unknown from `tick` on; empty: no warning.
 void tell_of_other_decisions(const record::Trace& trace, const std::optional<std::uint32_t>& tick);
 
 record::mcap::Compression compression_of(const TraceWords& words);

@@ -8,7 +8,7 @@
 namespace verp::tool {
 namespace {
 
-/// Empty: no failure. `trace`: of the first walk.
+/// Why the run failed; empty: it did not. `trace` belongs to the first walk.
 std::string reason(const WalkResult& result, const Sweep& swept, const std::string& trace) {
   if (!result.good()) {
     return (result.failure.empty() ? "interrupted" : result.failure) +

@@ -7,8 +7,8 @@
 
 namespace verp::tool {
 
-/// Ends a command that walked: files, answer, failure; returns the exit status. `more`: further
-/// results.
+/// Ends a command that walked: writes files, answers, reports a failure and returns the exit
+/// status. `more`: further results.
 int finish_walk(const WalkPlan& plan, const WalkOptions& options, const scenario::Orders& orders,
                 WalkFiles& files, const WalkResult& result, const Sweep& swept,
                 const cli::Json& more = cli::Json::object(), const std::string& more_text = "");

@@ -70,7 +70,7 @@ std::vector<std::pair<std::string, std::string>> changed_options(const CLI::App&
 /// Names of the typed options that describe the run, also with their default value.
 std::vector<std::string> typed_options(const CLI::App& app);
 
-/// Robot and length of its walk.
+/// Declares the options for the robot and the length of its walk.
 void declare_gait(CLI::App& app, WalkOptions& options);
 
 void declare_tuning(CLI::App& app, WalkOptions& options);
@@ -87,7 +87,7 @@ void require_fit(const std::string& command, const std::string& link, const Para
 /// Reads `robot_words`. Throws ToolError.
 void read_robot_words(WalkOptions& options);
 
-/// The scenario's file describes the whole run.
+/// Throws ToolError for an option that describes the run: the scenario's file describes all of it.
 void refuse_beside_scenario(const WalkOptions& options);
 
 /// First and last of --seeds. Throws ToolError.

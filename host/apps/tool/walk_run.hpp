@@ -5,13 +5,13 @@
 #include "host/run/session/plan.hpp"
 #include "host/run/session/session.hpp"
 
-/// Sessions with progress and Ctrl-C.
+/// Sessions that show their progress and that Ctrl-C ends.
 namespace verp::tool {
 
 using session::WalkPlan;
 using session::WalkResult;
 
-/// First robot's progress; falls and get-ups on stderr.
+/// Shows the first robot's progress; reports falls and get-ups on stderr.
 class RunOnScreen final : public session::Observer {
  public:
   /// `command` begins each line; empty: no lines. `label`: beside the bar; empty: the robot's name.
@@ -28,7 +28,7 @@ class RunOnScreen final : public session::Observer {
   double walk_s_ = 0;
 };
 
-/// First robot's ticks; the trace may be null.
+/// Writes the first robot's ticks into a trace, which may be null.
 class KeptTrace final : public session::Observer {
  public:
   explicit KeptTrace(record::TraceWriter* trace, bool keep_series = false)

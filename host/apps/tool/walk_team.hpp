@@ -30,8 +30,8 @@ class RunFiles final : public session::Observer {
   std::deque<WalkFiles> files_;
 };
 
-/// Paced by the clock, with real-time priority if possible. A second behind, it gives the priority
-/// up: other programs need time.
+/// Paces a run by the clock, with real-time priority if possible. A second behind, it gives the
+/// priority up: other programs need time.
 class RealTimePace final : public session::Observer {
  public:
   explicit RealTimePace(const Walk& walk);
@@ -55,8 +55,9 @@ struct Walks {
   cli::Json objects = cli::Json::array();  ///< the world's movable objects, at the end
 };
 
-/// At a plan's link a controller drives its robot in lockstep: the world waits for it at every
-/// tick. A lost controller ends the run, or with Scenario::if_lost_go_on only its robot's.
+/// If a plan names a link, the controller there drives the robot in lockstep: the world waits for
+/// it at every tick. A lost controller ends the run, or with Scenario::if_lost_go_on only its
+/// robot's.
 Walks walk_together(const Walk& walk, const std::vector<session::Observer*>& observers,
                     cli::Progress& progress);
 

@@ -27,7 +27,7 @@ std::vector<session::Intervention> disturbances_of(const TouchOptions& options);
 /// For example "--push '1: body 0,30,0 N for 0.1'".
 std::string option_of(const TouchOptions& options, std::size_t index);
 
-/// All as JSON, or one line per kind.
+/// Prints all quantities as JSON, or one line per kind.
 int list_quantities(const scenario::Expanded& run, bool json);
 
 cli::Json touch_json(const WalkResult& result);

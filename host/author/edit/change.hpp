@@ -10,15 +10,15 @@
 /// Throws model::LoadError.
 namespace verp::edit {
 
-/// A number, word or attribute (`PATH@NAME`). Creates what the path lacks at its end: a joint's
-/// <dynamics> for joint:l_knee/axis/dynamics/damping.
+/// Sets a number, word or attribute (`PATH@NAME`). Creates what the path lacks at its end: a
+/// joint's <dynamics> for joint:l_knee/axis/dynamics/damping.
 Edit set(const Document& document, const std::string& path, const std::string& value);
 
-/// Also removes dependents: a joint's link and all joints of that, servos, frames, limbs, and
-/// angles in poses.
+/// Removes the part and its dependents: a joint's link and all joints of that, servos, frames,
+/// limbs, and angles in poses.
 Edit remove(const Document& document, int element);
 
-/// Renames every mention, too.
+/// Renames the part and every mention of it.
 Edit rename(const Document& document, int element, const std::string& name);
 
 /// Inserts `block` as the last child of `parent`, or behind child `after`. `block` has two spaces a

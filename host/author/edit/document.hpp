@@ -45,8 +45,8 @@ class Document {
   std::string with(const Edit& edit) const;
 
   bool changed() const { return !on_disk_ || *on_disk_ != text_; }
-  /// Whole or not at all. Throws LoadError if it cannot write or another program changed the file,
-  /// with the place of the text.
+  /// Writes the whole text or nothing. Throws LoadError if it cannot write or another program
+  /// changed the file, with the place of the text.
   void save();
   /// Writes the text beside the file; returns a note that says where.
   std::string put_aside() const;
@@ -60,6 +60,7 @@ class Document {
   std::string child_text(int element, std::string_view child) const;
   std::string attribute(int element, std::string_view name) const;
   int child(int element, std::string_view name) const;  ///< -1: none
+  /// The innermost element around a line.
   int at_line(int line) const;
 
  private:

@@ -48,7 +48,7 @@ Edit add_link(const Document& document, const std::string& name, const Body& bod
 using Words = std::map<std::string, std::string>;
 Edit add(const Document& document, const std::string& kind, const Words& words);
 std::vector<std::string> kinds();
-/// "name parent child at axis lower upper".
+/// For help: "name parent child at axis lower upper".
 std::string words_of(const std::string& kind);
 
 }  // namespace verp::edit

@@ -25,11 +25,12 @@ struct TargetReplayOptions {
   std::uint32_t limit_s = 600;
 };
 
-/// A replay image's first argument; the second is the result file. Throws BoardError.
+/// Writes the job file, a replay image's first argument; the second is the result file. Throws
+/// BoardError.
 void write_replay_job(const std::filesystem::path& path, const Params& params,
                       std::span<const Inputs> inputs, const TargetReplayOptions& options = {});
 
-/// Recorded inputs on an emulated board. Throws BoardError.
+/// Runs the controller over recorded inputs on an emulated board. Throws BoardError.
 TargetReplay replay_on(const std::string& board, const Params& params,
                        std::span<const Inputs> inputs, const TargetReplayOptions& options = {});
 

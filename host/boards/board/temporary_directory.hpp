@@ -4,7 +4,7 @@
 
 namespace verp::board {
 
-/// Removed with its contents. Throws BoardError, because a board's link needs one.
+/// A new directory, removed with its contents. Throws BoardError, because a board's link needs one.
 class TemporaryDirectory : public files::TemporaryDirectory {
  public:
   TemporaryDirectory() try : files

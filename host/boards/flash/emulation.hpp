@@ -21,8 +21,8 @@ struct EmulationPlan {
   BusProtocol protocol;
 };
 
-/// Image for this protocol, pieces in memory, links in `folder`. Throws FlashError without emulator
-/// or image, or for a long link path; NoSuchBoard for an unbuilt image.
+/// Plans the board: image for this protocol, pieces in memory, links in `folder`. Throws FlashError
+/// without emulator or image, or for a long link path; NoSuchBoard for an unbuilt image.
 EmulationPlan plan_emulation(const Recipe& recipe, BusProtocol protocol,
                              const std::vector<Piece>& pieces, const std::filesystem::path& folder);
 
@@ -32,8 +32,8 @@ class Emulation {
   /// Starts QEMU and waits for the links. Throws BoardError.
   explicit Emulation(const EmulationPlan& plan);
 
-  /// Boot check by the operator port, for people; empty: no such port. Throws DeviceError without
-  /// an answer.
+  /// Result of the boot check, from the operator port, for people; empty: no such port. Throws
+  /// DeviceError without an answer.
   std::string told() const;
 
   bool running() { return !firmware_->poll_status().has_value(); }

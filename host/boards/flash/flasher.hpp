@@ -13,7 +13,8 @@ struct FlashHooks {
   std::function<bool()> stop = [] { return false; };
 };
 
-/// Runs until a step fails. Throws FlashError; unless it says otherwise, nothing was written.
+/// Runs the steps until one fails. Throws FlashError; unless it says otherwise, nothing was
+/// written.
 void run(const Job& job, const std::vector<Step>& steps, const FlashHooks& hooks);
 
 /// $VERP_FLASH_DIR, or build/flash.

@@ -13,20 +13,20 @@ namespace verp::flash {
 /// CAN.
 std::string loop_image(const Recipe& recipe, BusProtocol protocol);
 
-/// In $VERP_FIRMWARE_DIR, else the build folder of the preset fw-<board>.
+/// The binary: in $VERP_FIRMWARE_DIR, else the build folder of the preset fw-<board>.
 std::filesystem::path code_image(const Recipe& recipe, BusProtocol protocol);
 
-/// A fitting size, and a vector table for this map: stack in RAM, entry in the code.
+/// Requires a fitting size, and a vector table for this map: stack in RAM, entry in the code.
 void check_code(const std::filesystem::path& file, const MemoryMap& map);
 
-/// A fitting, valid image for this core (common/model/image.hpp).
+/// Requires a fitting, valid image for this core (common/model/image.hpp).
 Params check_params(const std::filesystem::path& file, const MemoryMap& map);
 
 /// File with the actions of a sector that a failed run saved.
 inline constexpr const char* kKeptActions = "kept_actions.bin";
 
-/// Actions (common/action/kept.hpp), `robot`'s own if given. kKeptActions may have any content.
-/// Returns their number.
+/// Checks actions (common/action/kept.hpp), `robot`'s own if given. kKeptActions may have any
+/// content. Returns their number.
 int check_actions(const std::filesystem::path& file, const MemoryMap& map, const Params* robot);
 
 }  // namespace verp::flash

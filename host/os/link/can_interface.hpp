@@ -21,7 +21,7 @@ struct CanInterface {
 /// This PC's interfaces, CAN or not. Throws LinkError if the kernel does not answer.
 std::vector<CanInterface> network_interfaces();
 
-/// Ready to be opened. Throws LinkError with the remedy if missing, down or not CAN.
+/// The interface, ready to be opened. Throws LinkError with the remedy if missing, down or not CAN.
 CanInterface find_can_interface(const std::string& name);
 
 /// Advice for a usable interface; may be empty.

@@ -30,7 +30,7 @@ class Link {
   bool connected() const { return descriptor_ >= 0; }
   hal::LinkErrors errors() const;
 
-  /// False: timeout. read() and write() wait too.
+  /// Waits for a peer; false: timeout. read() and write() wait too.
   bool wait_connected(std::uint32_t timeout_us);
 
  private:

@@ -14,7 +14,7 @@ namespace verp::link::scip {
 
 /// Low six bits of the bytes' sum, plus '0' (section 7).
 char sum_of(std::string_view data);
-/// Six bits a character, offset '0', highest first (section 6).
+/// Decodes six bits a character, offset '0', highest first (section 6).
 std::optional<std::uint32_t> decoded(std::string_view characters);
 
 /// Skips damage to the next empty line.

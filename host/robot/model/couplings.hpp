@@ -16,15 +16,16 @@ std::vector<MimicFact> urdf_mimics(const XmlElement& robot, const Facts& facts);
 void check_mimics(const Facts& facts, const std::vector<std::string>& turning,
                   const std::vector<std::string>& fixed);
 
-/// Drivers' servos for followers; common limits and speeds for both. Throws LoadError if no range
-/// remains.
+/// Gives followers their drivers' servos, and both joints common limits and speeds. Throws
+/// LoadError if no range remains.
 void join_followers(const Facts& facts, Entity& entity);
 
 /// Each leg joint needs a motor; only hip yaws may share one, if they turn the feet opposite ways.
 /// Else throws LoadError.
 void check_coupled_legs(const Facts& facts, const Entity& entity);
 
-/// Standing and sitting angles from the drivers. Throws LoadError on a contradiction.
+/// Sets followers' standing and sitting angles from their drivers. Throws LoadError on a
+/// contradiction.
 void pose_followers(const Facts& facts, Entity& entity);
 
 /// "r_hip_yaw follows l_hip_yaw: -1 times its angle".

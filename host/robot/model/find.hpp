@@ -17,7 +17,7 @@ std::vector<std::string> model_names();
 std::vector<std::string> model_path();
 std::string model_path_text();
 
-/// model://..., or relative to `from_file`; empty: not found.
+/// The file of `uri`: model://..., or relative to `from_file`; empty: not found.
 std::string resolve_model_uri(const std::string& uri, const std::string& from_file);
 
 }  // namespace verp::model

@@ -19,9 +19,9 @@ class WorldXml {
 
   const std::string& path() const { return path_; }
   XmlElement world() const { return XmlElement(path_, *world_); }
-  /// Named model, link, light, ...; else the world's.
+  /// Line of the named model, link, light, ...; else the world's.
   int line_of(const std::string& name) const;
-  /// First known name in `message`; else the world's.
+  /// Line of the first known name in `message`; else the world's.
   int blame(const std::string& message) const;
   const std::string& text_without_robots() const { return text_; }
   std::vector<WorldRobot> robots() const;

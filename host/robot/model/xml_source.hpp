@@ -70,7 +70,8 @@ class XmlSource {
   };
   /// Place of the named link, joint, frame, ...
   std::optional<Place> find(const std::string& name) const;
-  /// First defined name in `message` (quoted, bracketed or after a colon); else the model's.
+  /// Place of the first defined name in `message` (quoted, bracketed or after a colon); else the
+  /// model's.
   Place blame(const std::string& message) const;
 
  private:

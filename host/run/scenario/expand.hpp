@@ -46,7 +46,7 @@ session::WalkPlan plan_of(const Robot& robot, double length_s, model::Entity ent
 
 /// Velocity in the controller's units, for this gait.
 Command velocity_of(const Orders& orders, const GaitTuning& gait);
-/// Reduced to what the servos can follow; needs plan.params.
+/// Writes the orders into the plan, reduced to what the servos can follow; needs plan.params.
 void give_orders(const Orders& orders, session::WalkPlan& plan);
 /// Throws std::out_of_range for an unknown name.
 void tune(const std::map<std::string, double>& values, Tuning& tuning);

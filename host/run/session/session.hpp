@@ -46,7 +46,7 @@ class Session {
   Robot& add(const WalkPlan& plan, Hooks hooks = {}, const MakeController& make = make_controller);
 
   /// Runs until one robot did a control tick, or its controller kept the session waiting for some
-  /// ms. Null: the run is over.
+  /// ms. Returns that robot; null: the run is over.
   Robot* tick();
   /// Why the physics diverged, which ends every robot's run; empty: it did not.
   const std::string& diverged() const { return diverged_; }

@@ -28,6 +28,7 @@ class WalkOperator {
   const char* failed() const { return failed_; }
   /// Seconds of gait; with `stands`, seconds since it stood quietly.
   double walked_s() const { return walked_s_; }
+  /// The gait is longer than walk_s although the stop was ordered at its start.
   bool longer_than_asked() const { return longer_than_asked_; }
 
  private:

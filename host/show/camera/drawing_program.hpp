@@ -39,7 +39,8 @@ class DrawingProgram {
   /// A run in real time must not wait for it.
   void step_back();
   pid_t process() const { return child_->id(); }
-  /// Call it for a silent socket, errno set. Returns whether it hung or had ended.
+  /// Call it for a silent socket, errno set. Ends the program; returns whether it hung or had
+  /// ended.
   std::string end();
 
  private:

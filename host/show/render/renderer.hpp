@@ -70,7 +70,7 @@ class Renderer {
 
   /// Unreadable files are left out, with a line in notes().
   void set_scene(const scene::Scene& scene);
-  /// Materials, lights, fog, sky or ground of the same items, without upload.
+  /// Sets materials, lights, fog, sky or ground of the same items, without upload.
   void set_looks(const scene::Scene& scene);
   const std::vector<std::string>& notes() const;
 

@@ -27,7 +27,7 @@ struct Orbit {
   Camera camera() const;
   /// Angles in radians; stops short of the pole.
   void turn(double azimuth_rad, double elevation_rad);
-  /// Picture heights: the point under the mouse stays.
+  /// In picture heights: the point under the mouse stays.
   void pan(double right, double up);
   void zoom(double factor);
 };

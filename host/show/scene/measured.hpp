@@ -13,7 +13,7 @@ std::string text_of(const char (&name)[kNameLength]);
 
 std::vector<double> measured_rad(const Inputs& inputs, const Params& params);
 
-/// Soles, CoM, support and foot forces, for a view with link poses.
+/// Adds soles, CoM, support and foot forces, for a view with link poses.
 void add_measured(RobotView& view, const Entity& entity, const Params& params,
                   const Inputs& inputs);
 

@@ -6,10 +6,10 @@
 
 namespace verp::scene {
 
-/// Goals, mode, phase, state, stance and faults.
+/// Adds goals, mode, phase, state, stance and faults.
 void add_outputs(RobotView& view, const Outputs& outputs, const Params& params);
 
-/// Gyro and accelerometer in body axes.
+/// Adds gyro and accelerometer in body axes.
 void add_imu(RobotView& view, const Inputs& inputs, const Params& params);
 
 /// Footholds relative to the stance foot: the plan has its own frame.

@@ -19,7 +19,7 @@ enum class Level { kInfo = 0, kWarning = 1, kError = 2 };
 /// Text messages, in JSON.
 std::string server_info(std::string_view name);
 std::string advertise(const std::vector<Channel>& channels);
-/// It replaces the last one with that `id`.
+/// A status with an `id` replaces the last one with that `id`.
 std::string status(Level level, std::string_view message, std::string_view id = {});
 
 /// Binary messages.

@@ -7,7 +7,8 @@
 
 namespace verp::record {
 
-/// Speeds from each joint's last two readings, because servos are not asked. 0 before.
+/// Speeds from each joint's last two readings, because servos are not asked for speed. 0 until
+/// there are two.
 class JointSpeeds {
  public:
   explicit JointSpeeds(const Params& params) : params_(params) {}

@@ -31,8 +31,8 @@ void add_state(mcap::Writer& writer, const State& before);
 /// Writes a run as it happens. Throws TraceError if the file cannot be written.
 class TraceWriter {
  public:
-  /// `run` joins build_info(): robot, seed, command line, ... Without `file` there is only the
-  /// listener.
+  /// `run` joins build_info() in the metadata: robot, seed, command line, ... Without `file` there
+  /// is only the listener.
   TraceWriter(const std::filesystem::path& file, const Params& params, const mcap::StringMap& run,
               TraceOptions options = {});
   /// Without close(): keeps a part file that has a tick.

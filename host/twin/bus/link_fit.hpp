@@ -48,7 +48,7 @@ struct LinkFit {
   }
   /// Delay allowed for each read of a tick.
   std::uint32_t held_us() const;
-  /// Whole milliseconds; 0: no allowed period fits.
+  /// Shortest period that fits well, in whole milliseconds; 0: no allowed period fits.
   int shortest_period_ms() const;
 };
 

@@ -26,10 +26,10 @@ class RealtimeServer {
 
   explicit RealtimeServer(VirtualBus& bus) : bus_(bus) {}
 
-  /// Delivers `heard` at `clock_us`; appends the bus's bytes to `answer`.
+  /// Advances to `clock_us`, then delivers `heard`; appends the bus's bytes to `answer`.
   void turn(std::uint64_t clock_us, std::span<const std::uint8_t> heard,
             std::vector<std::uint8_t>& answer);
-  /// A master faster than the wire must wait.
+  /// Bytes that the port accepts now; a master faster than the wire must wait.
   std::size_t room() const;
   void finished(std::uint64_t clock_us);
   void let_go(std::uint64_t clock_us);

@@ -17,7 +17,7 @@ struct FoundServo {
   std::uint32_t baud = 0;
 };
 
-/// Changed, or would be in a dry run.
+/// A register that was changed, or would be in a dry run.
 struct Change {
   std::string name;
   std::int64_t before = 0, after = 0;
@@ -29,7 +29,7 @@ class SetupLine {
   /// `baud`: the rate of the robot's bus.
   SetupLine(const link::Endpoint& endpoint, std::uint32_t baud);
 
-  /// On a link without a rate, always the same client.
+  /// Client at that rate; on a link without a rate, always the same client.
   Client& at(std::uint32_t baud);
   /// Servos at the first rate with an answer: robot's, factory's, others.
   std::vector<FoundServo> find(const std::function<bool()>& give_up);

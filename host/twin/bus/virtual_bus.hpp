@@ -61,6 +61,7 @@ class VirtualBus {
   bool torque_on() const;
   bool quiet() const { return replies_.empty() && master_free_ns_ <= now_ns_; }
   std::size_t unsent() const;
+  /// The master closed its port: discards its incomplete packet.
   void hung_up() { line_.reset(); }
   /// Requests that arrived during an answer.
   std::uint32_t lost_requests() const { return lost_requests_; }
@@ -94,9 +95,9 @@ class VirtualBus {
 
   // real_time_line.cpp
   void talk(const std::uint8_t* data, std::size_t size);
-  /// An answer is in progress; `byte` corrupts the part of it on the line.
+  /// True if an answer is in progress; `byte` then corrupts the part of it on the line.
   bool jams(std::uint8_t byte, std::uint64_t start_ns, std::uint64_t end_ns);
-  /// Connected, and at the master's baud rate.
+  /// True if the device is connected and at the master's baud rate.
   bool hears(const Device& device) const;
   /// Runs the devices' own actions on the way.
   void advance_plant(std::uint64_t time_us);

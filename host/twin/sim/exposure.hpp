@@ -17,6 +17,7 @@ struct Exposure {
   std::vector<model::Transform> body_world;  ///< objects that can move
 };
 
+/// Opens at whole periods of simulated time, in the step that ends then or first after.
 class Shutter {
  public:
   explicit Shutter(double rate_hz) : rate_hz_(rate_hz) {}

@@ -68,7 +68,7 @@ class Plant {
  public:
   virtual ~Plant() = default;
   virtual std::uint64_t now_us() const = 0;
-  /// Whole physics steps that end by time_us; never goes back.
+  /// Runs the whole physics steps that end by time_us; never goes back.
   virtual void advance_to(std::uint64_t time_us) = 0;
   virtual ServoSetpoint& setpoint(int joint) = 0;
   virtual ServoMeasurement measure(int joint) = 0;

@@ -58,6 +58,7 @@ class Quantities final : private Actor {
   /// These throw std::invalid_argument with the valid names or range.
   double read(const std::string& name) const;
   void set(const std::string& name, double value);
+  /// Throws as set() does, but sets nothing.
   void check(const std::string& name, double value) const;
   /// Pushes at the centre of mass, in world axes, from the next step on.
   void push(const std::string& thing, const Vec3& force_world_n, double for_s);

@@ -65,7 +65,7 @@ VERP_INLINE void add_columns(Four* z, const double* l, const double* b, Index sk
   }
 }
 
-/// The four unknowns at l; z holds all earlier columns' sums.
+/// Solves for the four unknowns at l; z holds all earlier columns' sums.
 VERP_INLINE void finish_lower(const double* l, double* b, const Four& z, Index skip) {
   const double *l1 = l + skip, *l2 = l1 + skip, *l3 = l2 + skip;
   b[0] = b[0] - z[0];
@@ -109,7 +109,7 @@ VERP_INLINE void solve_lower(const double* l, double* b, Index n, Index skip) {
   }
 }
 
-/// The four unknowns from b on; z holds the sums of all rows below.
+/// Solves for the four unknowns from b on; z holds the sums of all rows below.
 VERP_INLINE void finish_upper(const double* l, double* b, const Four& z, Index skip) {
   const double *l1 = l + skip, *l2 = l1 + skip, *l3 = l2 + skip;
   b[3] = b[3] - z[3];

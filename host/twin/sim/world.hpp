@@ -114,7 +114,7 @@ class World final : public TimeSource {
   double step_s() const { return static_cast<double>(options_.step_us) * 1e-6; }
   const WorldOptions& options() const { return options_; }
 
-  /// Whole steps that end by time_us; never goes back.
+  /// Runs the whole steps that end by time_us; never goes back.
   void advance_to(std::uint64_t time_us) override;
 
   const std::vector<Contact>& contacts() const { return contacts_; }

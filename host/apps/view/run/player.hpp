@@ -19,7 +19,7 @@ class Player {
   void play();
   void pause();
   bool playing() const;
-  /// A run at its newest instant runs one tick.
+  /// Moves by ticks; a run at its newest instant runs one tick.
   void step(int ticks);
   void seek(double t_s);
   void set_speed(double factor);

@@ -21,17 +21,17 @@ class PoseHand {
   /// Moves the sole (0 left, 1 right) as near as the leg reaches and keeps its orientation.
   void move_foot(int side, const scene::Vec3& sole_body_m);
   scene::Vec3 sole_body_m(int side) const;
-  /// -1: the node is no foot.
+  /// The node's foot; -1: it is no foot.
   int foot_of(int node) const;
   bool has_leg(int side) const;
 
   /// Moves as near as the joints reach; does nothing for the body.
   void move_link(int node, const scene::Vec3& point_link_m, const scene::Vec3& to_body_m);
   scene::Vec3 point_body_m(int node, const scene::Vec3& point_link_m) const;
-  /// "" before the first move_link() since stand().
+  /// Result of the last move_link() in words; "" before the first since stand().
   const std::string& link_reach() const { return link_reach_; }
 
-  /// Last move in words, such as "within reach".
+  /// Result of the last move in words, such as "within reach".
   std::string reach(int side) const;
   std::string solver(int side) const;
 

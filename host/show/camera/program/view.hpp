@@ -14,6 +14,7 @@ class View {
   scene::Camera camera(const model::Transform& link_world) const;
   render::Size drawn() const { return drawn_; }
 
+  /// Converts the rendered picture to the camera's.
   render::Image seen(render::Image drawn) const;
   render::Measured seen(render::Measured drawn) const;
 
