@@ -291,7 +291,7 @@ extern "C" int verp_main() {
   alignas(Params) static std::byte room[sizeof(Params)];
   Params& scratch = *new (room) Params;
   const control::BootReport boot_check = board::check_boot(size, scratch);
-  scratch = {};  // for a board without a robot
+  scratch = {};  // the default robot of a board without one
   const bool has_robot = check_image(verp_params_begin, size) == ImageFault::kNone;
   const Params& params =
       has_robot ? reinterpret_cast<const ParamsImage*>(verp_params_begin)->params : scratch;

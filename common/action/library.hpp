@@ -44,6 +44,7 @@ inline constexpr char kGetUpRight[kNameLength] = "get_up_right";
 /// As `next`, `otherwise` or `exit` of a frame: back to the stand.
 inline constexpr std::uint16_t kToStand = 0xFFFF;
 
+/// Condition for leaving a frame.
 enum class Condition : std::uint8_t {
   kNone,
   kUpright,
@@ -107,7 +108,7 @@ class Library {
   /// `number` is 1 to count().
   const Action& action(int number) const { return actions_[number - 1]; }
   const Frame& frame(int index) const { return frames_[index]; }
-  /// 0 if there is none.
+  /// Number of the action with this name; 0 if there is none.
   std::uint8_t number_of(const char (&name)[kNameLength]) const;
 
  private:

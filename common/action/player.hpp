@@ -9,10 +9,10 @@ enum class Part : std::uint8_t { kFrame = 0, kReturn = 1 };
 
 /// All zero while idle.
 struct PlayerState {
-  std::int32_t time_us = 0;  ///< in the frame or the return
-  std::int32_t return_us = 0;
-  std::uint32_t moved = 0;  ///< bit j: joint j had a goal since the stand
-  std::uint16_t frame = 0;  ///< frame index in the library
+  std::int32_t time_us = 0;    ///< in the frame or the return
+  std::int32_t return_us = 0;  ///< duration of the return
+  std::uint32_t moved = 0;     ///< bit j: joint j had a goal since the stand
+  std::uint16_t frame = 0;     ///< frame index in the library
   std::uint16_t reserved[3] = {};
   std::uint8_t number = 0;  ///< action that plays; 0: none
   std::uint8_t asked = 0;   ///< previous tick's request: each plays once

@@ -25,7 +25,7 @@ VERP_PACKED(FeedbackOut);
 FeedbackOut feedback(const BalanceTuning& tuning, const AttitudeOut& attitude,
                      float planned_pitch_rad, std::uint8_t swing);
 
-/// Adds to joint angles (hip to ankle), by the leg's directions.
+/// Adds the correction to joint angles (hip to ankle), by the leg's directions.
 void add(const LegParams& leg, const LegCorrection& correction, float* leg_rad);
 
 }  // namespace verp::balance

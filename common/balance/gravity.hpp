@@ -32,6 +32,7 @@ VERP_PACKED(DriveState);
 /// Takes one leg's planned angles. A jump, as at a plan's start, is no motion.
 LegMotion follow(const Params& params, int side, const float* leg_rad, DriveState& state);
 
+/// Adds the servos' sag to one leg's angles (hip to ankle).
 void add_sag(const Params& params, const BalanceTuning& tuning, const LegParams& leg,
              const kinematics::LegChain& chain, const LegLoad& load, const LegMotion& motion,
              float* leg_rad);

@@ -23,6 +23,7 @@ inline constexpr float kLeftPitched_rad = 0.08F;
 void learn_lean(const AttitudeOut& attitude, float planned_pitch_rad, float period_s,
                 LeanState& state);
 
+/// Turns the planned body about the ground below it.
 void lean(const LeanState& state, gait::Posture& posture);
 
 }  // namespace verp::balance

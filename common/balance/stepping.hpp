@@ -32,6 +32,7 @@ void step_aside(const Params& params, const Tuning& tuning, const SteppingIn& in
 /// not known to stand on its soles.
 bool pushed(const Params& params, const Tuning& tuning, const SteppingIn& in, SteppingState& state);
 
+/// True if body and swing foot are within `most_m` of the plan.
 bool as_planned(const SteppingState& state, float most_m);
 
 }  // namespace verp::balance

@@ -33,6 +33,7 @@ void learn_zero(const Params& params, const LegParams& leg, const kinematics::Le
                 const float* leg_rad, const gait::FootPose& foot, const Inputs& inputs,
                 const AttitudeOut& attitude, float planned_pitch_rad, LegZero& zero);
 
+/// Corrects a leg's goals so that its sole lands as planned.
 void add_zero(const LegParams& leg, const LegZero& zero, float* leg_rad);
 
 }  // namespace verp::balance

@@ -34,7 +34,7 @@ struct CanFrame {
   std::uint32_t id = 0;   ///< 11 bits, or 29 if `extended`
   std::uint8_t size = 0;  ///< bytes in use
   bool extended = false;
-  bool remote = false;           ///< classic, without data
+  bool remote = false;           ///< classic remote request, without data
   bool fd = false;               ///< CAN FD format
   bool bit_rate_switch = false;  ///< FD: faster data phase
   std::uint8_t data[kMaxCanFdData] = {};
@@ -58,6 +58,7 @@ constexpr std::uint32_t can_rank(const CanFrame& frame) {
   return (frame.id >> 18 & 0x7FFu) << 21 | 3u << 19 | (frame.id & 0x3FFFFu) << 1 | remote;
 }
 
+/// True if the format allows identifier, size and flags.
 constexpr bool is_sound(const CanFrame& frame) {
   if (frame.id > (frame.extended ? 0x1FFFFFFFu : 0x7FFu)) return false;
   if (frame.fd) return !frame.remote && frame.size == can_fd_size(frame.size);

@@ -12,8 +12,10 @@ balance::AttitudeOut estimate(const Params& params, State& state, const AdmitOut
 /// Locates body and centre of mass from the legs, by the last tick's plan.
 void locate(const Params& params, State& state, const Inputs& inputs, const AdmitOut& admitted);
 
+/// Sets the condition of a push beyond what ankles balance.
 void watch_push(const Params& params, State& state, AdmitOut& admitted);
 
+/// Walks if the safety table says so, and corrects heading drift.
 gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& admitted,
                           const balance::AttitudeOut& attitude);
 
@@ -39,6 +41,7 @@ safety::LimitOut limit_goals(const Params& params, State& state, const Inputs& i
 std::uint32_t raise_faults(const State& state, const AdmitOut& admitted, const Wanted& wanted,
                            const safety::LimitOut& limited);
 
+/// The safety table decides mode, torque and goals.
 void gate(const Params& params, State& state, const AdmitOut& admitted,
           const balance::AttitudeOut& attitude, const gait::GaitOut& plan,
           const safety::LimitOut& limited, std::uint32_t faults, Outputs& outputs);

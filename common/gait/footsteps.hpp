@@ -64,10 +64,11 @@ constexpr bool hurried(const Step& step) {
   return step.phase == Phase::kStart && step.swing == kBoth && step.double_support_s == 0.0F;
 }
 
+/// A step after `last` without motion.
 Step rest_step(const GaitTuning& tuning, const Step& last);
 
-/// With `stop` strides shrink; once the feet are level, a final step (Phase::kFinal, swing kBoth)
-/// returns the ZMP to the middle.
+/// The step after `last`. With `stop` strides shrink; once the feet are level, a final step
+/// (Phase::kFinal, swing kBoth) returns the ZMP to the middle.
 Step next_step(const Params& params, const GaitTuning& tuning, const VelocityIn& wanted,
                const Step& last, FootstepState& state);
 

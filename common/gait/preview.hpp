@@ -57,6 +57,7 @@ struct Laid {
 Laid lay_key_point(const Params& params, const Tuning& tuning, const Step* queue,
                    PreviewState& state);
 
+/// Fixes the next key point by the misses beyond it.
 void fix_key_point(const Step& step, PreviewState& state);
 
 /// Body position `fraction` (0..1) after fixed key point `index` (mod 256), by a cubic through
@@ -66,6 +67,7 @@ Xy body_at(const PreviewState& state, std::uint8_t index, float fraction);
 /// Acceleration there, m/s^2, from second differences.
 Xy body_acceleration(const PreviewState& state, std::uint8_t index, float fraction, float key_s);
 
+/// Moves the walk frame's origin to `origin_m`.
 void rebase(Xy origin_m, PreviewState& state);
 
 }  // namespace verp::gait

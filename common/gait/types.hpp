@@ -77,7 +77,9 @@ struct Step {
   constexpr float duration_s() const { return static_cast<float>(duration_us()) * 1e-6F; }
   constexpr float key_s() const { return static_cast<float>(key_us) * 1e-6F; }
   constexpr int carrying() const { return swing == kBoth ? kBoth : 1 - swing; }
+  /// Final and later steps: both feet carry, the ZMP comes to rest.
   constexpr bool ends_walk() const { return swing == kBoth && phase != Phase::kStart; }
+  /// Foothold at the step's end.
   constexpr Foothold after(int side) const { return side == swing ? landing : foot[side]; }
 };
 VERP_PACKED(Step);

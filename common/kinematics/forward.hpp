@@ -6,6 +6,7 @@
 /// Params::joint; results are in the frame of `body`.
 namespace verp::kinematics {
 
+/// Pose of the joint's link in its parent link.
 Pose joint_transform(const JointParams& joint, float angle_rad);
 
 /// The product with rot_x (1, 2, 0), rot_y (2, 0, 1) or rot_z (0, 1, 2).

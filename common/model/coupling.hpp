@@ -18,6 +18,7 @@ inline int driver_of(const Params& params, int joint) {
   return joint;
 }
 
+/// The follower's angle when its driver is at `driver_rad`.
 inline float followed(const JointParams& driver, const JointParams& follower, float driver_rad) {
   return (driver.zero_count + driver.counts_per_rad * driver_rad - follower.zero_count) /
          follower.counts_per_rad;
@@ -32,6 +33,7 @@ inline void share_counts(const Params& params, Inputs& inputs) {
   }
 }
 
+/// Sets followers' angles from their drivers'.
 inline void lead(const Params& params, float* angle_rad) {
   for (int j = params.servo_count(); j < params.joint_count; ++j) {
     const int driver = driver_of(params, j);

@@ -61,6 +61,7 @@ enum class ImageFault : std::uint8_t {
   kOutOfRange = 7,   ///< not finite or implausible; numbers_fit() names it
 };
 
+/// Names the robot: equal only for equal bytes, up to 2^-32.
 std::uint32_t params_crc(const Params& params);
 
 /// Fills in the header.

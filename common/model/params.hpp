@@ -144,6 +144,7 @@ struct Params {
               body_mass_kg, body_com_m, bus_protocol, followers, arm, arm_rad_per_m, joint, leg,
               servo, imu, feet, tuning)
 
+  /// Joints with a servo of their own: the bus sees only these.
   constexpr std::uint8_t servo_count() const {
     return static_cast<std::uint8_t>(joint_count - followers);
   }

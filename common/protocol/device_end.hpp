@@ -4,6 +4,7 @@
 
 #include "common/protocol/dynamixel2.hpp"
 
+/// The device side of Protocol 2.0, common to all devices. Rules from the e-Manual.
 namespace verp::dxl {
 
 /// One device's part of a Sync or Bulk Read.

@@ -7,6 +7,7 @@
 /// Per tick in a trace: names the first stage that differs in a replay.
 namespace verp {
 
+/// The stages of step(), in order.
 enum class Stage : std::uint8_t { kAdmit, kEstimate, kPlan, kBalance, kKinematics, kLimit, kGate };
 inline constexpr int kStages = 7;
 inline constexpr const char* kStageNames[kStages] = {"admit",      "estimate", "plan", "balance",

@@ -33,7 +33,8 @@ struct LimitOut {
 /// First joint beyond its limits by more than kBeyond_rad; kMaxJoints: none.
 int joint_beyond(const Params& params, const std::int32_t* position_count);
 
-/// Rising and sitting last rise_s and sit_s, or longer for a joint's speed limit.
+/// Sets state.goal_rad. Rising and sitting last rise_s and sit_s, or longer for a joint's speed
+/// limit.
 LimitOut limit(const Params& params, LimitState& state, const LimitIn& in);
 
 }  // namespace verp::safety

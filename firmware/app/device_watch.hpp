@@ -30,6 +30,7 @@ class DeviceWatch {
   }
 
   void heard() { ++packets_; }
+  /// Error totals of the servo bus and of the operator's link.
   void bus_errors(std::uint32_t sum) { errors(table::kDeviceBus, sum); }
   void link_errors(std::uint32_t sum) { errors(table::kDeviceLink, sum); }
 

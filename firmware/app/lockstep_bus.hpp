@@ -63,6 +63,7 @@ class LockstepBus {
     return reply.verdict;
   }
 
+  /// The twin wants no further tick, or is gone.
   bool stopped() const { return lost_ || over(); }
   /// True before greet(), after a refusal, after `idle` gave up, or when the twin restarted: call
   /// greet() again.

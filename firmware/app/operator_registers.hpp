@@ -26,6 +26,7 @@ struct CrashNote {
   std::uint32_t count = 0;
 };
 
+/// The board's state before the first tick.
 struct OperatorSetup {
   std::uint8_t id = table::kDefaultId;
   table::ImuSource imu_source = table::ImuSource::kBus;

@@ -45,6 +45,7 @@ class RemoteBus {
   action::Library actions(const ActionRoom& room) const { return room.library(run_.actions_size); }
   /// Ticks of the run; 0: until stopped().
   std::uint32_t ticks() const { return run_.ticks; }
+  /// The PC wants no further tick, or is gone.
   bool stopped() const { return lost_ || (reply_.flags & link::kStop) != 0; }
   bool lost() const { return lost_; }
   std::uint32_t refused() const { return refused_; }

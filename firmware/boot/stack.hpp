@@ -5,6 +5,7 @@
 /// Startup fills the stack with a pattern; whatever differs was used.
 namespace verp::boot {
 
+/// Lowest address of the stack.
 std::uintptr_t stack_limit();
 
 /// Call at start: forbids the 32 bytes below the stack, so that an overflow faults at once. False:

@@ -21,6 +21,7 @@ concept MappedPages = hal::FlashPages<Flash> && requires(const Flash& flash, std
   { flash.memory(page) } -> std::same_as<const std::uint8_t*>;
 };
 
+/// The bytes of a page that count.
 struct Layout {
   std::uint32_t first_bytes = 0;
   std::uint32_t second = 0;  ///< offset of the second image

@@ -24,6 +24,7 @@ class FakeFlash {
     writes_left_ = writes;
     cut_planned_ = true;
   }
+  /// Ends the cut and draws new values for the unsure bits.
   void power_up() {
     dark_ = false;
     cut_planned_ = false;

@@ -27,6 +27,7 @@ class ScriptedBus {
   /// Most bytes in one poll; 1 delivers every reply in pieces.
   void set_piece(std::size_t bytes) { piece_ = bytes; }
 
+  /// True if the whole script was played and no other frame was sent.
   bool finished() const { return mismatches_ == 0 && played_ == exchanges_; }
   std::size_t mismatches() const { return mismatches_; }
 

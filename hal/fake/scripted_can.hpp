@@ -36,6 +36,7 @@ class ScriptedCan {
     arrival_[at] = {frame, time_us, 0};
     return true;
   }
+  /// True if the whole script was played and no other frame was sent.
   bool finished() const { return mismatches_ == 0 && played_ == expected_; }
   std::size_t mismatches() const { return mismatches_; }
 

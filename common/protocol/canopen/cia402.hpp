@@ -114,6 +114,7 @@ enum class AbortConnection : std::int16_t {
 class Drive {
  public:
   State state() const { return state_; }
+  /// True if torque is on.
   bool powered() const {
     return state_ == State::kOperationEnabled || state_ == State::kQuickStopActive ||
            state_ == State::kFaultReactionActive;

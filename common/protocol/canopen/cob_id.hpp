@@ -26,9 +26,11 @@ constexpr std::uint16_t tpdo_id(unsigned number, std::uint8_t node) {
 constexpr std::uint16_t rpdo_id(unsigned number, std::uint8_t node) {
   return static_cast<std::uint16_t>(0x100 + 0x100 * number + node);
 }
+/// From the device.
 constexpr std::uint16_t sdo_response_id(std::uint8_t node) {
   return static_cast<std::uint16_t>(0x580 + node);
 }
+/// To the device.
 constexpr std::uint16_t sdo_request_id(std::uint8_t node) {
   return static_cast<std::uint16_t>(0x600 + node);
 }

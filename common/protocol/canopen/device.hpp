@@ -68,6 +68,7 @@ class Device {
     return events;
   }
 
+  /// False: there is no frame to send.
   bool next(Frame& frame, std::uint64_t now_us) {
     if (kSize.beats && objects_.producer.next(now_us, nmt_.state(), frame)) return true;
     if (!may_sdo(nmt_.state())) return false;

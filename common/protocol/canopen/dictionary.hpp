@@ -5,6 +5,7 @@
 
 namespace verp::canopen {
 
+/// SDO abort codes, CiA 301's table.
 enum class Abort : std::uint32_t {
   kNone = 0,
   kToggle = 0x05030000,

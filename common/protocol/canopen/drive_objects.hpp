@@ -100,6 +100,7 @@ Abort find_object(Address at, Entry& entry);
 Abort read_object(const DriveObjects& objects, Address at, std::uint8_t* buffer);
 /// Refuses an unsupported mode, a period of 0, unknown option codes.
 Abort write_object(DriveObjects& objects, Address at, const std::uint8_t* data);
+/// kNone if a PDO may map the object with that length.
 Abort check_mappable(Address at, std::uint8_t bits, bool receive);
 
 /// 60C2h: value times ten to the exponent seconds. 0 if invalid or over a minute.

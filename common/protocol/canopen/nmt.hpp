@@ -123,6 +123,7 @@ class HeartbeatProducer {
   constexpr std::uint16_t period_ms() const { return period_ms_; }
   constexpr void restart() { booted_ = false; }
 
+  /// False: no frame is due.
   constexpr bool next(std::uint64_t now_us, NmtState state, Frame& frame) {
     if (state == NmtState::kInitialising) {
       booted_ = false;

@@ -209,6 +209,7 @@ class RpdoLatch {
     frame_ = frame;
     return false;
   }
+  /// True if `frame` takes effect now.
   constexpr bool on_sync(Frame& frame) {
     if (!waiting_) return false;
     waiting_ = false;

@@ -130,9 +130,11 @@ constexpr int members_of(const Shared& kind, const Params& params, int frame) {
   const int left = params.servo_count() - first_of(kind, frame);
   return left < kind.width ? left : kind.width;
 }
+/// RPDO identifier of the frame's first drive.
 constexpr std::uint16_t shared_id(const Shared& kind, const Params& params, int frame) {
   return rpdo_id(kind.rpdo, params.joint[first_of(kind, frame)].servo_id);
 }
+/// The RPDO of `joint`'s drive; its frame is joint / width.
 constexpr PdoMapping<> shared_mapping(const Shared& kind, const Params& params, int joint) {
   const int frame = joint / kind.width;
   PdoMapping<> mapping;

@@ -36,10 +36,13 @@ class SdoClient {
   }
 
   void receive(const Frame& frame, std::uint64_t now_us);
+  /// False: there is no frame to send.
   bool next(Frame& frame, std::uint64_t now_us);
 
   State state() const { return state_; }
+  /// Reason of the last abort, by either side.
   Abort reason() const { return reason_; }
+  /// Size of a finished upload.
   std::uint32_t size() const { return size_; }
 
  private:

@@ -37,6 +37,7 @@ class SdoServer {
     }
   }
 
+  /// False: there is no frame to send.
   bool next(Frame& frame, std::uint64_t now_us) {
     expire(now_us);
     if (phase_ == Phase::kBlockSegments && !replying_ && patience_.remind(now_us)) {

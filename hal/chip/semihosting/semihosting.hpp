@@ -33,6 +33,7 @@ class File {
 /// The emulator's command line, at most capacity - 1 characters. False: it did not fit.
 bool command_line(char* text, std::size_t capacity);
 
+/// Prints to the emulator's standard error.
 void print(const char* text);
 
 [[noreturn]] void exit(int status);

@@ -20,6 +20,7 @@ struct AnalogWiring {
   constexpr bool exists() const { return base != 0; }
 };
 
+/// `Timer` is a TickTimer.
 template <Io Access, class Timer>
 class AnalogInput {
  public:

@@ -167,6 +167,7 @@ class ClockTree {
   ClockPlan plan_;
 };
 
+/// True if the plan keeps the family's limits, overdrive included, and divides evenly.
 constexpr bool is_possible(const ClockPlan& plan, Family family) {
   const Limits& limit = limits(family);
   const std::uint32_t n = plan.vco_hz / 1'000'000;

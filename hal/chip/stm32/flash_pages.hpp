@@ -23,6 +23,7 @@ class SectorPages {
       : io_(io), family_(family), sector_{first, second}, timer_(timer), dog_(dog) {}
 
   std::size_t page_bytes(std::size_t page) const { return place(page).bytes; }
+  /// The page's address as memory.
   const std::uint8_t* memory(std::size_t page) const {
     return reinterpret_cast<const std::uint8_t*>(std::uintptr_t{place(page).address});
   }

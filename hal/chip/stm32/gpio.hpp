@@ -22,7 +22,7 @@ class Gpio {
  public:
   explicit Gpio(Access io = {}) : io_(io) {}
 
-  /// A pull-up keeps an open receive line idle.
+  /// Hands the pin to a peripheral. A pull-up keeps an open receive line idle.
   void alternate(Pin pin, std::uint32_t function, std::uint32_t pull = gpio::kPullNone) {
     if (!pin.exists()) return;
     enable(pin);

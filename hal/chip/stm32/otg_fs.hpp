@@ -18,6 +18,7 @@
 /// fraction of a millisecond. Every wait ends: a stuck transfer loses its bytes and is counted.
 namespace verp::hal::stm32 {
 
+/// `Timer` is a TickTimer.
 template <Io Access, class Function, class Timer, std::size_t kRing = 1024>
 class OtgFs {
  public:

@@ -31,6 +31,7 @@ struct SpiErrors {
   std::uint32_t mode_faults = 0;  ///< another bus master detected (MODF)
 };
 
+/// `Timer` is a TickTimer.
 template <Io Access, class Timer>
 class SpiMaster {
  public:

@@ -25,13 +25,14 @@ struct UsartWiring {
   Pin direction;  ///< high while sending; none: full duplex
 };
 
+/// `Timer` is a TickTimer.
 template <Io Access, class Kind, class Timer, std::size_t kRing = 1024>
 class Usart {
  public:
   Usart(const UsartWiring& wiring, Timer& timer, Access io = {})
       : io_(io), gpio_(io), wiring_(wiring), timer_(timer) {}
 
-  /// Clocks and pins are on. False: no divider fits.
+  /// Clocks and pins are on. False: no divider makes this baud rate.
   bool open(std::uint32_t clock_hz, std::uint32_t baud) {
     BaudSetting setting;
     if (!choose_baud(clock_hz, baud, setting)) return false;

@@ -75,7 +75,7 @@ class IndependentWatchdog {
     }
     return false;
   }
-  // The hardware ignores new values until then.
+  // The hardware ignores new values until it has applied the last one.
   bool settled() {
     for (std::uint32_t poll = 0; poll < kPolls; ++poll) {
       if ((io_.read32(at(iwdg::kSr)) & (iwdg::kSrPvu | iwdg::kSrRvu)) == 0) return true;

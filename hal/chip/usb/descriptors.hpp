@@ -67,18 +67,22 @@ inline constexpr std::uint8_t kConfigurationDescriptor[] = {
     9, type(Descriptor::kConfiguration), kConfigurationBytes, 0, kInterfaces, kOnlyConfiguration, 0,
     0x80,  // bmAttributes: bit 7 is always set
     250,   // bMaxPower: unit 2 mA
-    // Control interface: abstract control model. No protocol, so the host does not probe a modem.
-    9, type(Descriptor::kInterface), kControlInterface, 0, 1, 0x02, 0x02, 0x00, 0, 5,
-    type(Descriptor::kClassInterface), 0x00, 0x10, 0x01, 5, type(Descriptor::kClassInterface), 0x01,
-    0x00, kDataInterface,
-    // Abstract control model: line coding and state, break.
+    // Control interface: abstract control model. No protocol, so the host does not probe a
+    // modem.
+    9, type(Descriptor::kInterface), kControlInterface, 0, 1, 0x02, 0x02, 0x00, 0,
+    // Header: CDC 1.10.
+    5, type(Descriptor::kClassInterface), 0x00, 0x10, 0x01,
+    // Call management: none.
+    5, type(Descriptor::kClassInterface), 0x01, 0x00, kDataInterface,
+    // Abstract control model: line coding and control line state, break.
     4, type(Descriptor::kClassInterface), 0x02, 0x06,
     // Union.
     5, type(Descriptor::kClassInterface), 0x06, kControlInterface, kDataInterface,
     // Notifications: required; nothing is ever sent.
-    7, type(Descriptor::kEndpoint), kNotification, 0x03, kNotificationPacket, 0, 255, 9,
-    type(Descriptor::kInterface), kDataInterface, 0, 2, 0x0A, 0x00, 0x00, 0,  //
-    7, type(Descriptor::kEndpoint), kDataOut, 0x02, kBulkPacket, 0, 0,        //
+    7, type(Descriptor::kEndpoint), kNotification, 0x03, kNotificationPacket, 0, 255,
+    // The data interface and its bulk endpoints.
+    9, type(Descriptor::kInterface), kDataInterface, 0, 2, 0x0A, 0x00, 0x00, 0,  //
+    7, type(Descriptor::kEndpoint), kDataOut, 0x02, kBulkPacket, 0, 0,           //
     7, type(Descriptor::kEndpoint), kDataIn, 0x02, kBulkPacket, 0, 0};
 static_assert(sizeof kDeviceDescriptor == kDeviceDescriptor[0]);
 static_assert(sizeof kConfigurationDescriptor == kConfigurationBytes);
