@@ -3,7 +3,7 @@
 
 namespace verp::cli {
 
-/// Granted by the system to a control loop.
+/// Resources that the system granted to a control loop.
 struct RealTime {
   bool fifo = false;    ///< SCHED_FIFO
   bool locked = false;  ///< memory never paged out

@@ -28,7 +28,7 @@ std::string_view last_part(std::string_view word) {
   return word.substr(word.rfind('.') + 1);  // npos + 1 is 0
 }
 
-/// "lift" for gait.lift_m.
+/// Without the unit: "lift" for gait.lift_m.
 std::string_view without_unit(std::string_view name) {
   const std::size_t end = name.rfind('_');
   return end == name.npos || name.size() - end > 4 ? name : name.substr(0, end);

@@ -17,7 +17,7 @@ class Air {
   /// Throws Failure that names the invalid number.
   explicit Air(const verp_radio& what);
 
-  /// Call before the first tick, with all robots.
+  /// Call it before the first tick, when all robots are there.
   void begin(std::size_t robots);
   void ticked(Run& run, std::uint32_t robot);
   int send(Run& run, std::uint32_t robot, std::int32_t to, std::string data);

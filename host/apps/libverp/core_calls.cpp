@@ -43,7 +43,7 @@ const verp::LegParams& leg_of(const Core& core, std::uint32_t side) {
   return core.params.leg[side];
 }
 
-/// Otherwise no result would be finite.
+/// Throws for numbers that are not finite: no result would be finite.
 void need_finite(const float* values, std::size_t count, const char* name) {
   for (std::size_t i = 0; i < count; ++i) {
     finite(values[i], (std::string(name) + "[" + std::to_string(i) + "]").c_str());

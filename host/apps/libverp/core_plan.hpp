@@ -11,7 +11,7 @@ namespace verp::abi {
 /// Writes the rotation, row by row, then the position.
 void put_pose(const Pose& pose, float* to);
 
-/// `count` ticks from standing, the last `stop` after a stop order.
+/// Plans `count` ticks from standing, the last `stop` of them after a stop order.
 void plan_walk(const Params& params, const Command& velocity, verp_plan* plan, std::uint32_t count,
                std::uint32_t stop);
 

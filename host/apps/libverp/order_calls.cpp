@@ -18,7 +18,7 @@ std::int16_t milli(double value, const char* name) {
   throw Failure(VERP_BAD_ARGUMENT, std::string(name) + " may be -3.2 to 3.2");
 }
 
-/// They exist once all robots are added.
+/// The quantities exist once all robots are added.
 verp::sim::Quantities& quantities_of(Run& run) {
   if (run.seats.empty())
     throw Failure(VERP_BAD_ARGUMENT, "nobody is in the world; call verp_session_add() before");

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint64_t kMostBytes = 65'536;  // limit under any conditions
 
-/// Runs between ticks, or inside a controller.
+/// Runs `act` between ticks, or inside a controller.
 template <class Act>
 int with(verp_session session, Act&& act) {
   if (Run* run = Ticking::find(session)) return act(*run);

@@ -172,7 +172,7 @@ void RobotInstance::write_view(const session::Tick& tick) {
 const session::WalkResult& RobotInstance::finish(session::Session& session) {
   if (result_) return *result_;
   result_ = session.result(index_);
-  // A controller's failure that the caller has not read.
+  // Reports a controller's failure that the caller has not read.
   if (deciding_)
     result_->failure =
         fmt::format("the controller of robot {} failed at tick {}", index_, *deciding_);

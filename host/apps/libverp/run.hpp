@@ -36,7 +36,7 @@ class RobotInstance {
   }
   const State& state() const { return state_; }
   std::uint64_t digest() const { return state_.digest.chain; }
-  /// At the time of the last tick.
+  /// Adds to the trace, at the time of the last tick.
   void note_radio(record::ros::Radio radio);
 
   /// Computes the result and closes the trace, once.

@@ -29,7 +29,7 @@ inline int checked(int status) {
   return status < 0 ? throw Error(status) : status;
 }
 
-/// Throws for a text with a zero character.
+/// The text for C. Throws for a text with a zero character.
 inline const char* c_text(const std::string& text, const char* what) {
   if (text.find('\0') == std::string::npos) return text.c_str();
   throw Error(VERP_BAD_ARGUMENT, std::string(what) + " has a zero character in it");
@@ -158,7 +158,7 @@ class Session {
   /// Runs at most `count` ticks. False: the run has ended.
   bool tick(std::uint32_t count = 1) {
     const int status = verp_session_tick(handle(), count, nullptr, nullptr);
-    // Else the exception may be another thread's.
+    // With another status, the exception may be another thread's.
     if (status == VERP_CALLBACK_FAILED && *thrown_)
       std::rethrow_exception(std::exchange(*thrown_, nullptr));
     return checked(status) == VERP_OK;

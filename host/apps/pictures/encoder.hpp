@@ -8,7 +8,7 @@
 
 namespace verp::pictures {
 
-/// An ffmpeg process. The file appears when it is complete.
+/// Sends pictures to an ffmpeg process. The file appears when it is complete.
 class Encoder {
  public:
   /// .mp4, .gif or .webp. Throws ToolError without ffmpeg.

@@ -33,7 +33,7 @@ std::string read_text(const fs::path& file) {
                        fmt::format("{}: {} cannot be read; give a file", kCommand, file.string()));
 }
 
-/// Filled under a temporary name: a failure leaves nothing behind.
+/// A folder that is filled under a temporary name: a failure leaves nothing behind.
 class NewFolder {
  public:
   explicit NewFolder(fs::path path)

@@ -76,7 +76,7 @@ void run_program(const std::string& program, const std::string& arguments, Take 
 
 using Samples = std::map<std::string, std::vector<double>>;
 
-/// CPU times in ns and counters of a Google Benchmark program.
+/// Adds CPU times in ns and counters of one run of a Google Benchmark program.
 void sample(const std::string& program, const std::string& folder, Samples& samples) {
   std::string text;
   run_program(program, " " + files::shell_word(folder) + kTiming,
@@ -133,7 +133,7 @@ void add_pc_rows(const Samples& samples, std::vector<BenchRow>& rows) {
                   .exact = true});
 }
 
-/// Output of target_bench: a board's exact cost, or its link's speed.
+/// Adds the rows of a line of target_bench: a board's exact cost, or its link's speed.
 void add_board_rows(const cli::Json& line, std::vector<BenchRow>& rows, cli::Json& headings) {
   const std::string where = line.at("board");
   const Bar promised = where == board::kPromisedBoard ? Bar::kAtMost : Bar::kNone;

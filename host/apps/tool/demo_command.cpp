@@ -66,7 +66,7 @@ const demos::Demo& demo_of(const std::string& name) {
                                    name, cli::did_you_mean(name, names)));
 }
 
-/// The picture's path, or empty; `lost`: why writing it failed.
+/// Draws the picture; returns its path, or empty. `lost`: why writing it failed.
 std::string draw(const DemoWords& words, const demos::Run& run, std::string& lost) {
   if (words.no_picture) return "";
   const std::string file = words.picture.empty() ? words.name + ".png" : words.picture;
@@ -160,7 +160,7 @@ demos::Options options_of(const DemoWords& words) {
   return options;
 }
 
-/// Called before the demo, which takes a minute.
+/// Refuses a bad file before the demo, which takes a minute.
 void check_picture(const std::string& file) {
   if (file.empty()) return;
   if (!file.ends_with(".png") && !file.ends_with(".svg"))

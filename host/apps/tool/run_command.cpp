@@ -49,7 +49,7 @@ struct RunWords {
   bool lockstep = false;
 };
 
-/// Tuning limits orders from another source.
+/// Orders from another source are not planned beforehand: only tuning limits them.
 void require_followed_orders(const Params& params) {
   const Command longest = session::longest_order(params);
   const session::FeasibleVelocity followed = session::within_servo_speed(params, longest);
@@ -251,7 +251,7 @@ int run_on(Link& link, const RunWords& words, const RunPlan& plan, WalkFiles& fi
   return tell(words, plan, files, live, drive(link, plan, fit, files.trace(), progress));
 }
 
-/// A lockstep twin and its controllers start in any order.
+/// Retries, because a lockstep twin and its controllers start in any order.
 link::Link open_link(const RunPlan& plan) {
   using Kind = link::Endpoint::Kind;
   constexpr std::uint32_t kTry_us = 100'000;

@@ -15,7 +15,8 @@ namespace {
 constexpr std::uint64_t kGone_ns = 5'000'000'000;    // then the link stays lost
 constexpr std::uint64_t kSilent_ns = 2'000'000'000;  // an idle twin answers at once
 
-/// Gives up after a second interrupt, or kGone_ns without the twin.
+/// While waiting for the twin: gives up after a second interrupt, or after kGone_ns without the
+/// twin.
 struct Waiting {
   link::Link* link;
   bool* answered;             ///< answered, or the user was warned

@@ -29,7 +29,7 @@ class RunOperator {
   app::OperatorOrder order(std::uint32_t tick);
   void observe(const State& state, const Outputs& outputs);
 
-  /// Obeys another source for the planned length.
+  /// Obeys another source for the planned length of the walk.
   using Orders = std::function<app::OperatorOrder(std::uint32_t tick)>;
   void obey(Orders orders) { orders_ = std::move(orders); }
 

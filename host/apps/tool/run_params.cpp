@@ -10,7 +10,7 @@
 namespace verp::tool {
 namespace {
 
-// A profile of one period joins goals by straight lines.
+// A profile of one period follows the new period: such a servo joins goals by straight lines.
 void set_period(Params& params, double period_ms) {
   const std::uint32_t before_us = params.period_us;
   params.period_us = static_cast<std::uint32_t>(std::lround(1000 * period_ms));

@@ -46,7 +46,7 @@ model::Entity robot_of(const SetupWords& words, const link::Endpoint& endpoint) 
   return entity;
 }
 
-/// A joint has another servo on each bus.
+/// One report per bus, because a joint has another servo on each bus.
 std::string report_of(const SetupWords& words, const model::Entity& entity) {
   if (!words.report.empty()) return words.report;
   const bool first = entity.bus == entity.buses.front();

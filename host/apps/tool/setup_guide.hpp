@@ -27,7 +27,7 @@ class SetupGuide {
  private:
   /// The user's answer at a joint's turn or after an error.
   enum class Answer { kGoOn, kSkip };
-  /// End of input, interruption, or q.
+  /// Thrown at the end of input, on interruption, or when the user enters q.
   struct Stop {};
 
   Answer ask(const std::string& question);

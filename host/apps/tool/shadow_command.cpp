@@ -39,7 +39,7 @@ struct ShadowWords {
   bool json = false;
 };
 
-/// The named bus, or the first of the link's kind.
+/// The robot on the named bus, or on its first bus of the link's kind.
 model::Entity robot_on(const ShadowWords& words, bool can) {
   const std::string file = model::find_model(words.model);
   if (!can) return model::load_robot(file, words.bus);  // any bus gives the same

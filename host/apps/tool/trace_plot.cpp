@@ -29,7 +29,7 @@ int list_signals(const std::vector<Column>& columns) {
   return cli::kGood;
 }
 
-/// Each column once, in this order.
+/// Each column once, in the order of the user's words.
 std::vector<std::size_t> chosen(const TraceWords& words, const std::vector<Column>& columns) {
   std::vector<std::string> names;
   for (const Column& column : columns) names.push_back(column.name);

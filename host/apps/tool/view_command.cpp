@@ -55,7 +55,7 @@ CLI::App* declare_view(CLI::App& root, ViewOptions& words) {
   options.command = "verp view";
   options.walk_s = 20;
   declare(*app, options);
-  // These options are for unattended runs.
+  // Removes the options that are for unattended runs.
   for (const char* name : {"--report", "--record-state", "--compress", "--json", "--sweep-step",
                            "--seeds", "--on", "--list-quantities", "--cameras", "--real-time",
                            "--patience", "--if-lost-go-on", "--print-scenario"}) {

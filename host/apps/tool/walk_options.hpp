@@ -75,7 +75,7 @@ void declare_gait(CLI::App& app, WalkOptions& options);
 
 void declare_tuning(CLI::App& app, WalkOptions& options);
 
-/// declare_gait(), seed, trace, report, JSON.
+/// declare_gait(), and the options for seed, trace, report, JSON.
 void declare_basics(CLI::App& app, WalkOptions& options);
 
 void declare_falls(CLI::App& app, WalkOptions& options);
@@ -98,7 +98,7 @@ std::vector<double> sweep_of(const WalkOptions& options);
 
 /// --cycle, --set, --no-... . Throws ToolError for unknown names and values out of range.
 std::map<std::string, double> tuning_of(const WalkOptions& options);
-/// From --stand, --velocity or --step.
+/// The orders of --stand, --velocity or --step.
 scenario::Orders orders_of(const WalkOptions& options);
 
 }  // namespace verp::tool

@@ -7,10 +7,10 @@
 /// A robot with a controller elsewhere: only its motion is known.
 namespace verp::tool {
 
-/// This PC, a board or a link.
+/// The controller's place: this PC, a board or a link.
 std::string driver_of(const session::WalkPlan& plan);
 
-/// Null for a controller elsewhere.
+/// Null for a controller elsewhere, which reports no digest.
 cli::Json digest_json(const session::WalkPlan& plan, const session::WalkResult& result);
 
 /// The body's way in the world.

@@ -59,7 +59,7 @@ void check_board(const std::string& board, const std::string& where) {
                                    where, board, names));
 }
 
-/// Suggests names for a disturbance's wrong one.
+/// Suggests names for the wrong name of a disturbance.
 std::string hint(const scenario::ScenarioError& error, const session::Intervention& what) {
   if (error.known.empty()) return "; raise --for";
   if (std::find(error.known.begin(), error.known.end(), what.name) != error.known.end()) return "";

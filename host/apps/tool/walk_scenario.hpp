@@ -7,7 +7,7 @@
 #include "host/apps/tool/walk_options.hpp"
 #include "host/run/scenario/expand.hpp"
 
-/// Command line to Scenario; errors name the wrong option.
+/// Turns the command line into a Scenario; errors name the wrong option.
 namespace verp::tool {
 
 /// Throws ToolError.

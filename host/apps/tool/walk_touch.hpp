@@ -22,9 +22,9 @@ struct TouchOptions {
 void declare(CLI::App& app, TouchOptions& options);
 void declare_push(CLI::App& app, TouchOptions& options);
 
-/// Pushes first. Throws ToolError.
+/// The interventions of the options, pushes first. Throws ToolError.
 std::vector<session::Intervention> disturbances_of(const TouchOptions& options);
-/// For example "--push '1: body 0,30,0 N for 0.1'".
+/// The option as text, for example "--push '1: body 0,30,0 N for 0.1'".
 std::string option_of(const TouchOptions& options, std::size_t index);
 
 /// Prints all quantities as JSON, or one line per kind.

@@ -53,7 +53,7 @@ void at_exit() {
   ::_exit(cli::kNoDevice);
 }
 
-/// Called before Xlib prints its own lines and ends the program.
+/// Xlib calls this before it prints its own lines and ends the program.
 int hear_xlib(void*) {
   at_exit();
   return 0;

@@ -28,7 +28,7 @@ class EditorPanel final : public QWidget {
   explicit EditorPanel(QUndoStack& undo, QWidget* parent = nullptr);
   ~EditorPanel() override;
 
-  /// These return empty or the reason. Refuses with unsaved changes.
+  /// These return empty or the reason. Refuses while there are unsaved changes.
   std::string open(const std::string& file, bool may_be_new = false);
   /// Also returns where the text was put.
   std::string save();

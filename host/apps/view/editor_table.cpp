@@ -43,7 +43,7 @@ void EditorTable::add(const edit::Document& document, int element, const std::st
 
 void EditorTable::mark(const std::string& path) {
   marked_ = path;
-  // New values would reset a cell during typing.
+  // Only marks: new values would reset a cell during typing.
   if (!rows_.empty()) emit dataChanged(index(0, 0), index(rowCount() - 1, 0));
 }
 

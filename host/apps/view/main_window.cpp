@@ -222,7 +222,7 @@ void MainWindow::open(const QString& file) {
     if (file.endsWith(".mcap")) return watch(std::filesystem::path(file.toStdString()));
     watch(make_run_(file.toStdString()));
   } catch (const std::exception& error) {
-    // The user can repair an unsound robot.
+    // Opens it anyway: the user can repair an unsound robot.
     if (!file.endsWith(".mcap")) editor_->open(file.toStdString());
     say(QString::fromUtf8(error.what()));
   }

@@ -39,7 +39,7 @@ class TuningPanel;
 /// which acts on the robot.
 class MainWindow final : public QMainWindow {
  public:
-  /// Throws an exception with one line of text.
+  /// Makes the run of a robot by name or file; throws an exception with one line of text.
   using MakeRun = std::function<RunSetup(const std::string& model)>;
   MainWindow(QSettings& settings, MakeRun make_run);
   ~MainWindow() override;

@@ -104,7 +104,7 @@ session::Intervention MainWindow::push_of(const SceneView::Hold& at) const {
   session::Intervention push{.kind = session::Intervention::Kind::kPush, .name = {}};
   push.name = entity_->nodes[static_cast<std::size_t>(at.node)].name;
   push.force_world_n = kPush_n_m * (at.to_world_m - at.at_world_m);
-  // As a user would type it.
+  // Rounded, as a user would type it.
   for (double& axis : push.force_world_n) axis = std::round(10 * axis) / 10;
   push.for_s = kPush_s;
   return push;

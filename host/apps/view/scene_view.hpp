@@ -22,7 +22,7 @@ class SceneView final : public QOpenGLWidget {
 
   void set_scene(scene::Scene scene);
   void show_picture(Picture now);
-  /// False: not one of scene::view_names().
+  /// False: `name` is not one of scene::view_names().
   bool set_view(const std::string& name);
   const std::string& view() const { return view_; }
   void set_follow(bool follow) { follow_ = follow; }

@@ -88,7 +88,7 @@ void SignalTree::find(const QString& text) {
     }
     item->setHidden(!text.isEmpty() && !path.contains(text, Qt::CaseInsensitive));
   }
-  // Groups without visible items, leaves first.
+  // Hides groups without visible items, leaves first.
   const std::function<bool(QTreeWidgetItem*)> seen = [&](QTreeWidgetItem* item) {
     if (item->childCount() == 0) return !item->isHidden();
     bool any = false;

@@ -9,7 +9,7 @@
 /// come true, and carrying feet do not move.
 namespace verp::action {
 
-/// The way to a key frame, and its rest.
+/// Check of the way to a key frame, and of its rest.
 struct FrameCheck {
   int frame = 0;  ///< -1: the way back to the stand
   int line = 0;   ///< in the action's file

@@ -9,7 +9,7 @@ namespace verp::action {
 /// Body and feet become joint angles.
 std::string to_csv(const Params& params, const CompiledActions& made, int number);
 
-/// Parts that a table cannot hold: "note, stance, repeats"; or empty.
+/// Lists the parts that a table cannot hold: "note, stance, repeats"; or empty.
 std::string not_in_csv(const Document& document);
 
 /// An empty cell means no goal. Throws LoadError, also for an unknown joint.

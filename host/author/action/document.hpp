@@ -12,7 +12,7 @@
 /// An action as in its file (host/guide/actions.md), not compiled.
 namespace verp::action {
 
-/// Body or sole from the stand, relative to the ground.
+/// How far body or sole is moved from the stand, relative to the ground.
 struct Offset {
   std::array<double, 3> move_m{};
   std::array<double, 3> turn_rad{};  ///< roll, pitch, yaw

@@ -7,7 +7,7 @@
 
 namespace verp::action {
 
-/// The image as in a board's flash, with the robot's mark.
+/// The image as it is in a board's flash, with the robot's mark.
 std::vector<std::uint8_t> kept_image(const CompiledActions& made, const Params& params);
 
 }  // namespace verp::action

@@ -30,7 +30,7 @@ std::vector<Document> from_motion(const Params& params, const Motion& motion);
 /// content that no page holds.
 Motion to_motion(const Params& params, const std::vector<Document>& documents);
 
-/// Parts that pages neither hold nor need: "note, stance"; or empty.
+/// Lists the parts that pages neither hold nor need: "note, stance"; or empty.
 std::string not_on_page(const Document& document);
 
 }  // namespace verp::action

@@ -65,7 +65,7 @@ std::string text_of(const FrameText& frame) {
   return text + "\n";
 }
 
-/// Lines of 32 bytes, without a blank page's.
+/// Lines of 32 bytes, without those of a blank page.
 std::string text_of(const PageText& page) {
   constexpr std::size_t kLine = 32;
   const Page blank = blank_page();

@@ -112,7 +112,7 @@ Edit set_text(const Document& document, int index, const std::string& value) {
   return {"", {{at.begin, before, escaped(value)}}};
 }
 
-/// Nested elements that a path lacks, around a value.
+/// The elements that a path lacks at its end, nested around a value.
 Edit make_missing(const Document& document, const std::string& path, const std::string& attribute,
                   const std::string& value) {
   std::string rest = path, open, close;

@@ -73,7 +73,7 @@ class Copier {
     for (const Mention& each : mentions(document_, kind)) {
       if (!each.defines || !is_source(each.element)) continue;
       const std::string name = renamed_(each.name);
-      // Its link distinguishes a sensor without a side.
+      // A sensor without a side keeps its name: its link distinguishes it.
       if (name.empty() && kind == Kind::kSensor) continue;
       if (name.empty()) {
         throw model::LoadError(document_.file().string(), document_.markup()[each.element].line,
@@ -128,7 +128,7 @@ class Copier {
     }
   }
 
-  /// Limbs, shapes and others, also in contact sensors.
+  /// Renames limbs, shapes and others, also where contact sensors name shapes.
   void plain_names(int element, std::vector<Splice>& changes) const {
     const auto& all = document_.markup().elements();
     const auto put = [&](Range at, const std::string& name) {

@@ -169,7 +169,7 @@ std::optional<int> Document::look_for(const std::string& path) const {
     rest.remove_prefix(std::min(slash + 1, rest.size()));
     if (first && segment == "model") continue;
     std::optional<int> next = step(at, segment);
-    // A unique name needs no longer path.
+    // A name that only one part has needs no longer path.
     for (std::size_t i = 0; first && !next && i < markup_.elements().size(); ++i) {
       if (int(i) == at) continue;
       const auto inner = step(int(i), segment);
@@ -187,7 +187,7 @@ std::optional<int> Document::look_for(const std::string& path) const {
 
 int Document::find(const std::string& path) const {
   if (const auto found = look_for(path)) return *found;
-  // Lists what exists there.
+  // Lists what exists where the path ends.
   const std::size_t slash = path.rfind('/');
   const auto whole = slash == path.npos ? std::optional(model()) : look_for(path.substr(0, slash));
   if (!whole) return find(path.substr(0, slash));  // throws nearer to the mistake
@@ -212,7 +212,7 @@ int Document::at_line(int line) const {
   for (std::size_t i = 0; i < markup_.elements().size(); ++i) {
     const Element& element = markup_[int(i)];
     if (element.line > line || line_at(text_, element.whole.end) < line) continue;
-    // The first that begins on the line, else the innermost.
+    // The first element that begins on the line, else the innermost.
     if (markup_[found].line < element.line || found == markup_.root()) found = int(i);
   }
   return found;

@@ -37,7 +37,7 @@ struct Body {
 };
 Body body_of(const Solid& solid, double mass_kg);
 
-/// Lines of a <link>; `name`: of the shapes.
+/// Lines of a <link>; `name` is for the shapes.
 std::string link_content(const Document& document, const std::string& name, const Body& body);
 /// The link is on a joint or frame (SDF; empty: on the model).
 Edit add_link(const Document& document, const std::string& name, const Body& body,

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns empty or the reason, without a file.
+/// Returns empty or the reason; then no file remains.
 std::string write(const fs::path& file, const std::string& text) {
   errno = 0;
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
@@ -47,7 +47,7 @@ std::string keep(const fs::path& file, const std::string& text) {
   throw model::LoadError(file.string(), 0, "not saved: " + why, keep(file, text));
 }
 
-/// No user may write, even if the superuser could.
+/// True if no user may write, even if the superuser could.
 bool is_read_only(const fs::path& file) {
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0) return false;

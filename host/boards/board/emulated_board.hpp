@@ -13,7 +13,7 @@ struct EmulatedBoard {
   const char* program = "qemu-system-arm";
   const char* package = "qemu-system-arm";
   std::vector<std::string> options = {};
-  /// QEMU's option and the file name's prefix.
+  /// QEMU's option for the image, and the prefix of the file name.
   const char* image_option = "-kernel";
   const char* image_prefix = "";
   /// Connects its CAN controller to QEMU's `can0_bus`; empty: no CAN.

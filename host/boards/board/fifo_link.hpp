@@ -31,9 +31,9 @@ class FifoLink {
   /// Reads at least one byte, at most capacity; 0: the firmware closed. Throws BoardError after
   /// `limit`.
   std::size_t read_some(void* data, std::size_t capacity, std::chrono::milliseconds limit);
-  /// All bytes; false: the firmware closed. Throws like read_some().
+  /// Reads all bytes; false: the firmware closed first. Throws like read_some().
   bool read(void* data, std::size_t size, std::chrono::milliseconds limit);
-  /// All bytes; false: the firmware closed. Never raises SIGPIPE.
+  /// Writes all bytes; false: the firmware closed. Never raises SIGPIPE.
   bool write(const void* data, std::size_t size);
   void close_to_board();
 

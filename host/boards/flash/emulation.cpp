@@ -44,7 +44,7 @@ void require_plain(const fs::path& path) {
                        "VERP_FLASH_DIR to another folder, such as /tmp/verp");
 }
 
-/// STM32: two serial ports as sockets, pieces at their addresses.
+/// Plans an STM32 board: two serial ports as sockets, pieces at their addresses.
 void plan_serial(EmulationPlan& plan, const std::vector<Piece>& pieces, const fs::path& folder) {
   plan.launch.serial_ports = {folder / "servo.sock", folder / "operator.sock"};
   plan.launch.options = {"-accel", "tcg,thread=single"};

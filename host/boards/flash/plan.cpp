@@ -116,7 +116,7 @@ class Commands {
   const Job& job_;
 };
 
-/// Writing destroys only what the pieces replace.
+/// True if writing destroys only what the pieces replace.
 bool owns(const Job& job, const Span& sectors, const std::vector<Piece>& pieces) {
   const Span regions[] = {job.map.code, job.map.params, job.map.actions};
   const auto inside = std::count_if(std::begin(regions), std::end(regions), [&](const Span& each) {

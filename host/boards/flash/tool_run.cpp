@@ -21,7 +21,7 @@ namespace {
 constexpr int kLook_ms = 50;
 constexpr int kGrace_looks = 60;  ///< 3 s between SIGINT and SIGKILL
 
-/// Both streams in one pipe; ends with this object.
+/// A running tool with both streams in one pipe; ends with this object.
 class StartedTool {
  public:
   StartedTool(const std::vector<std::string>& command, const std::string& package) {

@@ -12,7 +12,7 @@ struct ToolRun {
 };
 
 struct ToolHooks {
-  /// The output's last percentage, as a share.
+  /// Called with the output's last percentage, as a share.
   std::function<void(double)> share = [](double) {};
   /// Polled; true ends the tool, at first gracefully.
   std::function<bool()> stop = [] { return false; };

@@ -13,7 +13,7 @@ namespace verp::link {
 canfd_frame to_kernel(const CanFrame& frame);
 CanFrame from_kernel(const canfd_frame& raw, bool fd);
 
-/// Delivered by the kernel with a frame.
+/// Data that the kernel delivers with a frame.
 struct CanBeside {
   std::uint64_t wall_ns = 0;  ///< 0: missing
   std::uint32_t drops = 0;    ///< of the socket's queue, in total

@@ -21,7 +21,7 @@ namespace {
 
 using Kind = LinkError::Kind;
 
-// A queue full of other programs' frames gives no event.
+// Retry interval: a queue full of other programs' frames gives no event.
 constexpr std::uint64_t kRetry_ns = 1'000'000;
 constexpr std::uint64_t kLook_ns = 10'000'000;  // for a missing interface
 // Half a second at 1 Mbit/s; the kernel may grant less.

@@ -14,7 +14,7 @@ namespace verp::link {
 
 struct CanBatch;
 
-/// Identifiers equal to `id` in the bits of `mask`.
+/// Accepts identifiers equal to `id` in the bits of `mask`.
 struct CanFilter {
   std::uint32_t id = 0;
   std::uint32_t mask = 0;
@@ -73,7 +73,7 @@ class CanPort {
   bool may_leave(const CanFrame& frame) const;
   /// Sends while the kernel accepts frames.
   void push();
-  /// Frames that have not waited; returns the number accepted.
+  /// Like push(), for frames that have not waited; returns the number accepted.
   std::size_t push_at_once(const CanFrame* frames, std::size_t count);
   bool receive_waiting(CanFrame& frame);
   bool receive(CanFrame& frame, const std::uint64_t& since_us, std::uint32_t wait_us);

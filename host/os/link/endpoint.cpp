@@ -48,7 +48,7 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
-/// All of `digits`, up to `most`.
+/// All of `digits` as a number up to `most`.
 std::optional<std::uint32_t> number(std::string_view digits, std::uint32_t most) {
   std::uint32_t value = 0;
   const char* end = digits.data() + digits.size();

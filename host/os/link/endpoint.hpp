@@ -33,7 +33,7 @@ class EndpointError : public std::invalid_argument {
 
 Endpoint parse_endpoint(const std::string& text);
 
-/// parse_endpoint() makes an equal endpoint from it.
+/// parse_endpoint() makes an equal endpoint from this text.
 std::string to_text(const Endpoint& endpoint);
 
 }  // namespace verp::link

@@ -28,7 +28,7 @@ std::string folder_of(const std::string& path) {
   return end == std::string::npos ? "." : path.substr(0, end + 1);
 }
 
-/// The name is as ptsname() gives it.
+/// True if ptsname() gives such names.
 bool is_terminal_name(std::string_view name) {
   if (!name.starts_with(kTerminals) || name.size() == kTerminals.size()) return false;
   name.remove_prefix(kTerminals.size());

@@ -167,7 +167,7 @@ void V4l2Camera::choose_format() {
   stride_bytes_ = row == 0 ? 0 : std::max(row, pixels.bytesperline);
 }
 
-/// The driver takes the nearest.
+/// The driver takes the nearest rate that it supports.
 void V4l2Camera::choose_rate() {
   v4l2_streamparm parameters{};
   parameters.type = v4l2::kCapture;
@@ -255,7 +255,7 @@ int V4l2Camera::take_newest(hal::CameraFrame& frame) {
   const std::size_t least = row == 0 ? 4 : std::size_t{stride_bytes_} * (height_px_ - 1) + row;
   std::optional<v4l2_buffer> newest;
   int error = EAGAIN;
-  // A device may fill buffers as fast as they return.
+  // Limits the loop: a device may fill buffers as fast as they return.
   for (std::size_t taken = 0; taken < 2 * buffers_.size(); ++taken) {
     v4l2_buffer buffer{};
     buffer.type = v4l2::kCapture;

@@ -13,7 +13,7 @@ hal::PixelFormat format_of(std::uint32_t code) {
   return found == kCodes.end() ? hal::PixelFormat::kNone : found->format;
 }
 
-/// Lowest byte first; a dot is unprintable.
+/// Lowest byte first; a dot stands for an unprintable character.
 std::string fourcc_text(std::uint32_t code) {
   std::string text;
   for (int shift = 0; shift < 32; shift += 8) {

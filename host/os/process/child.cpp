@@ -37,7 +37,7 @@ struct Report {
   Report(const Report&) = delete;
   Report& operator=(const Report&) = delete;
 
-  /// The error, or 0; waits for either.
+  /// The error number, or 0; waits for either.
   int read() {
     ::close(std::exchange(write_end, -1));
     int error = 0;
@@ -70,7 +70,7 @@ class Becoming {
       : command_(command), program_(program), words_(words), report_(report) {}
 
   [[noreturn]] void become(pid_t parent) {
-    // It may have a standard stream's number.
+    // If our standard streams are closed, the report may have one of their numbers.
     report_ = must(::fcntl(report_, F_DUPFD_CLOEXEC, kFirstFree));
     must(::setpgid(0, 0));
     if (command_.ends_with_thread) must(::prctl(PR_SET_PDEATHSIG, SIGKILL));

@@ -54,7 +54,7 @@ class SensorAssembler {
     }
   }
 
-  /// The IMU is on a link, or an SDF sensor.
+  /// The IMU is on a link, or it is an SDF sensor found before.
   void require_imu() {
     if (facts_.imu && facts_.imu->sensor.empty()) {
       const LinkTree::Located place = tree_.locate(facts_.imu->link, facts_.imu->at);
@@ -73,7 +73,7 @@ class SensorAssembler {
       for (std::uint64_t i = 0; i < joint.SensorCount(); ++i) {
         const sdf::Sensor& sensor = *joint.SensorByIndex(i);
         const LinkTree::Located place = tree_.locate(child, facts_.body->at);
-        // libsdformat 12 has no frames in joints.
+        // libsdformat 12 has no frames in joints: the pose is in the joint's frame.
         if (!sensor.PoseRelativeTo().empty())
           wrong(sensor)("its <pose> has a relative_to", "give it in the joint's frame");
         const Transform pose =

@@ -25,7 +25,7 @@ bool has_room(const Params& params) {
   return bus_time(params).share <= kMostShare;
 }
 
-/// Whole milliseconds; 0: no allowed period fits.
+/// In whole milliseconds; 0: no allowed period fits.
 std::uint32_t shortest_period_us(Params params) {
   constexpr std::uint32_t kStep_us = 1000;
   for (params.period_us = kShortestPeriod_us; params.period_us <= kLongestPeriod_us;

@@ -28,7 +28,7 @@ void check_coupled_legs(const Facts& facts, const Entity& entity);
 /// contradiction.
 void pose_followers(const Facts& facts, Entity& entity);
 
-/// "r_hip_yaw follows l_hip_yaw: -1 times its angle".
+/// One line per coupling: "r_hip_yaw follows l_hip_yaw: -1 times its angle".
 std::vector<std::string> describe_couplings(const Entity& entity);
 
 }  // namespace verp::model

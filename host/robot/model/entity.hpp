@@ -103,7 +103,7 @@ struct Joint {
   double velocity_limit_rad_s = 0;
   double friction_n_m = 0, damping_n_m_s = 0;
   double stand_rad = 0, sit_rad = 0;
-  /// A follower's is its driver's.
+  /// A follower has its driver's servo here.
   Servo servo;
   int follows = -1;                  ///< driver's index; -1: own servo
   double ratio = 1, offset_rad = 0;  ///< angle = ratio * driver's + offset
@@ -132,7 +132,7 @@ struct FootSensor {
   double newton_per_count = 0;
 };
 
-/// Scans about z; one sample: a ray along x.
+/// Scans about its z axis; one sample: a ray along x.
 struct LaserSensor {
   std::string name;
   int node = 0;

@@ -42,7 +42,7 @@ const char* meaning(ImageFault fault) {
   return "unknown";
 }
 
-/// Empty: all numbers are valid.
+/// Name of the first invalid number; empty: all are valid.
 std::string bad_number(const Params& params) {
   FieldName bad;
   numbers_fit(params, bad);

@@ -20,7 +20,7 @@ struct LegGeometry {
   std::array<double, 6> offset_rad{};
 };
 
-/// Largest residual_m of axes that meet.
+/// Up to this residual_m, axes count as meeting.
 inline constexpr double kAxesMeet = 0.0005;
 
 /// nullptr: no such limb.
@@ -29,7 +29,7 @@ const Limb* find_limb(const Entity& entity, const std::string& name);
 /// `leg` has six joints (the loader checks).
 LegGeometry classify_leg(const Entity& entity, const Limb& leg);
 
-/// Origins in the body frame at the zero pose.
+/// Origins of the nodes' frames, in the body frame at the zero pose.
 std::vector<Vec3> node_origins(const Entity& entity);
 
 /// Moves closed-form legs' joint frames along their axes to the meeting points. The links' motion

@@ -8,7 +8,8 @@
 namespace verp::model {
 namespace {
 
-/// libsdformat creates ~/.sdformat/sdformat.log and complains if it cannot; not without HOME.
+/// libsdformat creates ~/.sdformat/sdformat.log and complains if it cannot; without HOME it does
+/// not try.
 void start_without_a_log() {
   std::optional<std::string> home;
   if (const char* value = std::getenv("HOME")) home = value;

@@ -146,7 +146,7 @@ bool LinkTree::is_fixed(const sdf::Joint& joint) const {
          facts_.fix_of(names_.joint_name(joint.Name())) != nullptr;
 }
 
-/// A bus sees the others as one block.
+/// Joints without a servo come last: a bus sees the others as one block.
 void LinkTree::put_followers_last() {
   std::vector<std::size_t> order;  // old joint indices
   for (const bool follower : {false, true}) {

@@ -38,7 +38,7 @@ class LinkTree {
   Located locate(const std::string& name, const XmlElement& at) const;
 
  private:
-  /// A link before lumping, body frame, zero pose.
+  /// A link before lumping, in the body frame at the zero pose.
   struct RawLink {
     const sdf::Link* sdf = nullptr;
     Transform pose = Transform::Identity();

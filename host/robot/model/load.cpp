@@ -70,7 +70,8 @@ void where_no_file_is(const std::function<void()>& work) {
   if (failure) std::rethrow_exception(failure);
 }
 
-/// Strictest reading. Settings are global: an <include> ignores Load()'s.
+/// libsdformat's strictest reading. Settings are global, because an <include> ignores those of
+/// Load().
 sdf::Errors read(const XmlSource& source, const Text& text, const PreparedUrdfs& urdfs,
                  sdf::Root& root) {
   const std::string path = source.path();

@@ -265,7 +265,7 @@ class WorldLoader {
          "give its path from here");
   }
 
-  /// `pose` turns to a plane's normal and moves to a heightfield.
+  /// Also turns `pose` to a plane's normal and moves it to a heightfield's place.
   Shape read_world_shape(const sdf::Geometry& geometry, const std::string& about, Transform& pose) {
     Shape out;
     if (const auto* plane = geometry.PlaneShape()) {

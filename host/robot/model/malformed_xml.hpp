@@ -13,7 +13,7 @@ struct Malformed {
 };
 Malformed find_malformed(const std::string& text);
 
-/// Throws LoadError; tinyxml2 could not read the text.
+/// Throws LoadError for a text that tinyxml2 could not read.
 [[noreturn]] void refuse_malformed(const std::string& path, const std::string& text,
                                    const tinyxml2::XMLDocument& document);
 

@@ -8,7 +8,7 @@
 namespace verp::model {
 namespace {
 
-/// Sets all sensors of that name; false: there are none.
+/// Sets the latency of all sensors of that name; false: there are none.
 template <class Sensors>
 bool give_latency(Sensors& sensors, const LatencyFact& fact) {
   bool found = false;
@@ -68,7 +68,7 @@ void add_truths_and_latencies(const Facts& facts, const LinkTree& tree, Entity& 
 }
 
 void check_channels(const XmlSource& source, const Facts& facts, const Entity& entity) {
-  // Every trace's channels; lasers and cameras join by name.
+  // Channels that every trace has; lasers and cameras join them by name.
   std::set<std::string> taken = {"joint_states", "joint_goals", "imu",
                                  "tf",           "tf_static",   "control",
                                  "objects",      "changed",     "robot_description"};

@@ -40,9 +40,9 @@ class RobotTable {
 /// Converts `tuning.NAME = VALUE` entries to <verp:tuning>.
 std::string tuning_lines(RobotTable& table);
 
-/// 21-DOF humanoid of these proportions. Throws LoadError.
+/// SDF of a 21-DOF humanoid of these proportions. Throws LoadError.
 std::string generate_humanoid_sdf(RobotTable& table);
-/// Links and joints listed one by one. Throws LoadError.
+/// SDF of a robot whose links and joints are listed one by one. Throws LoadError.
 std::string generate_tree_sdf(RobotTable& table);
 /// One of the two: `layout = tree` in the table selects the second.
 std::string generate_sdf(RobotTable& table);

@@ -7,7 +7,7 @@
 
 namespace verp::model {
 
-/// Throws LoadError at the sensor, with the remedy.
+/// Throws LoadError at the sensor, with error and remedy.
 using WrongSensor = std::function<void(const std::string& what, const std::string& fix)>;
 
 /// `pose`: in `node`'s link frame.

@@ -82,7 +82,7 @@ ServoType drive_of(ServoType type) {
   return type;
 }
 
-// The M288 at 5 V.
+// The XL-330 is the M288 at 5 V.
 ServoType xl330() {
   ServoType type = x_series(dynamixel("xl330", "XL330-M288-T", 1200), 400);
   type.nominal_v = 5;

@@ -41,7 +41,7 @@ const char* leg_name(int side) {
   return side == 0 ? "left_leg" : "right_leg";
 }
 
-/// Poses in the body frame, hip to ankle, standing.
+/// Poses of a leg's links in the body frame, hip to ankle, standing.
 std::vector<Transform> standing_links(const Entity& entity, const Limb& leg) {
   std::vector<int> chain;
   for (int node = leg.joints.back() + 1; node != 0;
@@ -159,7 +159,7 @@ class Settler {
   void fill_gait() {
     const Tuning usual;
     const double longer = leg_m_ / kItsLeg_m, slower = std::sqrt(longer);
-    // 12 V servos' threshold (three lithium cells), scaled.
+    // The low-voltage threshold of 12 V servos (three lithium cells), scaled.
     const double nominal_v = e_.joints.empty() ? kUsual_v : e_.joints[0].servo.nominal_v;
     if (nominal_v != kUsual_v) {
       put("safety.voltage_low_v", usual.safety.voltage_low_v / kUsual_v * nominal_v, "servos");
@@ -287,7 +287,7 @@ class Settler {
                   "correct its angles, or leave the legs out: they are found");
   }
 
-  /// Checks the way from the standing pose to the gait's.
+  /// Checks that the legs reach the gait's posture from the standing pose.
   void check_stand() const {
     const Params params = make_params(e_);
     if (!can_stand(params)) refuse_height(static_cast<double>(params.tuning.gait.hip_height_m));

@@ -10,7 +10,7 @@ namespace verp::model {
 /// swapped legs, an unwalkable length, an unreachable height or pose, and weak knees.
 void settle_stance(const Facts& facts, Entity& entity);
 
-/// settle_stance() rejects a file otherwise.
+/// True if the legs reach the gait's stand; settle_stance() rejects other files.
 bool can_stand(const Params& params);
 
 /// N m/rad, to sag as little as robots that walk well; 0: no legs. For `verp check`, and servos

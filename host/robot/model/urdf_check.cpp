@@ -17,7 +17,7 @@
 namespace verp::model {
 namespace {
 
-/// <kind name="...">, or the root.
+/// The element <kind name="...">, or the root.
 XmlElement element_of(const XmlElement& robot, const char* kind, const std::string& name) {
   for (const XmlElement& child : robot.children(kind)) {
     if (child.text("name", "") == name) return child;

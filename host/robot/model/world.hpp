@@ -134,7 +134,7 @@ struct World {
   std::vector<WorldRobot> robots;
 };
 
-/// They may leave their initial pose.
+/// Objects that may leave their initial pose.
 inline std::vector<const WorldObject*> moving(const World& world) {
   std::vector<const WorldObject*> out;
   for (const WorldObject& object : world.objects) {

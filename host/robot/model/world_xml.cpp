@@ -141,7 +141,7 @@ int WorldXml::blame(const std::string& message) const {
   return world_->GetLineNum();
 }
 
-/// Blanks them also in comments, where nothing is lost.
+/// Blanks the word in comments, too, where nothing is lost.
 void WorldXml::blank_includes() {
   constexpr std::string_view kBegin = "<include", kEnd = "</include>";
   std::size_t at = 0;

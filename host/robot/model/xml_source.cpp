@@ -73,7 +73,7 @@ void check_joint_type(const std::string& path, const tinyxml2::XMLElement& joint
                   "write revolute, or fixed");
 }
 
-/// Called before each child is visited.
+/// Called before the code visits each child.
 void refuse_many(const std::string& path, const tinyxml2::XMLElement& element) {
   std::map<std::string_view, std::size_t> count;
   for (const auto* child = element.FirstChildElement(); child;
@@ -216,7 +216,7 @@ void XmlSource::read(const std::string& path, const std::optional<std::string>& 
                     "a robot's file starts with <sdf version=\"1.9\">");
   }
   refuse_many(path, *file.document.RootElement());
-  // Included files are often third-party.
+  // Included files are often third-party files, used unchanged.
   if (files_.size() == 1) {
     CommentCheck comments(path);
     file.document.Accept(&comments);
@@ -250,7 +250,7 @@ void XmlSource::include(const File& file, const tinyxml2::XMLElement& element) {
                     "more than " + std::to_string(kMostFiles) + " files are included",
                     "write what repeats into the robot's own file");
   }
-  // libsdformat asks without saying for which file.
+  // libsdformat asks with this text, without saying for which file.
   const std::string whole = std::filesystem::weakly_canonical(found).string();
   const auto [same, is_new] = included_.insert({text, whole});
   if (!is_new && same->second != whole) {

@@ -59,9 +59,9 @@ class XmlSource {
   const std::string& path() const { return files_.front()->path; }
   /// Throws LoadError unless there is exactly one.
   XmlElement model() const;
-  /// Found from any working directory; empty: not found.
+  /// The file of an <include>, found from any working directory; empty: not found.
   std::string included(const std::string& uri) const;
-  /// <robot> of included URDF files.
+  /// The <robot> elements of included URDF files.
   std::vector<XmlElement> urdfs() const;
 
   struct Place {

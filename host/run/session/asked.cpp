@@ -19,7 +19,7 @@ constexpr double kLeastWay_m = 0.05, kLeastTurn_rad = 0.2;
 constexpr const char* kAsked = "what was asked";
 constexpr const char* kOfItsGait = "what its gait goes in that time";
 
-/// Growing and shrinking steps cover half their way.
+/// Time of the growing and shrinking steps; they cover half their way.
 double start_and_stop_s(const GaitTuning& gait, const Command& velocity) {
   const double step_s = 0.5 * gait.cycle_s;
   const double asked_m = step_s * 1e-4 * std::hypot(velocity.vx_tenth_mm_s, velocity.vy_tenth_mm_s);

@@ -7,10 +7,10 @@
 
 namespace verp::session {
 
-/// Falls and recoveries, by the controller's outputs.
+/// Counts and describes falls and recoveries, by the controller's outputs.
 class FallStory {
  public:
-  /// `tries` in a row; 0: unknown.
+  /// `tries`: attempts in a row to get up; 0: unknown.
   explicit FallStory(int tries = 0) : most_(tries) {}
 
   /// Returns news as text, or empty.

@@ -24,7 +24,7 @@ class FallVerdict {
 
   bool driven() const { return driven_; }
   bool fell() const { return fell_; }
-  /// Released before it lay: later attempts are not falls.
+  /// The robot was released before it lay: later attempts are not falls.
   bool lay_down() const { return lay_down_; }
 
  private:

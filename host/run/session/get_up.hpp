@@ -16,7 +16,7 @@ class GetUp {
     kGaveUp,  ///< in this tick: no orders until it stood or fell again
   };
 
-  /// `tries` in a row, 0: never; `down`: it may lie now.
+  /// `tries`: attempts in a row, 0: never; `down`: it may lie now.
   explicit GetUp(int tries, bool down = false) : most_(tries), down_(down && tries > 0) {}
 
   Phase observe(safety::Mode mode, double period_s);

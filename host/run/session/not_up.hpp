@@ -11,7 +11,7 @@ class NotUp : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// `where`: register or object of the failure.
+/// The reason; `where`: register or object of the failure.
 NotUp not_up(const app::BringUpReport& report, const std::string& place, const std::string& where);
 
 }  // namespace verp::session

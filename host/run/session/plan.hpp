@@ -22,7 +22,7 @@ namespace verp::session {
 /// One tick of a controller in this process: Outputs for the robot, State for the trace.
 using Decide = std::function<void(const Params&, State&, const Inputs&, Outputs&)>;
 
-/// Determined by these values and the world's.
+/// One walk of one robot, determined by these values and the world's.
 struct WalkPlan {
   model::Entity entity;
   Params params;
@@ -85,7 +85,7 @@ struct Hooks {
   bool open_end = false;                 ///< only the caller ends the run, no fall or length
 };
 
-/// From the first tick on.
+/// Traffic on a CAN bus from the first tick on.
 struct CanTraffic {
   double bits_per_tick = 0, bare_bits_per_tick = 0;  ///< with and without stuff bits
   std::uint32_t overruns = 0;                        ///< lost by the controller

@@ -70,7 +70,7 @@ class RemoteController : public Controller {
   double wall_s(double session_s) const final;
   /// Reports, once, whom it waits for.
   void introduce();
-  /// The user sets it upright; false: a servo has torque.
+  /// The user sets the robot upright; false: a servo has torque.
   bool set_upright();
   /// Call once.
   virtual RemoteResult result() const;

@@ -171,7 +171,7 @@ class ServedOnCan final : public RemoteController {
     live_.reset();
     watcher_.reset();
     begin_real_time();
-    // The port's clock stands at the frame.
+    // Not the port's clock, which stands at the frame.
     const std::uint64_t now_us = clock_us();
     heard_.clear();
     for (const CanFrame& each : unannounced_) heard_.push_back({each, now_us});

@@ -68,7 +68,7 @@ double ground_m(const sim::World& world, const sim::Vec3& start_m) {
   return world.height_m(start_m.x(), start_m.y(), kFootprint_m);
 }
 
-/// A tick of robots inside each other takes minutes.
+/// Throws NoRoom: a tick of robots inside each other takes minutes.
 void Session::need_room(const sim::Vec3& start_m) const {
   constexpr double kLeast_m = 0.1;
   for (std::size_t i = 0; i < seats_.size(); ++i) {
@@ -122,7 +122,7 @@ bool Session::over() const {
   return true;
 }
 
-/// Earliest time; of equals, the first added.
+/// The robot with the earliest time; of equals, the first added.
 Session::Seat* Session::next() {
   Seat* first = nullptr;
   for (const auto& seat : seats_) {

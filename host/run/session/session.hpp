@@ -84,7 +84,7 @@ class Session {
 /// Ground height at a robot's start.
 double ground_m(const sim::World& world, const sim::Vec3& start_m);
 
-/// It changes no bit of the run.
+/// Observes a run and changes no bit of it.
 class Observer {
  public:
   virtual ~Observer() = default;

@@ -36,7 +36,7 @@ class Check {
   std::uint64_t boots() const { return boots_; }
   std::uint32_t tick() const { return shadow_.admit.tick; }
   std::uint64_t digest() const { return shadow_.digest.chain; }
-  /// Last tick or answer; 0: never.
+  /// Time of the last tick or answer; 0: never.
   std::uint64_t heard_us() const { return heard_us_; }
   const record::Divergence& divergence() const { return divergence_; }
   const std::string& refusal() const { return refusal_; }

@@ -6,7 +6,7 @@
 
 namespace verp::shadow {
 
-/// One line if it cannot be compared with `params`; else empty.
+/// Why a controller with this identity cannot be compared with `params`; empty if it can.
 std::string why_another(const Params& params, std::uint32_t params_crc, std::uint32_t core_version);
 
 inline constexpr const char* kKeepsNoTicks =

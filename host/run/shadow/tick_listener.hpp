@@ -45,7 +45,7 @@ class TickListener {
   void take(const CanFrame& frame);
   bool next(HeardTick& tick);
   std::uint64_t missed() const { return missed_; }
-  /// A boot since the last call.
+  /// True if the controller booted since the last call.
   bool take_boot();
 
  private:

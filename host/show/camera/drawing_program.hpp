@@ -36,7 +36,7 @@ class DrawingProgram {
   DrawingProgram& operator=(const DrawingProgram&) = delete;
 
   int socket() const { return socket_; }
-  /// A run in real time must not wait for it.
+  /// Lowest priority: a run in real time must not wait for it.
   void step_back();
   pid_t process() const { return child_->id(); }
   /// Call it for a silent socket, errno set. Ends the program; returns whether it hung or had

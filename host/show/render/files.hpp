@@ -17,7 +17,7 @@ Texture read_texture(const std::string& file);
 /// All or nothing. Throws RenderError.
 void write_png(const std::string& file, const Image& image);
 
-/// Quick: half as large again as write_png()'s.
+/// Compressed quickly: half as large again as write_png()'s file.
 std::string png_of(const Image& image);
 /// Throws RenderError with `name`.
 Image read_png(const std::string& name, std::string_view bytes);

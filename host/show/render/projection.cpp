@@ -35,7 +35,7 @@ Mat4 perspective(const scene::Camera& camera, Size size) {
   return clip;
 }
 
-/// Along the light, over a ball.
+/// Orthographic projection along the light, over a ball.
 Mat4 sun_of(const Vec3& direction, const Stage::Ball& ball) {
   const Vec3 toward = direction.normalized();
   const Mat4 view = look_at(ball.centre_m - 2 * ball.radius_m * toward, ball.centre_m,

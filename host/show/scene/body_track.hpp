@@ -26,7 +26,7 @@ Transform between(const Transform& from, const Transform& to, double part);
 class BodyTrack {
  public:
   BodyTrack(const record::Trace& trace, const TickPoses& poses) : trace_(trace), poses_(poses) {}
-  /// Tick after tick; state and outputs after it.
+  /// Call it tick after tick; state and outputs are those after the tick.
   Transform at(std::size_t index, const State& state, const Outputs& outputs);
 
  private:

@@ -56,7 +56,7 @@ class RobotBuilder {
     return meshes_ == Meshes::kFromFiles && !visual.mesh.empty();
   }
 
-  /// One a robot: many lack their meshes.
+  /// One note a robot: many robots lack their meshes.
   void note_missing() {
     std::size_t count = 0;
     std::string first;
@@ -151,7 +151,7 @@ class RobotBuilder {
         .colour = {0.03F, 0.05F, 0.09F, 1}, .roughness = 0.08F};
   }
 
-  /// Without an axle, boxes would hang in the air.
+  /// An axle between links without colour: otherwise their boxes hang in the air.
   void add_hub(const model::Joint& joint) {
     const int node = static_cast<int>(&joint - e_.joints.data()) + 1;
     double least_m = 1;

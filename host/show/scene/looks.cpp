@@ -16,7 +16,7 @@ bool ends_limb(const Entity& entity, int node, const char* kind) {
   });
 }
 
-/// Compact, no larger than a servo with bracket.
+/// Compact, and no larger than a servo with its bracket.
 bool is_servo(const Vec3& extent_m) {
   return extent_m.maxCoeff() < 1.7 * extent_m.minCoeff() && extent_m.maxCoeff() < 0.055;
 }

@@ -9,7 +9,7 @@
 namespace verp::scene {
 namespace {
 
-/// Without force cells, a sole this close stands.
+/// Without force cells, a sole this close to the floor stands on it.
 constexpr double kTouches_m = 0.004;
 
 Vec3 com_of(const RobotView& view, const Entity& entity) {

@@ -17,7 +17,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kShownCycles = 4, kShown_s = 4;
 constexpr int kColumns = 3, kPanel_px = 170;
 
-/// An interval in the middle, where both are steady.
+/// An interval in the middle, where both motions are steady.
 std::pair<std::size_t, std::size_t> shown(const Comparison& c, const Pair& pair) {
   const double length_s = c.gait_hz ? kShownCycles / *c.gait_hz : kShown_s;
   const double middle_s = (c.from_s + c.to_s) / 2;

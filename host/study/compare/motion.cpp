@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kCycleId =
     (offsetof(Tuning, gait) + offsetof(GaitTuning, cycle_s)) / sizeof(float);
 
-/// Linearly between the places in `known`, which ascend.
+/// Interpolates linearly between the places in `known`, which ascend.
 void fill(std::vector<double>& values, const std::vector<std::size_t>& known) {
   if (known.empty()) return;
   std::fill_n(values.begin(), known.front(), values[known.front()]);

@@ -18,7 +18,7 @@ constexpr double kMostTurn_rad_s = 0.15;
 /// Share of the weight; above the force sensors' error.
 constexpr double kMostBorne = 0.15;
 
-/// Full torque, and goals from the controller.
+/// True if the servos have full torque and follow the controller's goals.
 bool drives(const Outputs& outputs) {
   using safety::Mode;
   const auto mode = static_cast<Mode>(outputs.mode);
@@ -91,7 +91,7 @@ class Surroundings {
     }
     ++turned_;
   }
-  /// About the mean, which is the gyro's bias.
+  /// Spread about the mean, which is the gyro's bias.
   double turning() const {
     if (turned_ == 0) return 0;
     const double mean = (rate_ / turned_).squaredNorm();

@@ -23,7 +23,7 @@ sim::TwinOptions twin_options(const Recording& recording, const RigOptions& opti
   return twin;
 }
 
-/// As the controller sets a servo when it arms it.
+/// The settings that the controller writes into a servo when it arms it.
 sim::ServoSetpoint armed(const Params& params, int joint, std::int32_t goal) {
   const ServoProfile& profile = params.servo[params.joint[joint].servo_profile % kServoProfiles];
   sim::ServoSetpoint setpoint;
@@ -104,7 +104,7 @@ Simulated simulate(const model::Entity& with_shapes, const Recording& recording,
   const TickTimes times = times_of(recording.params);
   const auto goal_us = static_cast<std::uint64_t>(std::max<std::int64_t>(
       0, std::int64_t{times.goal_us} + options.delay_steps * std::int64_t{kStep_us}));
-  // A tick's goals arrive while later ticks are read.
+  // `told` is behind the tick being read: a tick's goals arrive while later ticks are read.
   std::size_t told = 0;
   double volts = 0;
   const auto tell_until = [&](std::uint64_t time_us) {

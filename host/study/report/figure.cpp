@@ -53,7 +53,7 @@ class Strip {
   }
   double x_mm(int i, const Point2& point) const { return x_mm(i, Point3{point.x_m, point.y_m, 0}); }
 
-  /// One kind and side in all states, a gnuplot data block.
+  /// Lines of one kind and side in all states, as a gnuplot data block.
   std::string lines(const char* name, Kind kind, int side) const {
     Data data(name);
     for (int i = 0; i < kStates; ++i) {

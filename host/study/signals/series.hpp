@@ -13,7 +13,7 @@ struct Series {
   std::vector<std::vector<double>> numbers;  ///< by column, then time; NaN: unknown
 };
 
-/// The table has not read a row yet.
+/// The table must not have read a row yet.
 Series series_of(Table& table, const std::vector<std::size_t>& chosen, record::TickRange ticks);
 
 /// Minimum and maximum of each group: the drawn line looks the same.

@@ -23,7 +23,7 @@ struct Cycle {
   std::vector<double> heading_rad;  ///< at each phase
 };
 
-/// First steady cycle after settle_s.
+/// Finds the first steady cycle after settle_s.
 class CycleFinder {
  public:
   CycleFinder(const PushOptions& options, double cycle_s) : options_(options) {
@@ -73,7 +73,7 @@ bool stands(const session::Tick& tick) {
   return tick.outputs->mode == static_cast<std::uint8_t>(safety::Mode::kStanding);
 }
 
-/// It has stood for settle_s; nullopt: interrupted.
+/// The moment when it has stood for settle_s; nullopt: interrupted.
 std::optional<Cycle> stance_of(session::WalkPlan plan, const sim::WorldOptions& world,
                                const PushOptions& options, const Watch& watch) {
   Cycle found;

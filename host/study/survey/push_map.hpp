@@ -29,7 +29,7 @@ struct PushOptions {
   double most_n_s() const { return step_n_s * steps; }
 };
 
-/// Covers settle_s, the pushed cycle and after_s.
+/// Gait length that covers settle_s, the pushed cycle and after_s.
 double least_walk_s(const PushOptions& options, double cycle_s);
 
 struct PushCell {

@@ -26,7 +26,7 @@ struct StabilityOptions {
 /// Longest steps and turns of the tuning. Sideways is half: only every other step may be long.
 Velocity most_of(const Params& params);
 
-/// Covers begin_s, one cycle and the gait's end.
+/// Gait length that covers begin_s, one cycle and the gait's end.
 double least_walk_s(const StabilityOptions& options, double cycle_s);
 
 struct StabilityCell {

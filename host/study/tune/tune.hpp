@@ -19,7 +19,7 @@ struct Options {
   std::uint64_t seed = 1;           ///< of the search
 };
 
-/// Gates and reports use others (design: 1-10, 2001 on).
+/// Seeds of search and judgement; gates and reports use others (design: 1-10, 2001 on).
 inline constexpr std::uint64_t kSearchSeed = 1001, kCheckSeed = 1501;
 
 /// Random robots that walk within a tenth of the speed, and their means.

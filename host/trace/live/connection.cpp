@@ -119,7 +119,7 @@ void Connection::write() {
   look_for_end();
 }
 
-/// Both sides have closed it, or wslay gave up.
+/// Ends the connection if both sides have closed it, or wslay gave up.
 void Connection::look_for_end() {
   if (::wslay_event_want_read(frames_.get()) == 0 && ::wslay_event_want_write(frames_.get()) == 0)
     cut();

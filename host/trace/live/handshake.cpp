@@ -101,7 +101,7 @@ std::string_view web_host(std::string_view origin) {
 
 bool is_welcome(std::string_view origin, std::span<const std::string> more) {
   const std::string told = lower(origin);
-  // Any page can get it by a sandboxed frame.
+  // Any page can get the origin "null" by a sandboxed frame.
   if (told == "null") return false;
   const std::string_view host = web_host(told);
   if (host.empty() || host == "localhost" || host == "127.0.0.1" || host == "[::1]") return true;

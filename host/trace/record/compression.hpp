@@ -9,7 +9,7 @@ namespace verp::record::mcap {
 
 inline constexpr std::string_view kZstdName = "zstd";
 
-/// One zstd frame, or empty if not shorter.
+/// One zstd frame, or empty if it is not shorter.
 std::string packed(std::string_view bytes);
 
 /// nullopt: damaged, another size, or not zstd.

@@ -111,7 +111,7 @@ std::vector<FieldDifference> diff_fields(const T& left, const T& right, std::siz
   return differences;
 }
 
-/// Decimal, for every scalar.
+/// Path and decimal value of every scalar.
 template <class T>
 std::vector<std::pair<std::string, std::string>> print_fields(const T& value) {
   std::vector<std::pair<std::string, std::string>> rows;

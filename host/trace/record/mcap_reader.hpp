@@ -23,7 +23,7 @@ struct Attachment {
   std::uint64_t offset = 0;
 };
 
-/// The first place that is not as written.
+/// The first place where a file is not as its writer wrote it.
 struct Flaw {
   std::uint64_t offset = 0;
   std::string what;

@@ -16,7 +16,7 @@
 namespace verp::record::mcap {
 
 namespace {
-/// Unique name: process id, and a counter in it.
+/// Opens a new file of a unique name: process id, and a counter within the process.
 std::FILE* open_part(const std::filesystem::path& path, std::filesystem::path& part) {
   for (int attempt = 0; attempt < 1000; ++attempt) {
     part = path;
@@ -31,7 +31,7 @@ std::FILE* open_part(const std::filesystem::path& path, std::filesystem::path& p
   return nullptr;
 }
 
-/// No trace, but for example a robot's file.
+/// True if the file is no trace but, for example, a robot's file.
 bool holds_something_else(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::string start(kMagic.size(), '\0');
@@ -39,7 +39,7 @@ bool holds_something_else(const std::filesystem::path& path) {
   start.resize(static_cast<std::size_t>(in.gcount()));
   return !start.empty() && start != kMagic;
 }
-/// Some process has it open by open_part().
+/// True if some process has it open by open_part().
 bool is_written(const std::filesystem::path& part) {
   const int descriptor = ::open(part.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return false;

@@ -18,7 +18,7 @@ struct Divergence {
   std::uint32_t tick = 0;  ///< Inputs::tick there
   std::string stage;       ///< of kStageNames, or "inputs", "params", "chain"
   std::string left_digest, right_digest;
-  /// Empty: no State was kept at or after it.
+  /// Empty: no State was kept at or after the divergence.
   std::vector<FieldDifference> fields;
   std::uint32_t fields_tick = 0;  ///< this tick, or the next kept State's
 };

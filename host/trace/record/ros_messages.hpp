@@ -51,11 +51,11 @@ struct LaserScan {
 extern const std::string_view kLaserScanSchema;  ///< sensor_msgs/msg/LaserScan
 std::string laser_scan(const LaserScan& scan, std::uint64_t time_ns);
 
-/// Angles of position counts, optionally rad/s and N m.
+/// JointState: angles of position counts, optionally rad/s and N m.
 std::string joint_state(const Params& params, const std::int32_t (&position_count)[kMaxJoints],
                         std::span<const double> velocity_rad_s, std::span<const double> effort_n_m,
                         std::uint64_t time_ns);
-/// JSON by kControlSchema.
+/// One tick of the controller as JSON by kControlSchema.
 std::string control(const Params& params, const Inputs& inputs, const State& state,
                     const Outputs& outputs);
 /// Gyro and accelerometer, rotated into the body frame; orientation is marked as unknown.

@@ -30,7 +30,7 @@ class Copy {
     for (const mcap::Message& message : from_.messages) {
       if (message.channel == tick_) count_tick();
       if (!is_wanted(message)) continue;
-      // Earlier messages belong to the whole run.
+      // Messages before the first tick belong to the whole run.
       to_.add_message(channels_.at(message.channel), std::max(message.time_ns, first_ns_),
                       message.data);
     }

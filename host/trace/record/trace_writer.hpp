@@ -61,7 +61,7 @@ class TraceWriter {
   void close(const mcap::StringMap& result = {});
 
   void discard() { writer_.discard(); }
-  /// The operating system has them: a crash cannot lose them.
+  /// Ticks that the operating system has: a crash of this program cannot lose them.
   std::uint64_t safe_ticks() const { return safe_ticks_; }
 
   const std::filesystem::path& part_path() const { return writer_.part_path(); }

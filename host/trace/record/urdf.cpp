@@ -29,7 +29,7 @@ std::string xyz(const Xyz& v) {
   return fmt::format("{:g} {:g} {:g}", v.x, v.y, v.z);
 }
 
-/// From the link's origin to a joint on it.
+/// A box from the link's origin to a joint on it.
 std::string stick(const Xyz& to) {
   const double x = static_cast<double>(to.x), y = static_cast<double>(to.y),
                z = static_cast<double>(to.z), length_m = std::sqrt(x * x + y * y + z * z);

@@ -84,7 +84,7 @@ LinkDelay measure_delay(Client& client, const Params& params,
 }
 
 LinkFit fit(const Params& params, const LinkDelay& delay) {
-  // Reads of a silent bus must not cost deadlines.
+  // Reads of a silent bus must not cost deadlines, nor delay the reads behind them.
   const std::size_t joints = params.servo_count(), sensors = app::sensor_devices(params);
   const std::uint32_t silence_us =
       app::timeout_us(app::sync_read_bytes(joints, kBytes + app::kMostSpare), joints, params.baud) +
@@ -119,7 +119,7 @@ std::string remedy(const LinkFit& fit, const Params& params, const link::Endpoin
     add(fmt::format("give --period {} (for good: period_us=\"{}\" in <verp:bus> of the model)",
                     period_ms, 1000 * period_ms));
   }
-  // A faster bus saves only wire time.
+  // A faster bus saves only wire time: suggested only if that is enough.
   const double half_wire_us = fit.needed_us() - 0.5 * fit.wire_us;
   const bool can = endpoint.kind == link::Endpoint::Kind::kCan;
   if (!can && dxl::baud_rate_code(2 * params.baud) != 0xFF &&

@@ -21,7 +21,7 @@ class RealtimeServer {
   static constexpr std::uint64_t kLate_us = 1000;  ///< a physics step
   /// A turn catches up at most this much and skips the rest (can::RealtimeServer).
   static constexpr std::uint64_t kMostBehind_us = 50'000;
-  /// Size of a serial driver's buffer.
+  /// Bytes that a serial driver accepts before it blocks its program.
   static constexpr std::size_t kPort_bytes = 4096;
 
   explicit RealtimeServer(VirtualBus& bus) : bus_(bus) {}

@@ -59,7 +59,7 @@ struct ZeroFix {
   bool servo_can = true;           ///< homing_after is within range
 };
 
-/// Limit in position mode (e-Manual, Homing Offset (20)).
+/// Limit of Homing Offset in position mode, a quarter turn (e-Manual, Homing Offset (20)).
 inline constexpr std::int32_t kMostHoming = 1024;
 
 ZeroFix zero_fix(Client& client, std::uint8_t id, std::int32_t count, std::int32_t model_count);

@@ -60,7 +60,7 @@ class ShadowTape {
   bool torn = false;  ///< the loop asked for a poll not recorded yet
 
  protected:
-  /// False at the end of the tape.
+  /// Plays the next poll; false at the end of the tape.
   template <class Same>
   bool play(Same same) {
     torn = torn || here.played == polls.size();

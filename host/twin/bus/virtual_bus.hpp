@@ -50,7 +50,7 @@ class VirtualBus {
   /// loses bytes that the master sends before an answer is over (real_time_line.cpp). An incomplete
   /// packet ends at the next header or after a pause.
   void set_real_time(bool real_time) { real_time_ = real_time; }
-  /// Baud rate of the master's port.
+  /// Baud rate of the master's port; devices at another rate neither hear nor answer.
   void set_baud(std::uint32_t baud);
   /// Holds the plant: only bytes advance time.
   void hold_plant() { held_ = true; }
@@ -99,7 +99,7 @@ class VirtualBus {
   bool jams(std::uint8_t byte, std::uint64_t start_ns, std::uint64_t end_ns);
   /// True if the device is connected and at the master's baud rate.
   bool hears(const Device& device) const;
-  /// Runs the devices' own actions on the way.
+  /// Advances the plant, and runs the devices' own actions on the way.
   void advance_plant(std::uint64_t time_us);
   void wait_us(std::uint32_t delay_us);
   /// Each speaker sends the result of `say`, after the shortest delay or at once.

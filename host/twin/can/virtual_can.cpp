@@ -171,7 +171,7 @@ bool VirtualCan::step(std::uint64_t limit_ns) {
   return true;
 }
 
-// The last poll's frame may have taken the plant past it.
+// A frame on the wire at the end of a poll may have taken the plant past this time.
 void VirtualCan::reach(std::uint64_t time_ns) {
   if (time_ns / 1000 > plant_.now_us()) plant_.advance_to(time_ns / 1000);
 }

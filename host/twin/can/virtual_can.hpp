@@ -84,7 +84,7 @@ class VirtualCan {
   std::uint64_t bits_on_wire() const { return bits_on_wire_; }
   std::uint64_t bare_bits_on_wire() const { return bare_bits_on_wire_; }
   std::uint64_t frames_on_wire() const { return frames_on_wire_; }
-  /// A passive listener at the end of each frame.
+  /// A passive listener, called at the end of each frame.
   using Listener =
       std::function<void(const CanFrame&, std::uint64_t begin_ns, std::uint64_t end_ns)>;
   void set_listener(Listener listener) { listener_ = std::move(listener); }

@@ -58,7 +58,7 @@ struct Description {
 /// The same description gives the same bytes.
 std::string to_text(const Description& description);
 
-/// 1000h to 1FFFh of a canopen::Device of this size.
+/// The objects 1000h to 1FFFh of a canopen::Device of this size.
 std::vector<Object> communication_objects(const canopen::DeviceSize& size,
                                           const canopen::Identity& identity);
 

@@ -113,7 +113,7 @@ void Radio::advance(std::uint64_t now_us, std::span<const Place> places) {
   }
 }
 
-/// A message that its station hears or sends.
+/// The message that blocks the start: one that its station hears or sends now.
 const Radio::Message* Radio::in_the_way(const Message& message,
                                         std::span<const Place> places) const {
   for (const Message& each : air_) {

@@ -61,7 +61,7 @@ void WalkMeter::tick(const Observation& seen, const Outputs& outputs,
   if (!walks && walking_) end_walk();
   walking_ = walks;
   previous_ = outputs;
-  // A user controller may output any byte.
+  // A user controller may output any byte, and this value counts feet below.
   previous_.stance = std::min<std::uint8_t>(outputs.stance, gait::kBoth);
   last_ = seen;
   if (keep_series_) keep(seen, outputs, zmp_planned_world_m);

@@ -11,7 +11,7 @@
 /// Scores a walk from the controller's Outputs and the twin's truth.
 namespace verp::sim {
 
-/// |torque| / stall torque over control ticks.
+/// A motor's |torque| / stall torque over control ticks.
 struct TorqueUse {
   double mean = 0, peak = 0;
 };
@@ -47,7 +47,7 @@ struct WalkMetrics {
   double supply_energy_j = 0, joint_work_j = 0;
   /// Energy per weight and distance_m. No value for a short path.
   std::optional<double> cost_of_transport, cost_of_transport_mechanical;
-  /// Ticks while walking; and the last two links.
+  /// Control ticks with self-contact while walking, and the last two links.
   std::uint64_t self_contact_ticks = 0;
   std::array<std::string, 2> self_contact_links;
 };

@@ -37,7 +37,7 @@ Probes::Probes(const model::Entity& entity, Body& body, int owner, bool noise, s
     truth_.emplace_back(each, Random(seed, Draw::kTruth, index++));
 }
 
-/// The hinge's force is the link's only support.
+/// The hinge's force is the link's only support and includes all that the servo applies.
 WrenchReading Probes::measure(WrenchProbe& probe, const World&, const Body& body) const {
   const model::ForceTorqueSensor& sensor = probe.sensor;
   const Transform pose = body.link_pose(sensor.node) * sensor.pose;

@@ -64,7 +64,7 @@ Thing thing_of(Scenery& scenery, std::size_t index) {
   return thing;
 }
 
-/// Share that ODE removes in each step.
+/// Share of a speed that ODE removes in each step.
 double lost_per_step(double damping_1_s, double step_s) {
   return -std::expm1(-damping_1_s * step_s);
 }

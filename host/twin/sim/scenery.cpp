@@ -194,7 +194,7 @@ void Scenery::place(std::size_t index, const Transform& pose_world) {
   if (item.body != nullptr) place_body(item.body, pose_world, item.object->com_m);
 }
 
-/// A scripted object pushes with its speed.
+/// An object that follows its waypoints pushes others with its speed there.
 void Scenery::before_step(double step_s) {
   const double t_s = static_cast<double>(world_.now_us()) * 1e-6;
   for (const Item& item : items_) {

@@ -170,7 +170,7 @@ Drive ServoModel::motor_line(double supply_v) const {
   return std::abs(torque) > limit ? Drive{std::copysign(limit, torque), 0} : line;
 }
 
-/// New friction holds at the present angle.
+/// New friction holds the joint at its present angle, not at an old one.
 void ServoModel::set_joint_friction(double friction_n_m) {
   joint_.friction_n_m = friction_n_m;
   if (std::abs(rotor_rad_s_) > constants_.still_rad_s) sliding_ = rotor_rad_s_ > 0 ? 1 : -1;
@@ -285,7 +285,7 @@ void ServoModel::finish(double rate_rad_s, double step_s) {
   const double current = motor_torque / servo.stall_torque_n_m * servo.stall_current_a;
   measurement_.current_a = current * servo.direction;
   measurement_.velocity_rad_s = rate_rad_s * servo.direction;
-  // An H-bridge's power; other servos use a braking motor's current.
+  // Power balance of an H-bridge; other servos use the current of a braking motor.
   supply_current_a_ = std::max(0.0, duty_ * current);
   const double heat_w = current * current * resistance_ohm_;
   const double loss_w =

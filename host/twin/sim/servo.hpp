@@ -79,7 +79,7 @@ class ServoModel {
   /// The duty was at its limit in the last step.
   bool saturated() const { return saturated_; }
   double supply_current_a() const { return supply_current_a_; }
-  /// Of the bearing, in addition to the servo's own.
+  /// Those of the bearing, in addition to the servo's own.
   double joint_damping_n_m_s() const { return joint_.damping_n_m_s; }
   double joint_friction_n_m() const { return joint_.friction_n_m; }
   void set_joint_damping(double damping_n_m_s) { joint_.damping_n_m_s = damping_n_m_s; }

@@ -17,7 +17,8 @@ class Shutters {
 
   /// Call after each step; cameras with equal step and latency share an exposure.
   void sample(const World& world, const Actor& robot);
-  /// Newly available ones; the oldest are dropped if nobody takes them.
+  /// Exposures whose pictures became available since the last call; the oldest are dropped if
+  /// nobody takes them.
   std::vector<Exposure> take() { return std::exchange(exposures_, {}); }
 
  private:

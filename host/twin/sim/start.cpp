@@ -12,9 +12,9 @@ namespace verp::sim {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-/// Contact begins in the first milliseconds, without penetration.
+/// Gap below the soles: contact begins in the first milliseconds, without penetration.
 constexpr double kStartGap = 0.0002;
-/// One sigma: a robot placed by hand.
+/// Spread of the initial pose, one sigma: a robot placed by hand.
 constexpr double kJointSpread = 0.2 * kDegree;
 constexpr double kLeanSpread = 0.2 * kDegree;
 constexpr double kYawSpread = 0.5 * kDegree;

@@ -11,7 +11,7 @@
 /// builder cannot know. The controller keeps the original Params.
 namespace verp::sim {
 
-/// About 1 or 0: half width, or limits.
+/// Half widths of uniform draws about 1 or 0, or limits.
 struct VaryBands {
   double mass = 0.10;                              ///< each link's, with inertia
   double friction_low = 0.4, friction_high = 1.0;  ///< of the ground
@@ -21,7 +21,7 @@ struct VaryBands {
   /// Per axis: ICM-20648 datasheet DS-000179, zero-rate output +-5 degrees/s before calibration.
   double gyro_bias_rad_s = 0.087266;
   double floor_tilt_rad = 0.017453;  ///< most, in any direction: 1 degree
-  /// Shares of nominal: three lithium cells, half empty to full.
+  /// Shares of the nominal voltage: three lithium cells, half empty to full.
   double supply_low = 0.925, supply_high = 1.05;
 };
 

@@ -18,7 +18,7 @@ namespace {
 struct OdeGaveUp : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-/// Nobody can act on problems after which ODE continues.
+/// Drops messages: nobody can act on problems after which ODE continues.
 void say_nothing(int, const char*, va_list) {}
 [[noreturn]] void give_up(int, const char* text, va_list arguments) {
   char said[256];
@@ -45,19 +45,20 @@ void keep(dWorldID world, dThreadingImplementationID threading) {
   kept.emplace_back(world, threading);
 }
 
-/// Per pair of geometries; a box on a plane has four.
+/// Per pair of geometries; a box on a plane has four, and more would slow the solver.
 constexpr int kMaxContacts = 8;
 
 /// Error reduction per step and softness (CFM). ODE's default; and so small that no joint visibly
 /// gives way, but singular configurations still factorise.
 constexpr double kErrorReduction = 0.2;
 constexpr double kConstraintSoftness = 1e-9;
-/// So that a bad start does not throw the robot into the air.
+/// Limits ODE's correction of penetration, so that a bad start does not throw the robot into the
+/// air.
 constexpr double kMaxCorrectingVelocity = 1.0;
-/// Gravity's gain in 2 ms; otherwise things never rest.
+/// Slower impacts do not bounce: gravity's gain in 2 ms. Otherwise things never rest.
 constexpr double kLeastBounce_m_s = 0.02;
 
-/// Springs in series; 0: rigid.
+/// Springs in series; stiffness 0: rigid.
 Surface combine(const Surface& a, const Surface& b) {
   Surface both;
   both.friction = std::min(a.friction, b.friction);

@@ -79,7 +79,7 @@ class TimeSource {
   virtual void advance_to(std::uint64_t time_us) = 0;
 };
 
-/// A speed overflowed; its world cannot continue.
+/// A speed overflowed; the world that threw this cannot continue.
 class Diverged : public std::runtime_error {
  public:
   Diverged(double at_s, double step_s, const std::string& why)

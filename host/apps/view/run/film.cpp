@@ -45,7 +45,7 @@ double LiveFilm::end_s() const {
   return instants_.empty() ? 0 : instants_.back().t_s;
 }
 
-/// Last with a picture at or before t_s.
+/// The last instant with a picture at or before t_s.
 std::size_t LiveFilm::index_at(double t_s) const {
   const auto first = instants_.end() - static_cast<std::ptrdiff_t>(pictures_);
   const auto later = std::upper_bound(

@@ -14,7 +14,7 @@ namespace {
 constexpr double kMost = 32767;
 constexpr double kDead = 0.15;  // worn sticks do not return to the middle
 constexpr int kLookAgain = 30;  // polls
-// The kernel's drivers for common gamepads.
+// Numbers of the kernel's drivers for common gamepads.
 constexpr int kLeftX = 0, kLeftY = 1, kRightX = 3;
 constexpr int kStand = 0, kStop = 1;
 

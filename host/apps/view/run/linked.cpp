@@ -42,7 +42,7 @@ const bus::NamedRegister& find(const char* name) {
 
 }  // namespace
 
-/// The first `count` elements. Throws bus::DeviceError.
+/// Reads a register's first `count` elements. Throws bus::DeviceError.
 class Linked::Registers {
  public:
   virtual ~Registers() = default;

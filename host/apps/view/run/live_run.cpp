@@ -250,7 +250,7 @@ void LiveRun::tick(std::unique_lock<std::mutex>& lock) {
   status_.late_s = pace_.late_s();
 }
 
-/// Run's thread, without the lock.
+/// In the run's thread, without the lock.
 void LiveRun::ticked(const session::Tick& tick) {
   if (tick.record == nullptr) return;
   going_->record.add(tick);

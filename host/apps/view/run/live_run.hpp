@@ -57,13 +57,13 @@ class LiveRun {
   /// Runs in the run's thread before the next tick. An exception becomes Status::complaint.
   void touch(std::function<void(Hands&)> what);
 
-  /// As in `verp walk`: recorded with its tick.
+  /// A push or a set quantity, as in `verp walk`: recorded with its tick.
   void intervene(session::Intervention what);
 
   /// Gets up after each fall, if the robot has actions for it.
   void let_get_up(bool by_itself);
 
-  /// Saves a trace. These return empty or the reason.
+  /// Saves the run so far as a trace. These return empty or the reason.
   std::string save(const std::filesystem::path& file);
   /// Ends the run and completes its record. Returns empty or the reason.
   std::string finish();

@@ -17,7 +17,7 @@ class Pace {
   /// hurry.
   double wait_s(double simulated_s, double wall_s);
 
-  /// The delay, even if not made up.
+  /// Delay of the last paced tick, even if it is not made up.
   double late_s() const { return late_s_; }
 
   double factor() const;

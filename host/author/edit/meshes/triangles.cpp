@@ -112,7 +112,7 @@ Triangles read_triangles(const fs::path& file, double unit_m) {
 Filling filling(const Triangles& mesh) {
   Filling out;
   out.closed = is_closed(mesh);
-  // Signed volumes of tetrahedra from one point.
+  // Sums signed volumes of tetrahedra from one point to each triangle.
   const Vec3 from = mesh.points_m.front();
   double volume = 0;
   Vec3 first = Vec3::Zero();

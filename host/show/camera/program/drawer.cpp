@@ -64,7 +64,7 @@ std::string depth_mm(const model::CameraSensor& camera, sim::Random& random,
   return bytes_of(out);
 }
 
-/// Lenses are drawn around the eyes.
+/// Lenses are drawn around the cameras' eyes and would hide the view.
 scene::Scene without_lenses(scene::Scene scene, int robot,
                             const std::vector<model::CameraSensor>& cameras) {
   std::erase_if(scene.items, [&](const scene::Item& item) {
@@ -90,7 +90,7 @@ scene::Camera standing_at(const Outside& from) {
     throw std::invalid_argument("the eye is where it looks at");
   camera.eye_m = from.eye_m;
   camera.target_m = from.target_m;
-  // Straight up or down, x is up.
+  // When it looks straight up or down, x is up in the picture.
   constexpr double kSteep = 0.9999;
   if (std::abs(way.z()) > kSteep * distance_m) camera.up = model::Vec3::UnitX();
   camera.vertical_fov_rad = from.vertical_fov_rad;

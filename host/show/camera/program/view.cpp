@@ -24,7 +24,7 @@ void View::place_pixels() {
   Vector2d widest(0, 0);
   for (int y = 0; y < size_.height; ++y) {
     for (int x = 0; x < size_.width; ++x) {
-      // The loader has checked the edge.
+      // The loader has checked the edge, where distortion is strongest.
       direction.push_back(model::direction_of(camera_, Vector2d(x, y)).value_or(Vector2d(0, 0)));
       widest = widest.cwiseMax(direction.back().cwiseAbs());
     }
