@@ -1,8 +1,9 @@
 #pragma once
 #include "boards/stm32/f4_ports.hpp"
 
-/// ST Nucleo-F446RE: STM32F446RET6 (Cortex-M4F). Pins and alternate functions: DS10693; DMA
-/// streams: RM0390 9.3.4; clock, LED and virtual COM port: UM1724. README.md has the wiring.
+/// ST Nucleo-F446RE: STM32F446RET6 (Cortex-M4F). Pins and alternate functions: DS10693, pin
+/// definitions and alternate function mapping; DMA streams: RM0390 9.3.4; clock, LED and virtual
+/// COM port: UM1724. README.md has the wiring.
 namespace verp::board {
 
 namespace stm32 = hal::stm32;

@@ -4,8 +4,8 @@
 #include "boards/stm32/f4_ports.hpp"
 
 /// Olimex STM32-H405: STM32F405RGT6 (Cortex-M4F). QEMU's netduinoplus2 has the same chip. Pins and
-/// alternate functions: DS8626; DMA streams: RM0090 10.3.3; LED: the board's user manual. README.md
-/// has the wiring.
+/// alternate functions: DS8626, pin definitions and alternate function mapping; DMA streams:
+/// RM0090 10.3.3; LED: the board's user manual. README.md has the wiring.
 namespace verp::board {
 
 namespace stm32 = hal::stm32;
@@ -13,7 +13,7 @@ namespace stm32 = hal::stm32;
 inline constexpr const char* kName = "olimex_h405";
 inline constexpr const char* kCore = "Cortex-M4F";
 inline constexpr int kReplayBlock = 64;
-/// For fault tests: an address without memory.
+/// For fault tests: an address without memory (no external memory).
 inline constexpr std::uintptr_t kNowhere = 0x6FFFFFF0;
 
 inline constexpr stm32::Family kFamily = stm32::Family::kF405;

@@ -8,7 +8,7 @@ namespace verp::board {
 
 /// The servo power switch (high is on) and the emergency stop, whose circuit connects its pin to
 /// ground. While that is open, power stays off. Power that a stop cut or prevented returns only
-/// after permit(). Either pin may be missing.
+/// after permit(), whether or not a loop ticks. Either pin may be missing.
 template <hal::stm32::Io Access>
 class ServoPower {
  public:

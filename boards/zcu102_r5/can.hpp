@@ -19,8 +19,8 @@ class Can0Io {
   std::uint32_t read32(std::uint32_t offset) { return at(offset); }
   void write32(std::uint32_t offset, std::uint32_t value) { at(offset) = value; }
 
-  /// Call at least every four minutes. A read costs QEMU several system calls, so one value serves
-  /// kStands calls.
+  /// By the core's cycle counter: call at least every four minutes. A read costs QEMU several
+  /// system calls, so one value serves kStands calls.
   std::uint64_t now_us() {
     if (asked_++ % kStands != 0) return (high_ + last_) * 64 / kCyclesPerUs;
     std::uint32_t count;

@@ -57,8 +57,8 @@ inline Vec3 com_m(const EstimatorState& state) {
 inline Vec3 sole_m(const EstimatorState& state, int side) {
   return math::to_vec(state.body_m) + math::to_vec(state.sole_from_body_m[side]);
 }
-/// Divergent component of motion: a pendulum of the CoM's height, supported there, would come to
-/// rest.
+/// Divergent component of motion (DCM): if the ground pushed there from now on, a pendulum of the
+/// CoM's height would come to rest above it.
 gait::Xy dcm_m(const EstimatorState& state);
 
 /// Fixed-axis angles of the body, as in AttitudeOut.

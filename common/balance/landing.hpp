@@ -14,8 +14,8 @@ struct LandingState {
 };
 VERP_PACKED(LandingState);
 
-/// A foot further off its plan shows nothing of the servos. Skipping smaller moves too gave 0.45
-/// m/s instead of 0.40.
+/// A foot that was moved further off its plan teaches nothing about its servos. Smaller moves must
+/// count: without them the robot walked at 0.45 m/s instead of 0.40.
 inline constexpr float kOffPlan_m = 0.002F;
 
 /// Learns when another foot begins to carry; not if a leg joint did not report or the foot was

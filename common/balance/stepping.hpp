@@ -2,10 +2,10 @@
 #include "common/balance/estimator.hpp"
 #include "common/gait/gait.hpp"
 
-/// A push moves the DCM off the plan, a pendulum over the stance foot, further than the sole can
-/// hold. The swing foot then lands off its plan by the DCM's error, and the walk goes on. The plan
-/// is not recomputed: seen from the new foot the body lags behind it and catches up as a pendulum
-/// does.
+/// Steps to where a push sends the robot. A push moves the DCM off the plan, a pendulum over the
+/// stance foot, further than the sole can hold. The swing foot then lands off its plan by the DCM's
+/// error, and the walk goes on. The plan is not recomputed: seen from the new foot the body lags
+/// behind it and catches up as a pendulum does.
 namespace verp::balance {
 
 struct SteppingState {

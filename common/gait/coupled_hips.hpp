@@ -1,8 +1,8 @@
 #pragma once
 #include "common/gait/whole_body.hpp"
 
-/// Hips whose yaws share one motor, in opposite directions: the trunk gives up its heading between
-/// the feet.
+/// Hips whose yaws share one motor, in opposite directions. Eleven motors cannot place both soles
+/// freely, so the trunk gives up its heading between the feet.
 namespace verp::gait {
 
 /// Foot whose hip yaw is the follower; kBoth: none.

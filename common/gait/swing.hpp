@@ -12,8 +12,8 @@ struct FootPose {
   Xyz accel_m_s2;  ///< of the sole
 };
 
-/// Progress 0 to 1: a quintic at rest at both ends. Haste mixes in a cubic, which needs less servo
-/// speed.
+/// A swing foot's progress from 0 to 1: a quintic at rest at both ends. Haste mixes in a cubic,
+/// which needs less servo speed.
 inline math::CurvePoint swing_along(float u, float haste) {
   constexpr float kBrisk = 0.24F;  // share of the cubic per unit of haste
   const math::CurvePoint gentle = math::minimum_jerk(u);
@@ -25,8 +25,9 @@ inline math::CurvePoint swing_along(float u, float haste) {
           gentle.second + share * (brisk.second - gentle.second)};
 }
 
-/// The swing foot moves from the end of double support to landing: the rise to touchdown_m plus a
-/// quartic through lift-off, apex and landing. The same quartic bends it around the other foot.
+/// The swing foot moves from the end of double support to landing. Its height is the rise to
+/// touchdown_m plus a quartic through lift-off, apex and landing. The same quartic bends it around
+/// the other foot.
 inline FootPose foot_at(const Step& step, int side, float time_s) {
   if (side != step.swing) {
     const float settle_s = 2.0F * step.key_s();

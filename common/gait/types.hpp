@@ -66,7 +66,7 @@ struct Step {
   float settle_m = 0;     ///< height of `landed` at the start, gone in two key times
   Foothold foot[kFeet];   ///< at the step's start
   Foothold landing;       ///< swing foot's
-  Xy bend_m;              ///< off the straight way at mid-swing
+  Xy bend_m;              ///< off the straight way at mid-swing, around the other foot
   Xy zmp_begin_m;
   Xy zmp_end_m;
   Xy dcm_end_m;  ///< divergent component of motion at the end

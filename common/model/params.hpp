@@ -128,7 +128,8 @@ struct Params {
   float body_mass_kg = 0;
   Xyz body_com_m;
   BusProtocol bus_protocol = BusProtocol::kDynamixel2;
-  /// Number of joints at the end without an own servo (model/coupling.hpp).
+  /// Number of joints at the end without an own servo (model/coupling.hpp): they share the motor of
+  /// their servo_id.
   std::uint8_t followers = 0;
   std::uint8_t arm[kFeet] = {0xFF, 0xFF};  ///< joint that swings the arm fore and aft; 0xFF: none
   /// Angle of `arm` per metre of the left foot's lead that cancels the legs' spin about the

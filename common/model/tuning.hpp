@@ -27,8 +27,8 @@ struct GaitTuning {
   float joint_delay_s = 0.0f;
   float look_ahead_s = 0.0213f;     ///< goals are for this much later: bus and servo delay
   float support_margin_m = 0.004f;  ///< least distance of the planned ZMP from the sole's edge
-  float heading_gain =
-      0.12f;  ///< share of the heading error corrected in a step; 0: steps equally long
+  /// Share of the heading error corrected in a step; 0 also makes all steps equally long.
+  float heading_gain = 0.12f;
   float haste_lift_m = 0.005f;  ///< lift added per Step::haste
   VERP_FIELDS(cycle_s, double_support, lift_m, half_stance_m, hip_height_m, trunk_pitch_rad,
               zmp_x_m, zmp_y_m, touchdown_m, max_step_m, max_turn_rad, step_change_m, start_s,

@@ -190,10 +190,10 @@ class Parser {
   void decode(std::size_t end);
 
   std::uint8_t buffer_[kMaxPacket];
-  std::size_t begin_ = 0;
-  std::size_t size_ = 0;  ///< bytes in use
-  std::size_t done_ = 0;  ///< packet last reported, dropped next
-  std::size_t need_ = 0;  ///< bytes to wait for; at most kMaxPacket
+  std::size_t begin_ = 0;  ///< where a packet may begin
+  std::size_t size_ = 0;   ///< bytes in use
+  std::size_t done_ = 0;   ///< packet last reported, dropped next
+  std::size_t need_ = 0;   ///< bytes to wait for; at most kMaxPacket
   std::uint32_t crc_errors_ = 0;
   std::uint32_t noise_bytes_ = 0;
   std::uint32_t steps_ = 0;

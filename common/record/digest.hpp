@@ -40,7 +40,7 @@ class Digest32 {
   std::uint32_t value_;
 };
 
-/// A run's last value identifies all earlier words.
+/// One link of the 64-bit chain. A run's last value identifies all earlier words.
 constexpr std::uint64_t chain(std::uint64_t previous, std::uint32_t word) {
   std::uint64_t mixed = (previous ^ word) * 0x9E3779B97F4A7C15ull;
   return mixed ^ (mixed >> 29);

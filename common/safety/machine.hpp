@@ -63,8 +63,8 @@ enum Fault : std::uint32_t {
   kNoteStrideLimited = 1 << 18,  ///< the velocity needs longer steps than allowed
   kNotePlanShortened = 1 << 19,  ///< steps shortened: reach, ZMP near the edge, or soles collide
   kNotePlanRefused = 1 << 20,    ///< no step keeps the ZMP in the sole
-  kNoteLegLimited = 1 << 21,
-  kNoteSpeedLimited = 1 << 22,
+  kNoteLegLimited = 1 << 21,     ///< a leg could not reach its target
+  kNoteSpeedLimited = 1 << 22,   ///< a joint hit its velocity limit
 };
 
 /// Load causes these and rest hides them: the reaction must outlast the load.

@@ -20,7 +20,8 @@ class CanMaster {
     if (!accepted_) ++counters.refused;
     return accepted_;
   }
-  /// False once `timeout_us` have passed since the last frame began on the wire or was refused.
+  /// The next frame of another node; false once `timeout_us` have passed since the last frame began
+  /// on the wire or was refused.
   bool receive(CanFrame& frame, std::uint32_t timeout_us) {
     if (accepted_) return bus_.poll(frame, timeout_us);
     return receive_until(frame, refused_us_ + timeout_us,

@@ -6,8 +6,9 @@
 namespace verp::app {
 
 /// Effect of an emergency stop on switched servo power. The core releases torque in the tick that
-/// sees the stop, and the loop sends that for three ticks. Then the power goes off, whatever the
-/// core decides: a category 0 stop of IEC 60204-1. A standing robot falls.
+/// sees the stop, and the loop sends that for three ticks. Then the power goes off, for servos that
+/// missed it and whatever the core decides: a category 0 stop of IEC 60204-1. A standing robot
+/// falls.
 ///
 /// Power returns after two manual actions: release the stop, and ask the robot to relax. The servos
 /// have lost their settings by then, so the loop needs a new bring-up. A stop that cut the power

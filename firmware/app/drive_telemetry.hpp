@@ -10,7 +10,7 @@ namespace verp::app {
 
 /// Slow telemetry: at the end of each tick an expedited SDO upload from one drive, whose answer the
 /// next tick takes. A drive without kTelemetry is asked for voltage and error code instead and
-/// reports no temperature.
+/// reports no temperature. A drive without those reports nothing.
 class DriveTelemetry {
  public:
   explicit DriveTelemetry(const Params& params) : params_(params) {}

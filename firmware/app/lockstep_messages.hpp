@@ -73,7 +73,7 @@ VERP_PACKED(Hello);
 enum class Verdict : std::uint8_t {
   kAccepted = 0,
   kOtherLink = 1,    ///< another `version`
-  kOtherCore = 2,    ///< same inputs would give other bits
+  kOtherCore = 2,    ///< the same inputs would give other bits
   kOtherLayout = 3,  ///< other sizes of Params, TickRecord or State
   kOtherRobot = 4,
   kNoLockstep = 5,  ///< the twin runs in real time

@@ -44,7 +44,7 @@ class OperatorDevice {
     return busy;
   }
 
-  /// Shows the result to the operator; drops earlier orders.
+  /// Shows the bring-up's result to the operator; drops earlier orders.
   void brought_up(const BringUpReport& report) {
     registers_.report().bring_up(report);
     withdraw_orders();

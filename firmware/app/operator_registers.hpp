@@ -108,7 +108,7 @@ class OperatorRegisters {
   /// Whether a write there may have its effect (OperatorSetup).
   bool obeys(std::uint16_t address) const { return takes_orders_ || only_shows(address); }
 
-  /// nullptr: outside the table. Gaps read as zero.
+  /// The bytes of a read; nullptr: outside the table. Gaps read as zero.
   const std::uint8_t* read(std::uint16_t address, std::size_t size) {
     if (!RegisterImage::holds(address, size)) return nullptr;
     if (address < reg_end("window_data") && address + size > reg("window_data")) fill_window();

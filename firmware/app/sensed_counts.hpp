@@ -12,7 +12,8 @@ class SensedCounts {
  public:
   void begin() { sensed_ = 0; }
 
-  /// False: the answer differs from this tick's earlier one, and neither counts.
+  /// Takes an answer of the IMU (either source) or of a foot. False: the answer differs from this
+  /// tick's earlier one, and neither counts.
   bool take(const CanFrame& frame, int source, Answer worth) {
     if (worth == Answer::kOld) return true;
     const bool imu = source == kImuNode || source == AnswerWatch::kImuSecond;

@@ -26,7 +26,7 @@ class SettingsKeeper {
  public:
   explicit SettingsKeeper(Memory& memory) : memory_(memory) {}
 
-  /// Call at start.
+  /// Call at start: loads the settings into `setup`.
   void load(OperatorSetup& setup) {
     kept_ = {setup.id, setup.imu_source, setup.torque_limit_percent};
     std::uint8_t bytes[kBytes];

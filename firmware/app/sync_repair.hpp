@@ -33,7 +33,7 @@ class SyncRepair {
     }
     send(master);
   }
-  /// True: the node answers as planned from now on.
+  /// Takes the node's SDO response. True: the node answers as planned from now on.
   template <hal::CanBus Bus>
   bool receive(CanMaster<Bus>& master, const CanFrame& frame) {
     namespace sdo = canopen::sdo;

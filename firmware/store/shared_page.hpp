@@ -104,7 +104,7 @@ class WaitingRoom {
     return second_room_ < most ? second_room_ : most;
   }
   const std::uint8_t* bytes() const { return other_.memory(page_) + kBehindNote + second_; }
-  /// Does not trust an erase before this start: power may have failed.
+  /// Makes room for a new image. Does not trust an erase before this start: power may have failed.
   void begin() {
     if (!log_.lent()) {
       page_ = log_.lend_spare();

@@ -8,7 +8,8 @@
 ///
 /// A backend promises (times are wall time, or the fake's script time):
 ///  - write(data, size, timeout_us): queues bytes from the front until all are queued or timeout_us
-///    has passed; returns the count. Queued bytes leave in order without another call.
+///    has passed; returns the count. With timeout 0 it queues what fits and returns at once. Queued
+///    bytes leave in order without another call.
 ///  - read(buffer, capacity, timeout_us): waits for a byte or timeout_us; stores at most capacity
 ///    bytes in order; returns the count.
 ///  - connected(): false once the far end is known to be gone (device unplugged, peer closed).

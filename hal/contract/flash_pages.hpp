@@ -10,8 +10,8 @@
 ///  - kUnit: bytes programmed at once: 1, 2, 4 or 8. page_bytes(page): a multiple of 8.
 ///  - read(page, offset, to, size): any bytes within a page.
 ///  - program(page, offset, from): writes kUnit bytes at a multiple of kUnit and waits for the end
-///    (at most 100 us a unit: DS8626, flash memory programming). The result is (old & from).
-///    Programming a 0 bit again makes it firm. False: the memory reported an error.
+///    (at most 100 us a unit: DS8626, flash memory programming). It only clears bits: the result is
+///    (old & from). Programming a 0 bit again makes it firm. False: the memory reported an error.
 ///  - erase(page): sets all bits of the page; false as above. It may take seconds (2 s for 128 KB:
 ///    the same table) in which the processor may stall; the backend keeps the watchdog from firing.
 ///  - A power cut during program() leaves the changing bits of that unit unsure; during erase(),

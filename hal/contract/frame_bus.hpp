@@ -19,8 +19,8 @@
 ///  - No call allocates, throws or blocks past its timeout.
 namespace verp::hal {
 
-inline constexpr std::size_t kMaxFrame =
-    512;  ///< bytes; a Sync Write of 4 bytes to 32 servos has 174
+/// Bytes; a Sync Write of 4 bytes to 32 servos has 174.
+inline constexpr std::size_t kMaxFrame = 512;
 
 template <class Bus>
 concept FrameBus = requires(Bus& bus, const std::uint8_t* data, std::uint8_t* buffer,

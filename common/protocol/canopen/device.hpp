@@ -160,7 +160,8 @@ class Device {
       queue_[emergencies_++] = {node_, number, objects_.error_register, {}};
     }
   }
-  // One EMCY at an error's start and one at its end (CiA 301).
+  // One EMCY at an error's start and one at its end (CiA 301): a wrong SYNC comes a hundred times a
+  // second.
   void complain(Cause cause, ErrorCode code) {
     if ((standing_ & cause) != 0) return;
     standing_ |= cause;

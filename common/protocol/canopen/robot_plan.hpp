@@ -25,7 +25,7 @@ inline constexpr std::uint16_t kDriveProfile = 402;
 /// dxl::kModelFoot.
 inline constexpr Address kDeviceType{0x1000, 0};
 /// 0: this project has no vendor id. Manufacturer objects (2000h to 5FFFh) mean the following only
-/// there.
+/// on nodes with vendor 0.
 inline constexpr Address kVendor{0x1018, 1};
 inline constexpr std::uint32_t kOurVendor = 0;
 inline constexpr Address kProductCode{0x1018, 2};
@@ -57,7 +57,8 @@ struct Telemetry {
 /// Ticks between asking one drive for velocity or torque.
 inline constexpr std::uint8_t kEffortTicks = 4;
 
-/// An SJA1000 stores 64 bytes; a classic frame of eight takes eleven.
+/// Most frames that answer one SYNC. An SJA1000 stores 64 bytes; a classic frame of eight takes
+/// eleven.
 inline constexpr int kAnswersToOneSync = 5;
 
 constexpr int sensor_answers(const Params& params) {
@@ -81,8 +82,8 @@ constexpr std::uint8_t group_of_joint(int joint) {
 constexpr Mapped mapped(Address at, std::uint8_t bits) {
   return {at, bits};
 }
-/// TPDO 1 of a drive. Velocity or torque would load the bus of 21 drives to 73 % at 125 Hz: the
-/// controller asks for them by SDO, in turn.
+/// TPDO 1 of a drive. Velocity or torque would load the bus of 21 drives to 73 % at 125 Hz, and
+/// mappings cannot alternate: the controller asks for them by SDO, in turn.
 constexpr PdoMapping<> drive_answer() {
   PdoMapping<> mapping;
   mapping.add(mapped(cia402::object::kStatusword, 16));

@@ -19,7 +19,7 @@ class File {
   File& operator=(const File&) = delete;
 
   bool is_open() const { return handle_ >= 0; }
-  /// Waits for at least one byte. 0: the far end closed.
+  /// Waits for at least one byte; returns the count. 0: the far end closed.
   std::size_t read_some(void* data, std::size_t capacity);
   /// Waits for all bytes. False: the far end closed or the file ended.
   bool read(void* data, std::size_t size);

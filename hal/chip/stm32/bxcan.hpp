@@ -184,7 +184,7 @@ class BxCan {
     return begun_us_;
   }
 
-  /// Sets LEC to a value that hardware never writes.
+  /// Sets LEC to a value that hardware never writes, so that the next error shows.
   void expect_next_error() {
     modify32(io_, base_ + can::kEsr, can::kEsrLec, can::kLecUnused << can::kEsrLecShift);
   }

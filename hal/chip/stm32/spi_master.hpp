@@ -26,8 +26,8 @@ struct SpiWiring {
 
 /// Modulo 2^32.
 struct SpiErrors {
-  std::uint32_t timeouts = 0;  ///< a flag did not come, or BSY did not clear
-  std::uint32_t overruns = 0;
+  std::uint32_t timeouts = 0;     ///< a flag did not come, or BSY did not clear
+  std::uint32_t overruns = 0;     ///< a received byte was not fetched
   std::uint32_t mode_faults = 0;  ///< another bus master detected (MODF)
 };
 
@@ -49,8 +49,8 @@ class SpiMaster {
     gpio_.alternate(wiring_.data_out, wiring_.function);
   }
 
-  /// Exchanges `size` bytes at the highest clock up to max_hz. False: it failed and `in` is
-  /// invalid. Takes at most twice the bytes' time plus kSlack_us.
+  /// Selects the device and exchanges `size` bytes at the highest clock up to max_hz. False: it
+  /// failed and `in` is invalid. Takes at most twice the bytes' time plus kSlack_us.
   bool exchange(const std::uint8_t* out, std::uint8_t* in, std::size_t size, std::uint32_t max_hz) {
     if (!clean()) restart();
     const std::uint32_t clock_hz = set_clock(max_hz);

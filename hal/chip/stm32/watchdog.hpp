@@ -53,7 +53,7 @@ class IndependentWatchdog {
   static std::uint32_t at(std::uint32_t offset) { return base::kIwdg + offset; }
 
   /// The finest setting that waits at least timeout_us on the fastest oscillator. The first count
-  /// may be short.
+  /// may be short, so one count guarantees no wait.
   static bool choose(std::uint32_t timeout_us, Setting& setting) {
     if (timeout_us == 0) return false;
     for (std::uint32_t prescaler = 0; prescaler <= iwdg::kPrMax; ++prescaler) {

@@ -27,7 +27,7 @@ enum class Stage : std::uint8_t {
 struct Answer {
   Stage stage = Stage::kStall;
   std::uint16_t size = 0;
-  /// kSend: a short or empty packet must mark the end.
+  /// kSend: the host asked for more, so a short or empty packet must mark the end.
   bool shorter = false;
   Action action = Action::kNone;
   std::uint8_t value = 0;

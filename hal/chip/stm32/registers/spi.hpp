@@ -1,8 +1,8 @@
 #pragma once
 #include "hal/chip/stm32/registers/bits.hpp"
 
-/// The F7 has 4-byte FIFOs: access DR with 8 bits for frames of up to 8 bits, and set FRXTH so that
-/// one byte sets RXNE.
+/// The F7 has 4-byte FIFOs: access DR with 8 bits for frames of up to 8 bits (a wider access packs
+/// two frames), and set FRXTH so that one byte sets RXNE.
 namespace verp::hal::stm32::spi {
 
 inline constexpr std::uint32_t kCr1 = 0x00, kCr2 = 0x04, kSr = 0x08, kDr = 0x0C, kCrcpr = 0x10,
