@@ -3,7 +3,7 @@
 namespace verp::can {
 namespace {
 
-// So this socket does not receive its own frames.
+// Filters, so that this socket does not receive its own frames.
 const std::vector<link::CanFilter> kAll = {{.id = 0, .mask = 0, .extended = false},
                                            {.id = 0, .mask = 0, .extended = true}};
 /// The controller's messages, without those that frames_ sends.

@@ -27,8 +27,8 @@ class LockstepPort {
  private:
   link::CanPort frames_;
   link::CanPort bell_;
-  std::uint32_t rung_ = 0;   ///< by bell_
-  std::uint32_t taken_ = 0;  ///< by frames_
+  std::uint32_t rung_ = 0;   ///< clock messages that bell_ received
+  std::uint32_t taken_ = 0;  ///< clock messages that frames_ received
   std::vector<CanFrame> answer_;
 };
 

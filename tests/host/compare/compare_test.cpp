@@ -6,8 +6,8 @@
 
 #include "tests/host/compare/traces.hpp"
 
-// Delays within 1 ms, offsets within 0.1 degrees per joint under encoder noise; unknowable numbers
-// are left out.
+// The comparison finds delays within 1 ms and offsets within 0.1 degrees per joint under encoder
+// noise; unknowable numbers are left out.
 
 namespace verp::compare::test {
 namespace {

@@ -40,7 +40,7 @@ class LoneServo {
     const std::scoped_lock lock(mutex_);
     servos_.clear();
   }
-  /// The first servo, in counts.
+  /// Turns the first servo to where its encoder reads `count`.
   void turn_to(std::int32_t count) {
     const std::scoped_lock lock(mutex_);
     plant_.measured[0].position_count = count;

@@ -21,7 +21,7 @@ CanFrame frame_of(std::uint32_t id, unsigned number = 0) {
 
 /// A quarter of 168, 180 and 216 MHz.
 constexpr std::uint32_t kApb1_hz[] = {42'000'000, 45'000'000, 54'000'000};
-/// CiA 301.
+/// CiA 301's rates that are used here.
 constexpr std::uint32_t kRates[] = {1'000'000, 500'000, 250'000, 125'000};
 
 TEST(BxCanTiming, IsExactAndSamplesWhereCanopenWantsItOnEverySupportedClock) {

@@ -125,7 +125,8 @@ TEST(Gravity, FrictionAndInertiaAreFedForward) {
     add_sag(geared, tuning, leg, chain, load, motion, leg_rad);
     return leg_rad[3] / knee.compliance_rad_nm;
   };
-  // Half is left: (0.04 + 2 * 0.2 * 0.5) / 2, less the part whose sign is unsure.
+  // At the speed where half is left: (0.04 + 2 * 0.2 * 0.5) / 2, less the part whose sign is
+  // unsure.
   EXPECT_NEAR(knee_nm(1.5F, 0, 1) - 0.5F, 0.12F * 1.5F / 1.6F, 1e-3F);
   EXPECT_NEAR(knee_nm(-1.5F, 0, 1) - 0.5F, -0.12F * 1.5F / 1.6F, 1e-3F);
   EXPECT_NEAR(knee_nm(0, 20, 1) - 0.5F, 0.2F, 1e-3F);

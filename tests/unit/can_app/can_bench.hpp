@@ -81,8 +81,8 @@ class CanBench {
   SensorNode right{dxl::kModelFoot, kBenchFoot + 1};
   bool down = false;    ///< the bus accepts no frame
   bool babble = false;  ///< a foreign node answers each SYNC with the highest priority
-  CanFrame of_other;
-  int others = 0;  ///< sent as soon as the wire is free
+  CanFrame of_other;    ///< frame that another master sends
+  int others = 0;       ///< how often it is sent, as soon as the wire is free
   std::uint32_t sent = 0;
   std::uint64_t bits = 0;
   std::uint64_t tick_us = 0;  ///< start of the last SYNC 1

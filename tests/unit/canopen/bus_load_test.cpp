@@ -8,7 +8,8 @@
 namespace verp::canopen {
 namespace {
 
-// 47 + 8 n bits for 11-bit identifiers, at worst (34 + 8 n - 1) / 4 more; 67 and 54 for 29 bits.
+// From the literature: 47 + 8 n bits for 11-bit identifiers, at worst (34 + 8 n - 1) / 4 more; 67
+// and 54 for 29 bits.
 TEST(BusLoad, ClassicFramesHaveTheKnownLengths) {
   for (std::uint8_t size = 0; size <= 8; ++size) {
     EXPECT_EQ(classic_bits(size, Stuffing::kNone).all(), 47u + 8 * size);

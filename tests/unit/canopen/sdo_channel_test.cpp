@@ -107,7 +107,7 @@ void spoil(Bench& bench, std::uint32_t lose, std::uint32_t duplicate, std::uint3
   }
 }
 
-// One toggle bit: frames may be lost and doubled but keep their order.
+// Plain transfers have one toggle bit: frames may be lost and doubled but keep their order.
 TEST(SdoTransfer, PlainOverALossyDuplicatingChannelIsRightOrAborted) {
   Bench& bench = test::fresh_bench();
   Tally tally;

@@ -30,7 +30,7 @@ struct Led {
   float load_n[kFeet] = {15, 15};
   Vec3 accel_offset_m_s2{0, 0, 0};  ///< beyond the attitude's up
   Vec3 up_offset_m_s2{0, 0, 0};     ///< within the attitude's up
-  Mat3 ground = Mat3::Identity();
+  Mat3 ground = Mat3::Identity();   ///< the soles' orientation
 
   Led() {
     float angle_rad[kMaxJoints] = {};
