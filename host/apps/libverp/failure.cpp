@@ -42,7 +42,7 @@ int fail(const char* function) noexcept {
     const verp_status status = status_of_current(why);
     last_error = std::string(function) + ": " + why;
     return status;
-  } catch (...) {  // no memory
+  } catch (...) {  // no memory for a message
     last_error.clear();
     return VERP_FAILED;
   }

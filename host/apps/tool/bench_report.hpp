@@ -21,7 +21,7 @@ struct BenchRow {
   double least = std::numeric_limits<double>::quiet_NaN();  ///< over the repetitions
   double most = std::numeric_limits<double>::quiet_NaN();
   std::string missing = {};  ///< what is not installed
-  std::string failed = {};   ///< reason, although all is installed
+  std::string failed = {};   ///< why there is no value, although all is installed
 
   bool measured() const { return missing.empty() && failed.empty(); }
   bool held() const {

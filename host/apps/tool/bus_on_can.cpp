@@ -192,7 +192,7 @@ int bench_can(const BusOptions& options) {
   can::Client client = open(options);
   identify(client, options);
   cli::catch_interrupts();
-  constexpr std::uint16_t kBytes = 4;  // of the device type
+  constexpr std::uint16_t kBytes = 4;  // size of the device type
   const BusBench result =
       run_bus_bench([&] { return client.read_once(node_of(options), canopen::plan::kDeviceType); },
                     kBytes, options.seconds);

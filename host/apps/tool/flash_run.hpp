@@ -15,7 +15,7 @@ namespace verp::tool {
 
 struct FlashOptions {
   std::string board, port, tool;
-  std::string params;   ///< an image, or a robot
+  std::string params;   ///< a Params image, or a robot to make it from; empty: none
   std::string bus;      ///< empty: the robot's first; selects the image
   std::string actions;  ///< a file; empty: the robot's; "none": not written
   bool code = true;     ///< write the firmware
@@ -35,7 +35,7 @@ struct FlashAnswer {
 BusProtocol bus_of(const FlashOptions& options, const flash::Recipe& recipe,
                    const std::filesystem::path& folder);
 
-/// Board with the robot in its memory and its links in `folder`.
+/// Plans an emulated board with the robot in its memory and its links in `folder`.
 flash::EmulationPlan emulation_of(const FlashOptions& options, const flash::Recipe& recipe,
                                   const std::filesystem::path& folder);
 

@@ -19,7 +19,7 @@ namespace {
 
 struct LoadWords {
   std::string robot = "generic21", bus;
-  std::uint32_t data_baud = 5'000'000;  ///< highest of most FD transceivers
+  std::uint32_t data_baud = 5'000'000;  ///< highest rate of most FD transceivers
   bool json = false;
 };
 

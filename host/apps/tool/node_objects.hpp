@@ -15,7 +15,7 @@ namespace verp::tool {
 /// An object with name and type from the EDS data.
 struct NodeObject {
   canopen::Address at;
-  std::string name;                           ///< its address without EDS data
+  std::string name;                           ///< its address if the EDS data lacks it
   std::optional<dxl::controller::Type> type;  ///< empty: bytes
   bool writable = true;
 

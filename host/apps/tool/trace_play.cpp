@@ -14,7 +14,7 @@
 namespace verp::tool {
 namespace {
 
-constexpr std::uint64_t kNap_ns = 20'000'000;  // between checks of Ctrl-C
+constexpr std::uint64_t kNap_ns = 20'000'000;  // interval between checks of Ctrl-C
 
 /// False: interrupted.
 bool sleep_until(std::uint64_t time_ns) {

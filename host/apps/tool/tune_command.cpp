@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kQuickGenerations = 8, kGenerations = 40;
 constexpr int kQuickChecks = 10, kChecks = 30;
-constexpr double kPhysicsStep_ms = 2;  // `verp walk`: 1 ms
+constexpr double kPhysicsStep_ms = 2;  // `verp walk` has 1 ms
 
 struct TuneWords {
   std::string model, file;

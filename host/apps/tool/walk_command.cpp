@@ -111,7 +111,7 @@ struct Observers {
 
 int walk_once(WalkOptions options, Walk& walk) {
   const WalkPlan& first = walk.run.plans.front();
-  sweep_of(options);  // errors before the long run
+  sweep_of(options);  // reports errors before the long run
   refuse_of_outside(options, first);
   check_radio(walk);
   if (options.report_folder.empty() && !options.json && first.link.empty())

@@ -24,7 +24,7 @@
 namespace verp::view {
 namespace {
 
-constexpr int kTyping_ms = 250;  // a check takes some 10 ms
+constexpr int kTyping_ms = 250;  // waits for a pause, as a check takes some 10 ms
 
 class Typing final : public QStyledItemDelegate {
  public:
@@ -216,7 +216,7 @@ void EditorPanel::look() {
   }
   const auto complaint = edit::check(seen);
   tell(complaint);
-  const bool shown_already = undo_.count() == 0;  // unchanged
+  const bool shown_already = undo_.count() == 0;  // unchanged since it was opened
   if (!complaint && !seen.is_urdf() && typed_path_.empty() && edited && !shown_already) {
     edited(model::load_robot_text(seen.file().string(), seen.text()));
   }

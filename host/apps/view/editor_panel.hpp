@@ -40,8 +40,8 @@ class EditorPanel final : public QWidget {
   std::string selected() const;  ///< path; may be empty
 
   std::function<void(const std::string& text)> said;
-  std::function<void(const model::Entity& robot)> edited;  ///< sound, after each change
-  std::function<void(const std::string& link)> chosen;     ///< of the selected part
+  std::function<void(const model::Entity& robot)> edited;  ///< a sound robot, after each change
+  std::function<void(const std::string& link)> chosen;     ///< the link of the selected part
   std::function<void(const std::string& file, const std::string& text)> walk;
 
  private:

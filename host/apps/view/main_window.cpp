@@ -30,7 +30,7 @@ namespace {
 
 constexpr int kNumbersEvery = 4;                          // frames; faster is illegible
 constexpr scene::Colour kLinked{0.16F, 0.47F, 0.86F, 1};  // the robot at the link
-constexpr int kLayout = 1;                                // of the saved layout
+constexpr int kLayout = 1;                                // version of the saved layout
 
 double wall_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();

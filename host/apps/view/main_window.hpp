@@ -139,8 +139,8 @@ class MainWindow final : public QMainWindow {
   QByteArray first_layout_;
   std::string failure_, said_, happened_;
   std::set<std::string> told_;              ///< notes already reported
-  std::optional<scene::Vec3> grip_link_m_;  ///< not on a foot; in the link's frame
-  std::optional<scene::Vec3> foot_from_m_;  ///< where the drag began
+  std::optional<scene::Vec3> grip_link_m_;  ///< grip on a link other than a foot, in its frame
+  std::optional<scene::Vec3> foot_from_m_;  ///< where the drag of the foot began
   int frames_ = 0;
 };
 

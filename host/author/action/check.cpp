@@ -127,7 +127,7 @@ class Checker {
   }
 
   void look_at_weight(const PlayerOut& out) {
-    if (out.stance == Stance::kNone) return;  // unknown ground forces
+    if (out.stance == Stance::kNone) return;  // the ground forces are unknown
     const Torques torques = support_.torques(out);
     FrameCheck& now = result_.frames.back();
     for (int j = 0; j < params_.joint_count; ++j) {

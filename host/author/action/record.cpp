@@ -58,7 +58,7 @@ Document record_joints(const record::Trace& trace, const RecordOptions& options)
           {joint.name, false,
            static_cast<double>(math::clamp(angle, joint.lower_rad, joint.upper_rad)), 0});
     }
-    if (document.frames.empty()) frame.balance = false;  // measured angles contain the sag
+    if (document.frames.empty()) frame.balance = false;  // measured angles already contain the sag
     document.frames.push_back(frame);
   }
   if (document.frames.empty())

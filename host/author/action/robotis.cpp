@@ -67,7 +67,7 @@ FrameText frame_of_page(const Params& params, const Page& page, std::size_t step
   const std::size_t at = step_at(step);
   frame.time_s = std::max(1e-3 * kLeastFrame_ms, page[at + kTime] * unit_s(page));
   frame.hold_s = page[at + kPause] * unit_s(page);
-  if (step == 0) frame.balance = false;  // servo angles under load
+  if (step == 0) frame.balance = false;  // its goals are servo angles under load
   Stiffness off{{}, 0, 0}, on{{}, 100, 0};
   bool was_off = false;  // torque stays off until a frame turns it on
   for (int j = 0; j < params.joint_count; ++j) {

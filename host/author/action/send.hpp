@@ -54,8 +54,8 @@ struct SendOptions {
   std::string robot;
   int actions = 0;  ///< their number
   std::function<bool(std::size_t)> went = [](std::size_t) { return true; };
-  double place_s = 15;  ///< to make a place
-  double start_s = 30;  ///< to write and restart
+  double place_s = 15;  ///< limit to make a place
+  double start_s = 30;  ///< limit to write and restart
 };
 
 /// Sends kept_image() and waits for the restart. False: `went` stopped it. Throws bus::DeviceError;

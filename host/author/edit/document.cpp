@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostBytes = 16u << 20;  // a robot has 50 kB
+constexpr std::uintmax_t kMostBytes = 16u << 20;  // a robot's file has 50 kB
 
 std::string empty_robot(const fs::path& file) {
   std::string name = file.stem().string();

@@ -10,7 +10,7 @@ namespace verp::edit {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\n";
-constexpr std::size_t kDeepest = 200;  // a robot has ten
+constexpr std::size_t kDeepest = 200;  // nesting; a robot has ten
 constexpr std::array<std::pair<std::string_view, char>, 5> kNamed = {
     {{"&lt;", '<'}, {"&gt;", '>'}, {"&amp;", '&'}, {"&quot;", '"'}, {"&apos;", '\''}}};
 

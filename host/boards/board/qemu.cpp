@@ -50,7 +50,7 @@ std::vector<std::string> QemuProcess::command(const Launch& launch) {
 }
 
 QemuProcess::QemuProcess(const Launch& launch) : name_(launch.image.filename().string()) {
-  setenv("QEMU_AUDIO_DRV", "none", 1);  // no search for a sound card
+  setenv("QEMU_AUDIO_DRV", "none", 1);  // QEMU must not search for a sound card
   const std::vector<std::string> words = command(launch);
   try {
     child_.emplace(process::Command{

@@ -16,7 +16,7 @@ namespace verp::board {
 struct TargetReplay {
   std::vector<TickDigest> digests;  ///< one per Inputs
   std::optional<State> state;       ///< after the requested tick
-  std::uint32_t stack_bytes = 0;    ///< deepest of step(); 0: not measured
+  std::uint32_t stack_bytes = 0;    ///< deepest stack of step(); 0: not measured
 };
 
 struct TargetReplayOptions {

@@ -15,7 +15,7 @@ namespace verp::flash {
 
 struct DebugPlan {
   std::vector<std::string> command;      ///< gdb and its arguments
-  std::vector<EmulatedLink> links = {};  ///< for a twin
+  std::vector<EmulatedLink> links = {};  ///< where a twin finds the board
 };
 
 /// The flashed loop behind a debug probe, stopped at its start. `probe`: serial number; empty: the

@@ -50,7 +50,7 @@ class Commands {
     switch (job_.tool) {
       case Tool::kOpenocd:
         return with(base(), {"-c", std::string("init; ") + kReadDeviceId + "; shutdown"});
-      case Tool::kStm32flash:  // Get ID also succeeds under readout protection
+      case Tool::kStm32flash:  // a read, because Get ID also succeeds under readout protection
         return read({kFlashBegin, 256}, job_.folder / "first.bin");
       case Tool::kDfuUtil:
         return with(base(), {"-l"});

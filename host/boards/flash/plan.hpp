@@ -21,12 +21,12 @@ struct Job {
   Tool tool;
   std::string port;  ///< stm32flash: serial port; others: serial number
   std::vector<Piece> pieces;
-  std::filesystem::path folder;  ///< empty, for data read from the chip
+  std::filesystem::path folder;  ///< an empty folder for data read from the chip
 };
 
 struct Step {
   enum class Kind {
-    kCheckChip,  ///< read-only
+    kCheckChip,  ///< read-only: checks that the right chip answers
     kRead,       ///< reads a sector of which a part is kept
     kCompose,    ///< combines old and new contents
     kWrite,      ///< erases, writes and, if the tool can, verifies

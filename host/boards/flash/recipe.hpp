@@ -29,9 +29,9 @@ struct Recipe {
   const char* board;
   const Chip* chip;          ///< null: emulation only
   std::vector<Tool> tools;   ///< default first
-  const char* probe;         ///< OpenOCD configuration
+  const char* probe;         ///< OpenOCD configuration of the debug probe
   const char* serial_pins;   ///< serial port of the boot loader
-  const char* replay_board;  ///< emulated, same core
+  const char* replay_board;  ///< emulated board with the same core
   bool can_image = false;    ///< a second image for CAN
 };
 

@@ -22,7 +22,7 @@ CanClaim::CanClaim(const std::string& interface, const std::string& part, const 
   std::copy_n(name.begin(), size, address.sun_path + 1);
   const auto length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + size);
   if (::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&address), length) == 0) return;
-  if (errno != EADDRINUSE) return;  // no such names: no guard
+  if (errno != EADDRINUSE) return;  // a system without such names has no guard
   throw LinkError(LinkError::Kind::kBusy,
                   "can:" + interface + ": another " + who + " has this interface; end it first");
 }

@@ -23,7 +23,7 @@ using Kind = LinkError::Kind;
 
 // Retry interval: a queue full of other programs' frames gives no event.
 constexpr std::uint64_t kRetry_ns = 1'000'000;
-constexpr std::uint64_t kLook_ns = 10'000'000;  // for a missing interface
+constexpr std::uint64_t kLook_ns = 10'000'000;  // retry interval for a missing interface
 // Half a second at 1 Mbit/s; the kernel may grant less.
 constexpr int kReceiveBuffer = 4 << 20;
 

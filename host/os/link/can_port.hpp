@@ -92,7 +92,7 @@ class CanPort {
   bool away_ = false;
   bool bus_off_ = false;
   std::uint64_t looked_ns_ = 0;
-  std::size_t in_kernel_ = 0;  ///< given, not confirmed
+  std::size_t in_kernel_ = 0;  ///< frames given to the kernel, not confirmed
   std::uint32_t queue_drops_ = 0;
   CanTrouble trouble_;
   CanOutbox<hal::kCanQueue> outbox_;

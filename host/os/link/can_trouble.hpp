@@ -17,8 +17,8 @@ struct CanTrouble {
   std::uint32_t warnings = 0;     ///< an error counter passed 96
   std::uint32_t passives = 0;     ///< an error counter passed 127
   std::uint32_t send_timeouts = 0;
-  std::uint32_t controller_overruns = 0;  ///< no room in the controller
-  std::uint32_t socket_overruns = 0;      ///< read too late
+  std::uint32_t controller_overruns = 0;  ///< the controller had no room for received frames
+  std::uint32_t socket_overruns = 0;      ///< this program read received frames too late
   std::uint32_t send_overflows = 0;
   std::uint32_t losses = 0;   ///< interface down or gone
   std::uint32_t dropped = 0;  ///< frames dropped by bus-off or loss

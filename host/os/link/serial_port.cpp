@@ -173,7 +173,7 @@ class SerialPort final : public Port {
     port_->SetParity(LibSerial::Parity::PARITY_NONE);
     port_->SetStopBits(LibSerial::StopBits::STOP_BITS_1);
     port_->SetFlowControl(LibSerial::FlowControl::FLOW_CONTROL_NONE);
-    port_->SetVMin(1);  // 0: an empty read is like a hang-up
+    port_->SetVMin(1);  // with 0, an empty read looks like a hang-up
     port_->SetVTime(0);
     port_->SetSerialPortBlockingStatus(false);
     set_line();

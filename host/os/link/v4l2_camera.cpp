@@ -20,7 +20,7 @@ namespace {
 using hal::PixelFormat;
 using Kind = LinkError::Kind;
 
-constexpr std::uint32_t kBuffers = 4;  ///< held, filling, two spare
+constexpr std::uint32_t kBuffers = 4;  ///< one held, one filling, two spare
 constexpr std::uint64_t kReopen_ns = 200'000'000;
 constexpr std::uint32_t kMostPixels = 16384;  ///< each way; more is a driver's error
 

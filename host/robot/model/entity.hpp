@@ -80,14 +80,14 @@ struct Servo {
   double counts_per_rev = 4096;
   double encoder_noise_deg = 0.03;  ///< rms
   double loop_s = 0.001;            ///< period of the firmware's position loop
-  double loop_delay_s = 0;          ///< age of the loop's angle
-  double goal_delay_s = 0;          ///< from arrival to action
+  double loop_delay_s = 0;          ///< age of the angle that the loop uses
+  double goal_delay_s = 0;          ///< from a goal's arrival to the servo's action
   Gearbox gearbox;
   /// True values lie within these shares of the ones above: 0.5 means half to one and a half times.
   /// 0: identified on a bench.
   double armature_band = 0, friction_band = 0;
   std::string source;              ///< of armature and friction, one line
-  std::uint16_t model_number = 0;  ///< meaning: Params' ServoProfile
+  std::uint16_t model_number = 0;  ///< Params' ServoProfile gives its meaning
   bool fast_sync_read = false;
   std::uint16_t p_gain = 0, i_gain = 0, d_gain = 0;  ///< written at arming
   std::uint16_t profile_ms = 0;
@@ -173,7 +173,7 @@ struct CameraSensor {
 /// Force and torque between a link and its parent, about the sensor's origin, in its axes.
 struct ForceTorqueSensor {
   std::string name, topic;
-  int node = 0;                            ///< on this node's joint
+  int node = 0;                            ///< the sensor is on the joint of this node
   Transform pose = Transform::Identity();  ///< in that link's frame
   double rate_hz = 100, latency_s = 0;
   bool on_child = false;  ///< the load on the link; else the one that it exerts

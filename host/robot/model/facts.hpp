@@ -40,7 +40,7 @@ struct LatencyFact {
 struct TruthFact {
   XmlElement at;
   std::string link;
-  TruthSensor truth;  ///< in that link's frame
+  TruthSensor truth;  ///< pose in that link's frame
 };
 struct FeetFact {
   XmlElement at;
@@ -119,7 +119,7 @@ struct Facts {
   std::vector<BoxFact> boxes;
   std::vector<DropFact> drops;
   std::vector<FixFact> fixes;
-  std::vector<MimicFact> mimics;  ///< with the URDF's, once read
+  std::vector<MimicFact> mimics;  ///< with the URDF's, once they are read
   std::vector<NoCollideFact> no_collides;
 
   const BusFact& bus() const { return buses[used]; }

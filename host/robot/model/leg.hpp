@@ -10,7 +10,7 @@ namespace verp::model {
 /// offset between the points. Other legs use Newton.
 struct LegGeometry {
   bool closed_form = false;
-  std::string reason;  ///< against closed form; empty: closed form
+  std::string reason;  ///< reason against closed form; empty: closed form
   double residual_m =
       0;  ///< largest distance of an axis from its common point, or the lateral offset
   Vec3 hip_m = Vec3::Zero();        ///< body frame: meeting point of the hip axes

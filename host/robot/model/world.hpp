@@ -88,7 +88,7 @@ struct WorldObject {
   enum class Kind { kStatic, kDynamic, kMoving } kind = Kind::kStatic;
   double mass_kg = 0;                 ///< dynamic ones
   Vec3 com_m = Vec3::Zero();          ///< in the object
-  Mat3 inertia_kg_m2 = Mat3::Zero();  ///< centre of mass, object's axes
+  Mat3 inertia_kg_m2 = Mat3::Zero();  ///< about the centre of mass, object's axes
   std::vector<WorldCollision> collisions;
   std::vector<WorldVisual> visuals;
   std::vector<Waypoint> waypoints;  ///< at least two, rising times
@@ -130,7 +130,7 @@ struct World {
   std::optional<Fog> fog;
   std::vector<Light> lights;
   std::optional<Transform> view;     ///< <gui><camera>: x ahead, z up
-  std::vector<WorldObject> objects;  ///< with the ground
+  std::vector<WorldObject> objects;  ///< one of them holds the ground
   std::vector<WorldRobot> robots;
 };
 

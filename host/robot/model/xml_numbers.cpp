@@ -23,10 +23,10 @@ struct Numbers {
   bool is_whole = false;        // libsdformat reads 1e9 as 1
 };
 constexpr double kLargest = std::numeric_limits<float>::max();
-constexpr Numbers kFree = {1, -kLargest, kLargest};  // sensors, which the controller never sees
+constexpr Numbers kFree = {1, -kLargest, kLargest};  // of sensors: the controller never sees it
 constexpr Numbers kCount = {1, 0, 1e9, "", false, false, true};
 constexpr Numbers kMass = {1, 0, kMostMass_kg, " kg"};
-constexpr Numbers kInertia = {1, -1e5, 1e5, " kg m2"};  // greatest mass, greatest distance
+constexpr Numbers kInertia = {1, -1e5, 1e5, " kg m2"};  // greatest mass at the greatest distance
 constexpr Numbers kSize = {1, 0, kMostLength_m, " m"};
 constexpr Numbers kSizes = {0, 0, kMostLength_m, " m"};
 constexpr Numbers kPosition = {3, -kMostLength_m, kMostLength_m, " m"};

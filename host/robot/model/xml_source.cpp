@@ -34,7 +34,7 @@ class CommentCheck : public tinyxml2::XMLVisitor {
  public:
   explicit CommentCheck(const std::string& path) : path_(path) {}
   bool Visit(const tinyxml2::XMLComment& comment) override {
-    const std::string text = std::string(comment.Value()) + '-';  // the end counts
+    const std::string text = std::string(comment.Value()) + '-';  // the comment's end counts as one
     const auto at = text.find("--");
     if (at == std::string::npos) return true;
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(at);

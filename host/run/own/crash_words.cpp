@@ -13,7 +13,7 @@ namespace {
 thread_local const char* volatile inside_folder = nullptr;
 thread_local volatile std::uint32_t inside_tick = 0;
 
-const char* before_line = "";  ///< after a progress bar
+const char* before_line = "";  ///< on a terminal, ends a progress bar
 
 constexpr int kSignals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 

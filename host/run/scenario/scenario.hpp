@@ -46,8 +46,8 @@ using Orders = std::variant<Ahead, Velocity, Stand>;
 /// Computes the ticks; all empty: the core, in this process.
 struct Controller {
   std::string folder;  ///< the user's own (`verp new controller`)
-  std::string board;   ///< emulated, runs it
-  std::string link;    ///< to a controller elsewhere, in lockstep
+  std::string board;   ///< emulated board that runs it
+  std::string link;    ///< link to a controller elsewhere, in lockstep
 
   bool operator==(const Controller&) const = default;
 };
@@ -61,7 +61,7 @@ struct Robot {
   std::string name;                      ///< empty: the model's
   std::string model = "generic21";       ///< name in common/robots or an SDF file
   std::string bus;                       ///< empty: the model's first
-  std::map<std::string, double> tuning;  ///< names: `verp parameters`
+  std::map<std::string, double> tuning;  ///< `verp parameters` lists the names
   Orders orders;
   Controller controller;
   std::uint64_t seed = 1;  ///< for all randomness of this robot

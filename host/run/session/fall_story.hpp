@@ -22,7 +22,7 @@ class FallStory {
  private:
   int most_, tries_ = 0;  ///< since it last stood
   int falls_ = 0, get_ups_ = 0;
-  bool lies_ = false;  ///< and was reported
+  bool lies_ = false;  ///< it lies, and the fall was reported
   safety::Mode mode_ = safety::Mode::kRelaxed;
 };
 

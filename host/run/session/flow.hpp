@@ -51,9 +51,9 @@ class Flow {
 
   std::function<void(Flow&)> body_;
   std::unique_ptr<Stack> stack_;  ///< null: not begun
-  ucontext_t here_{}, there_{};   ///< while suspended
+  ucontext_t here_{}, there_{};   ///< contexts of caller and body while suspended
   std::exception_ptr error_;
-  const std::function<void()>* outside_ = nullptr;  ///< the body waits for it
+  const std::function<void()>* outside_ = nullptr;  ///< call that the body waits for
   bool ended_ = false, unwinding_ = false;
   // State for the address sanitizer's stack switches.
   void* fake_here_ = nullptr;

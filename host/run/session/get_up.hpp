@@ -12,7 +12,7 @@ class GetUp {
   enum class Phase {
     kUp,
     kFell,    ///< in this tick
-    kDown,    ///< order only this
+    kDown,    ///< order it to get up, and nothing else
     kGaveUp,  ///< in this tick: no orders until it stood or fell again
   };
 
@@ -24,7 +24,7 @@ class GetUp {
 
  private:
   int most_, tries_ = 0;  ///< since it last stood
-  bool down_;             ///< must stand up
+  bool down_;             ///< it lies or fell, and must stand up
   double down_s_ = 0;     ///< time since then
   safety::Mode mode_ = safety::Mode::kRelaxed;
 };

@@ -27,11 +27,11 @@ struct WalkPlan {
   model::Entity entity;
   Params params;
   Command velocity;                    ///< vx, vy, wz
-  std::optional<Command> asked = {};   ///< to judge the walk, if not `velocity`
+  std::optional<Command> asked = {};   ///< velocity to judge the walk by, if not `velocity`
   std::vector<std::uint32_t> actions;  ///< an action library's image (common/action)
   std::string remark;                  ///< deviation from the user's order
-  double walk_s = 20;                  ///< gait; whole run if Hooks::order gives the orders
-  sim::TwinOptions twin;               ///< seed, start pose, variation
+  double walk_s = 20;     ///< length of gait; of the whole run if Hooks::order gives the orders
+  sim::TwinOptions twin;  ///< seed, start pose, variation
   /// Attempts in a row after a fall, by an action of `actions`. 0: a fall ends the walk.
   int get_ups = 0;
   bool stands = false;  ///< steps only to keep its balance
@@ -102,14 +102,14 @@ struct WalkResult {
   std::vector<RunEvent> fall_story;  ///< falls and recoveries
   double longest_step_m = 0;         ///< of the gait, after its limits
   double simulated_s = 0, wall_s = 0;
-  sim::Vec2 end_m{0, 0};                           ///< the body's end position in the world
-  std::vector<double> set_upright_s;               ///< simulated times, by the user
+  sim::Vec2 end_m{0, 0};              ///< the body's end position in the world
+  std::vector<double> set_upright_s;  ///< simulated times at which the user set it upright
   std::vector<AppliedIntervention> interventions;  ///< the plan's and others
   bool interrupted = false;
   std::optional<CanTraffic> can;  ///< only over CAN
   std::string trace_failure;      ///< why the trace ended early; the walk went on
   std::string failure;            ///< why the walk failed; or empty
-  std::string remark;             ///< a good walk's deviation
+  std::string remark;             ///< how a good walk deviates from the order
 
   bool good() const { return failure.empty() && !interrupted; }
   double real_time_factor() const { return wall_s > 0 ? simulated_s / wall_s : 0; }

@@ -18,7 +18,7 @@ namespace verp::session {
 /// Time in the twin for a controller at a link.
 enum class Pace {
   kAuto,      ///< lockstep if announced, else wall clock
-  kLockstep,  ///< time waits for the announcement
+  kLockstep,  ///< time stands until a controller announces lockstep
   kRealTime,  ///< lockstep is refused
 };
 
@@ -136,10 +136,10 @@ class RemoteController : public Controller {
   std::uint64_t start_ns_ = 0;  ///< monotonic clock; 0: not yet
   std::uint64_t drive_ns_ = 0;  ///< first torque of a servo
   std::uint64_t heard_ns_ = 0;  ///< first traffic but clock requests
-  std::uint64_t alone_ns_ = 0;  ///< no controller since then; 0: not yet
-  std::uint64_t idle_ns_ = 0;   ///< no clock request since then; 0: it is not waiting
+  std::uint64_t alone_ns_ = 0;  ///< since then no controller came; 0: not yet
+  std::uint64_t idle_ns_ = 0;   ///< since then no clock request came; 0: it is not waiting
   std::uint64_t asked_ = 0;     ///< clock requests so far
-  std::uint64_t strange_ = 0;   ///< since the last clock request
+  std::uint64_t strange_ = 0;   ///< bytes or frames since the last clock request
   std::uint64_t next_us_ = 0;   ///< next tick to watch
   std::uint32_t resets_ = 0;
   bool device_trouble_ = false, recorded_ = false, met_ = false, declined_ = false;

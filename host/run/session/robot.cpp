@@ -17,8 +17,8 @@
 namespace verp::session {
 namespace {
 
-constexpr double kAfterFall_s = 0.5;  // shows the fall
-constexpr double kAfterStop_s = 0.3;  // shows the stand
+constexpr double kAfterFall_s = 0.5;  // the report shows the fall
+constexpr double kAfterStop_s = 0.3;  // the report shows the stand
 
 Hooks with_own(Hooks hooks, const WalkPlan& plan) {
   if (!hooks.decide && plan.own) hooks.decide = plan.own();

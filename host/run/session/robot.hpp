@@ -118,14 +118,14 @@ class Robot {
   State state_;
   Outputs outputs_;
   FallStory story_;
-  bool taken_ = false;                                    ///< by take(), but not by see()
+  bool taken_ = false;                                    ///< take() was called, but see() not yet
   std::uint64_t bits_before_ = 0, bare_bits_before_ = 0;  ///< at the first tick
   FallVerdict verdict_;
   double begun_s_ = 0;  ///< simulated time of the first tick or torque
   double after_s_ = 0;
   bool over_ = false;
   bool watched_ = false;
-  bool lies_ = false;  ///< reported by watch()
+  bool lies_ = false;  ///< watch() reported that it lies
 };
 
 }  // namespace verp::session

@@ -134,7 +134,7 @@ Session::Seat* Session::next() {
 
 /// Runs until its controller did a tick or its bus requests a time. False: it has finished.
 bool Session::go_on(Seat& seat) {
-  seat.finished = true;  // if the controller throws
+  seat.finished = true;  // stays so if the controller throws
   if (seat.flow) {
     world_.advance_to(seat.asked_us);
     seat.finished = !seat.flow->resume();

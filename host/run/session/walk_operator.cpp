@@ -9,13 +9,13 @@ namespace {
 
 constexpr double kSettle_s = 0.5;          // stands quietly before the walk
 constexpr double kStandUp_s = 15.0;        // pose, rise and gyro calibration take seconds
-constexpr double kLearns_s = 2.0;          // then a core begins to learn its gyro's bias
+constexpr double kLearns_s = 2.0;          // by then a core has begun to learn its gyro's bias
 constexpr double kPatience_s = 8.0;        // then the robot trembles, and the bias will not improve
-constexpr double kIdle_s = 1.0;            // then a gait has given up
-constexpr double kOverrun_s = 5.0;         // then a gait never ends
-constexpr std::uint32_t kFrameTicks = 10;  // lowest frame rate
+constexpr double kIdle_s = 1.0;            // a gait that pauses so long by itself has given up
+constexpr double kOverrun_s = 5.0;         // a gait that has not ended by then never ends
+constexpr std::uint32_t kFrameTicks = 10;  // longest interval of the operator's frames
 constexpr float kSomeError_rad = 1e-3F;    // a heading is never exact
-constexpr int kMostSteps = 1000;           // strides have shrunk to nothing
+constexpr int kMostSteps = 1000;           // by then any stride has shrunk to nothing
 
 }  // namespace
 

@@ -43,7 +43,7 @@ class LiveCheck final : public Check {
   static constexpr int kMostHeard = 4096;  ///< ticks kept during a State's transfer
   static constexpr std::size_t kMostReadings = 4096;
   static constexpr std::uint64_t kPause_us = 200'000;  ///< before a retry
-  static constexpr std::uint64_t kTurn_us = 50'000;    ///< until a new tick after a release
+  static constexpr std::uint64_t kTurn_us = 50'000;  ///< after a release, a new tick comes by then
 
   void ask(Step step);
   bool hold_is_late(std::uint64_t now_us) const;

@@ -16,7 +16,7 @@ namespace verp::camera {
 class Rig {
  public:
   enum class Pace {
-    kEveryPicture,  ///< the run waits
+    kEveryPicture,  ///< the run waits for pictures
     kNeverWaits     ///< the rig drops pictures
   };
   /// Waits until it can draw. Throws CameraError. On the main thread (DrawingProgram).

@@ -14,7 +14,7 @@ Mat4 clip_of(const scene::Camera& camera, Size size);
 struct View {
   scene::Vec3 eye_m = scene::Vec3::Zero();
   Mat4 clip = Mat4::Identity(), sun = Mat4::Identity();
-  int shadow_light = -1;  ///< index or -1
+  int shadow_light = -1;  ///< index in the scene's lights, or -1
   double sun_radius_m = 1;
   Eigen::AlignedBox2d shaded;  ///< floor in the shadow map
 };

@@ -41,7 +41,7 @@ class Stage {
   GLuint texture_of_file(const std::string& file);
 
   scene::Scene scene_;
-  std::vector<GpuMesh> own_;          ///< per item; empty: a file's mesh
+  std::vector<GpuMesh> own_;          ///< per item; empty: its mesh is from a file
   std::vector<GpuMesh> sharp_;        ///< without rounded edges
   std::vector<const GpuMesh*> mesh_;  ///< one per item
   std::vector<GLuint> texture_;       ///< per item; 0: none

@@ -55,7 +55,7 @@ struct Item {
   Transform pose = Transform::Identity();  ///< frame of `node`
   Shape shape = Shape::kBox;
   Vec3 size_m = Vec3::Zero();
-  double round_m = 0;  ///< edges of a box or cylinder
+  double round_m = 0;  ///< edge radius of a box or cylinder
   Material material;
   std::string mesh_file;
   std::shared_ptr<const Triangles> triangles;

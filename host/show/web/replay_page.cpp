@@ -13,7 +13,7 @@
 namespace verp::web {
 namespace {
 
-constexpr double kFrame_s = 0.03;           // a gait state
+constexpr double kFrame_s = 0.03;           // as long as a gait state
 constexpr std::size_t kMostFrames = 20000;  // ten minutes; then skips frames
 
 constexpr const char* kStyle = R"(

@@ -13,7 +13,7 @@ namespace verp::identify {
 /// timing says.
 struct Estimate {
   std::vector<double> value, error;  ///< error: one standard deviation
-  std::vector<bool> free;            ///< false: fixed
+  std::vector<bool> free;            ///< false: kept at its start value
   double rms_rad = 0;                ///< over the fitted ticks
 };
 

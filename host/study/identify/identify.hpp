@@ -17,7 +17,7 @@ struct Options {
 struct Row {
   std::string name, unit, meaning;
   double was = 0, now = 0, error = 0;  ///< error: one sigma, from chance alone
-  bool determined = false;             ///< false: the motion does not determine it
+  bool determined = false;  ///< false: the motion does not determine it, and it kept its value
 };
 
 struct Errors {

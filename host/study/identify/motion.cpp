@@ -22,7 +22,7 @@ constexpr double kFar_rad = 0.7;                          ///< largest distance 
 constexpr double kFromStop_rad = 0.1;
 // Shares of a joint's limits; other loads and weaker servos need the rest.
 constexpr double kSpeedShare = 0.6, kTorqueShare = 0.3;
-constexpr double kTopSpeed = 1.5, kTopAcceleration = 6;  ///< of a cubic path of 1 in 1 s
+constexpr double kTopSpeed = 1.5, kTopAcceleration = 6;  ///< peaks of a cubic path of 1 in 1 s
 constexpr int kLooks = 8;                                ///< collision checks along a path
 constexpr double kApart_m = 0.02;  ///< clearance for model errors and curved paths
 constexpr int kDraws = 20;

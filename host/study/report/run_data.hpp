@@ -44,7 +44,7 @@ struct Limb {
 /// One walk of a sweep. Only a good one has speed and bias.
 struct SweepWalk {
   enum class End { kNone, kWalked, kFell, kFailed, kInterrupted } end = End::kNone;
-  std::optional<double> step_m;     ///< longest made
+  std::optional<double> step_m;     ///< longest step made
   std::optional<double> speed_m_s;  ///< in steady walking
   std::optional<double> bias_mm;
 };

@@ -13,7 +13,7 @@ struct Page {
   std::string title, verdict;
   bool good = true;
   std::vector<report::Fact> facts;
-  std::vector<report::Plot> plots;  ///< the first is also map.png
+  std::vector<report::Plot> plots;  ///< the first one is also map.png
   std::string csv;                  ///< map.csv
   std::vector<std::pair<std::string, std::string>> changed, provenance;
 };

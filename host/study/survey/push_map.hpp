@@ -18,7 +18,7 @@ class SurveyError : public std::runtime_error {
 };
 
 struct PushOptions {
-  bool standing = false;  ///< `phases` is then 1
+  bool standing = false;  ///< pushes a standing robot; `phases` is then 1
   int phases = 16;        ///< of a gait cycle
   int directions = 8;     ///< the first one ahead
   double push_s = 0.05;

@@ -12,10 +12,10 @@ namespace verp::tune {
 
 struct Options {
   double speed_m_s = 0.2;
-  int generations = 8;              ///< after the grid
+  int generations = 8;              ///< after the grid of cycles and hip heights
   int children = 12;                ///< tries per generation, even
   int checks = 10;                  ///< random robots as judges
-  double try_s = 10, check_s = 20;  ///< search, judgement
+  double try_s = 10, check_s = 20;  ///< of gait, in the search and in the judgement
   std::uint64_t seed = 1;           ///< of the search
 };
 

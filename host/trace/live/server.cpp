@@ -23,8 +23,8 @@ using Clock = Connection::Clock;
 using std::chrono::milliseconds;
 
 constexpr std::size_t kMostViewers = 16;
-constexpr std::size_t kAhead = 64 * 1024;  // queued beyond the socket
-constexpr milliseconds kSettled{300};      // a viewer subscribes no more after it
+constexpr std::size_t kAhead = 64 * 1024;  // bytes queued beyond the socket
+constexpr milliseconds kSettled{300};      // after this pause a viewer subscribes no more
 constexpr milliseconds kGreeting{10'000};  // for a client's handshake
 constexpr std::string_view kFull =
     "HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";

@@ -70,7 +70,7 @@ class Writer {
 
   void put(std::string_view bytes);
   void end_chunk();
-  Bytes write_message_indexes();  ///< open chunk's; channel -> offset
+  Bytes write_message_indexes();  ///< of the open chunk; returns channel -> offset
   void write_summary();
   void group(Bytes& summary, Bytes& offsets, Opcode opcode, std::string_view records) const;
 

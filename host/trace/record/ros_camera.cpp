@@ -128,7 +128,7 @@ std::string label_info(const std::vector<std::string>& names, std::string_view f
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!names[i].empty()) out.put(static_cast<std::uint16_t>(i + 1)).text(names[i]);
   }
-  out.put(1.0F);  // the twin knows what it shows
+  out.put(1.0F);  // confidence: the twin knows what it shows
   return out.take();
 }
 

@@ -46,7 +46,7 @@ struct LaserScan {
   std::string frame;
   double first_rad = 0, last_rad = 0, step_rad = 0, period_s = 0, min_m = 0, max_m = 0;
   std::vector<float> range_m;
-  std::uint64_t age_ns = 0;  ///< at the first tick with it
+  std::uint64_t age_ns = 0;  ///< at the first tick that could have it
 };
 extern const std::string_view kLaserScanSchema;  ///< sensor_msgs/msg/LaserScan
 std::string laser_scan(const LaserScan& scan, std::uint64_t time_ns);

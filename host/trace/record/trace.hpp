@@ -63,7 +63,7 @@ struct Trace {
   Params params;
   std::vector<std::uint32_t> actions;  ///< image of the action library; may be empty
   mcap::StringMap metadata;
-  std::optional<State> before;  ///< first tick; nullopt: a fresh controller
+  std::optional<State> before;  ///< State before the first tick; nullopt: a fresh controller
   std::vector<TickRecord> ticks;
   std::vector<Keyframe> keyframes;  ///< empty: the writer's State layout differs
   std::vector<Change> changes;

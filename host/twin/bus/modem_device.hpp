@@ -16,12 +16,12 @@ inline constexpr std::uint16_t kMostData = 96;    ///< bytes
 inline constexpr std::size_t kMostWaiting = 64;   ///< later messages are lost
 inline constexpr std::uint8_t kEverybody = 0xFF;  ///< broadcast value of `to`
 // Read only.
-inline constexpr std::uint16_t kNumber = 256;     // 1, the `to` of others
+inline constexpr std::uint16_t kNumber = 256;     // 1, this modem's number: the `to` of others
 inline constexpr std::uint16_t kMostBytes = 257;  // 1, largest message
 inline constexpr std::uint16_t kSaid = 258;       // 2, messages sent; modulo
 inline constexpr std::uint16_t kRefused = 260;    // 2, messages refused
 inline constexpr std::uint16_t kHeard = 262;      // 2, messages received
-inline constexpr std::uint16_t kMissed = 264;     // 2, for lack of room
+inline constexpr std::uint16_t kMissed = 264;     // 2, messages lost for lack of room
 // Outgoing message: a Write that covers say_size sends that many bytes of say_data.
 inline constexpr std::uint16_t kTo = 272;       // 1, a modem or kEverybody
 inline constexpr std::uint16_t kSaySize = 273;  // 1

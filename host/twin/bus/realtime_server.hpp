@@ -13,7 +13,7 @@ class RealtimeServer {
  public:
   struct Counters {
     std::uint64_t bytes = 0;  ///< from the master
-    std::uint32_t lost = 0;   ///< while a servo was answering
+    std::uint32_t lost = 0;   ///< requests while a servo was answering
     std::uint32_t late = 0;   ///< turns over kLate_us behind the clock
     std::uint64_t worst_late_us = 0;
     std::uint64_t skipped_us = 0;  ///< clock time without simulation

@@ -138,7 +138,7 @@ class VirtualBus {
   std::uint64_t bytes_on_wire_ = 0;
   std::uint32_t tick_ = 0;
   std::uint32_t lost_requests_ = 0;
-  std::uint32_t last_four_ = 0;  ///< of the master, real time
+  std::uint32_t last_four_ = 0;  ///< last four bytes of the master, in real time
   bool jammed_ = false;
   bool ticking_ = false;
   bool real_time_ = false;

@@ -19,14 +19,14 @@ struct ServoSetpoint {
   std::uint16_t d_gain = 0;    ///< d/16
   std::uint16_t pwm_limit = 885;
   std::uint32_t profile_ms = 0;    ///< time-based profile's duration; 0: velocity-based
-  double accelerate_ms = 0;        ///< at each end; 0: a straight line
+  double accelerate_ms = 0;        ///< part of it at each end; 0: a straight line
   double profile_count_s = 0;      ///< velocity-based profile's top speed; 0: a step
   double accelerate_count_s2 = 0;  ///< also in velocity mode; 0: at once
   ServoMode mode = ServoMode::kPosition;
   double goal_count_s = 0;
   double goal_a = 0;
   double goal_pwm = 0;
-  double current_limit_a = -1;           ///< position mode; negative: none
+  double current_limit_a = -1;           ///< in position mode; negative: none
   std::uint16_t velocity_p_gain = 100;   ///< the loop uses p/128, per 0.229 rev/min
   std::uint16_t velocity_i_gain = 1920;  ///< i/65536
 };

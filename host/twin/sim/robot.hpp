@@ -23,7 +23,7 @@ namespace verp::sim {
 struct Imperfections {
   bool imu = true;           ///< noise and bias
   bool encoder = true;       ///< noise (quantisation stays)
-  bool zero_error = true;    ///< up to zero_error_deg
+  bool zero_error = true;    ///< joint zeros are off by up to zero_error_deg
   bool initial_pose = true;  ///< joints, lean and heading
   bool feet = true;          ///< force noise
   bool lasers = true;        ///< noise

@@ -122,7 +122,7 @@ class ServoModel {
   bool saturated_ = false;
 
   double duty_ = 0;         ///< joint sense, mean
-  Drive motor_;             ///< alone, last step
+  Drive motor_;             ///< the motor alone, in the last step
   double rotor_rad_s_ = 0;  ///< seen from the joint; free inside the play
   double play_rad_ = 0;     ///< motor side ahead, within +-backlash/2
   bool engaged_ = true;     ///< not inside the play

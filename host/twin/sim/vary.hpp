@@ -15,9 +15,9 @@ namespace verp::sim {
 struct VaryBands {
   double mass = 0.10;                              ///< each link's, with inertia
   double friction_low = 0.4, friction_high = 1.0;  ///< of the ground
-  double delay_s = 0.020;                          ///< most; a goal's delay at its servo
-  double backlash_rad = 0.017453;                  ///< most, each joint: 1 degree
-  double strength = 0.10;                          ///< each servo's stall torque
+  double delay_s = 0.020;          ///< most; from a goal's arrival to its servo's action
+  double backlash_rad = 0.017453;  ///< most, each joint: 1 degree
+  double strength = 0.10;          ///< each servo's stall torque
   /// Per axis: ICM-20648 datasheet DS-000179, zero-rate output +-5 degrees/s before calibration.
   double gyro_bias_rad_s = 0.087266;
   double floor_tilt_rad = 0.017453;  ///< most, in any direction: 1 degree

@@ -64,7 +64,7 @@ class LiveFilm final : public Film {
   const bool beside_;
   mutable std::mutex mutex_;
   std::deque<Instant> instants_;
-  std::size_t pictures_ = 0;  ///< with a picture
+  std::size_t pictures_ = 0;  ///< newest instants with a picture
 };
 
 }  // namespace verp::view

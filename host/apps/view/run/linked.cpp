@@ -22,8 +22,8 @@ using namespace std::chrono_literals;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint32_t kTimeout_us = 50'000;
-constexpr auto kPause = 25ms;       // a picture's
-constexpr auto kLostPause = 500ms;  // for a silent link
+constexpr auto kPause = 25ms;       // as often as a picture is drawn
+constexpr auto kLostPause = 500ms;  // between polls of a silent link
 constexpr double kApart_m = 0.45;
 constexpr double kTiltCount_rad = 1e-4;
 
@@ -119,7 +119,7 @@ void Linked::loop() {
       now = look();
     } catch (const std::exception& error) {
       trouble = error.what();
-      known_ = false;  // the controller may change
+      known_ = false;  // the next answer may come from another controller
     }
     lock.lock();
     if (trouble.empty()) {

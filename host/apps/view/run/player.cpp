@@ -6,7 +6,7 @@
 namespace verp::view {
 namespace {
 
-constexpr double kUnpaced = 50;  // an eye can follow
+constexpr double kUnpaced = 50;  // as fast as an eye can follow
 
 }  // namespace
 

@@ -30,7 +30,7 @@ class TraceFilm final : public Film {
   const std::vector<Row>& rows() const;
 
   scene::TracePlayer player_;
-  mutable std::vector<Row> rows_;  ///< for the first curve
+  mutable std::vector<Row> rows_;  ///< computed for the first curve
 };
 
 }  // namespace verp::view
