@@ -23,7 +23,7 @@ class PictureFiles;
 /// pose, attaches collision shapes and checks masses. Throws LoadError.
 class LinkTree {
  public:
-  /// The arguments outlive the tree.
+  /// The arguments must outlive the tree.
   LinkTree(const XmlSource& source, const Facts& facts, const sdf::Model& model,
            const UrdfNames& names, Entity& entity)
       : source_(source), facts_(facts), model_(model), names_(names), e_(entity) {}

@@ -13,7 +13,7 @@ namespace verp::camera {
 /// little after its ticks.
 class Recorder {
  public:
-  /// The arguments outlive it.
+  /// The arguments must outlive it.
   Recorder(Rig& rig, const model::Entity& entity, const Params& params, record::TraceWriter& trace);
 
   /// A session::Hooks::exposed. Never throws: an error, in failure(), ends the pictures, not the

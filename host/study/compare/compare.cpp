@@ -11,7 +11,7 @@
 namespace verp::compare {
 namespace {
 
-constexpr double kStill_rad = 0.0035;  ///< 0.2 degrees, two counts of 4096: encoder noise
+constexpr double kStill_rad = 0.0035;  ///< 0.2 degrees rms, two counts of 4096: encoder noise
 constexpr double kAlike = 0.5;         ///< largest residual, part of B's motion
 constexpr double kLeastCommon_s = 0.5;
 constexpr double kLeastRead = 0.5;

@@ -18,7 +18,7 @@ class Connection {
   enum class Stage { kGreeting, kRefused, kOpen, kGone };
   using OnMessage = std::function<void(bool is_text, std::string_view message)>;
 
-  /// `origins`: further allowed ones; they outlive the connection.
+  /// `origins`: further allowed ones; they must outlive the connection.
   Connection(int socket, OnMessage on_message, std::span<const std::string> origins = {});
   ~Connection();
   Connection(const Connection&) = delete;

@@ -13,8 +13,8 @@ namespace verp::live {
 /// Streams a robot's trace, except the channels for `verp replay`, whose encoding is our own.
 class RobotStream : public record::mcap::Listener {
  public:
-  /// The server outlives the stream. `robot`: its name among several (record::TeamChannel); empty:
-  /// a single robot.
+  /// The server must outlive the stream. `robot`: its name among several (record::TeamChannel);
+  /// empty: a single robot.
   explicit RobotStream(Server& server, std::string robot = {})
       : server_(server), robot_(std::move(robot)) {}
 

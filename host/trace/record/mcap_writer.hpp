@@ -31,7 +31,7 @@ int writer_of(const std::filesystem::path& path);
 class Writer {
  public:
   /// kZstd compresses chunks that become shorter. Without `path` all goes to the listener, which
-  /// outlives the writer.
+  /// must outlive the writer.
   Writer(std::filesystem::path path, std::string_view profile, std::string_view library,
          Compression compression = Compression::kNone, Listener* listener = nullptr);
   ~Writer();  ///< without close(): flushes, and leaves the part file without summary

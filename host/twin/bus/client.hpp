@@ -42,7 +42,7 @@ class Client {
 
   /// `timeout_us`: in addition to the reply's own bytes.
   Client(const link::Endpoint& endpoint, std::uint32_t timeout_us);
-  /// The caller owns the link, which outlives the client; `endpoint` is its place.
+  /// The caller owns the link, which must outlive the client; `endpoint` is its place.
   Client(link::Link& link, const link::Endpoint& endpoint, std::uint32_t timeout_us);
 
   /// Every device that answers a broadcast Ping, sorted by id.

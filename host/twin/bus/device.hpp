@@ -49,7 +49,7 @@ class Device {
 
   void lose_power();
   void reboot();
-  /// Control Table Backup: stores the table, or restores the EEPROM and restarts.
+  /// e-Manual, Control Table Backup: stores the table, or restores the EEPROM and restarts.
   virtual dxl::Error backup(std::span<const std::uint8_t>) { return dxl::Error::kInstruction; }
   /// Refused while torque is on. Unless kept, the id becomes 1 and the baud rate 57600.
   dxl::Error factory_reset(dxl::Reset reset);

@@ -151,7 +151,7 @@ std::int32_t still_position(Client& client, std::uint8_t id) {
 
 ZeroFix zero_fix(Client& client, std::uint8_t id, std::int32_t count, std::int32_t model_count) {
   ZeroFix fix{.count = count, .homing_before = read_i32(client, id, at::kHomingOffset)};
-  // Present Position is the encoder's count plus Homing Offset.
+  // e-Manual: Present Position is the encoder's count plus Homing Offset.
   fix.homing_after = fix.homing_before + model_count - count;
   fix.model_offset = count;
   fix.servo_can = fix.homing_after >= -kMostHoming && fix.homing_after <= kMostHoming;

@@ -24,7 +24,7 @@ namespace verp::bus {
 ///
 /// In a Sync or Bulk Read a silent device silences those behind it. Replies of devices with the
 /// same id collide (collision.hpp). A device at another baud rate neither hears nor answers.
-/// Deterministic.
+/// Deterministic: the same frames give the same replies at the same times.
 class VirtualBus {
  public:
   /// The plant must outlive the bus and be at time 0.

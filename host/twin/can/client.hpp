@@ -72,7 +72,7 @@ class Client {
   static constexpr int kAttempts = 3;  ///< per unanswered transfer
 
   Client(const link::Endpoint& endpoint, std::uint32_t timeout_us);
-  /// The caller owns the port, which outlives the client; `endpoint` is its place.
+  /// The caller owns the port, which must outlive the client; `endpoint` is its place.
   Client(link::CanPort& port, const link::Endpoint& endpoint, std::uint32_t timeout_us);
   Client(ClientBus& bus, std::string place, std::uint32_t timeout_us);
   Client(const Client&) = delete;

@@ -36,7 +36,8 @@ class Interference {
 /// the wire for the next multiple of the control period. Otherwise only frames and poll's timeouts
 /// advance time. A frame takes its exact bits, with stuff bits. The lowest waiting identifier goes
 /// first. A node samples for a SYNC when that ends, applies a target when its frame has arrived,
-/// and works once a millisecond. Deterministic.
+/// and works once a millisecond. Deterministic: the same frames give the same answers at the same
+/// times.
 class VirtualCan {
  public:
   /// The plant must outlive the bus and be at time 0.

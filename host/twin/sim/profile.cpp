@@ -23,7 +23,7 @@ void Profile::begin(const ServoSetpoint& setpoint, double step_s) {
   ongoing_ = true;
   const double way = std::abs(goal_count_ - count_);
   const bool timed = setpoint.profile_ms != 0;
-  // Profile Acceleration (108): at most half of the time.
+  // e-Manual, Profile Acceleration (108): at most half of the time.
   const double accelerate_s =
       1e-3 * std::min(setpoint.accelerate_ms, static_cast<double>(setpoint.profile_ms) / 2);
   top_count_s_ =

@@ -9,8 +9,8 @@
 #include "host/twin/sim/scenery.hpp"
 #include "host/twin/sim/world.hpp"
 
-/// Named access to a running world's physics, and external pushes. A new value acts from the next
-/// step on.
+/// Named access to a running world's physics, and external pushes. Reading changes nothing; a new
+/// value acts from the next step on.
 namespace verp::sim {
 
 /// A robot's link or an object.

@@ -8,8 +8,8 @@
 namespace verp::sim {
 namespace {
 
-constexpr double kFullPwm = 885.0;  ///< X-series, PWM Limit: 885 is 100 %
-// Position PID Gain: PWM units per count for one unit of each gain.
+constexpr double kFullPwm = 885.0;  ///< e-Manual X-series, PWM Limit: 885 is 100 %
+// e-Manual X-series, Position PID Gain: PWM units per count for one unit of each gain.
 constexpr double kPerP = 1.0 / 128.0;
 constexpr double kPerI = 1.0 / 65536.0;
 constexpr double kPerD = 1.0 / 16.0;

@@ -58,6 +58,7 @@ namespace Verp {
         Checked(Native.verp_core_forward(handle, angles, Length(angle_rad), to));
       return poses;
     }
+    /// <summary>Centre of mass, body frame.</summary>
     public float[] Com(float[] angle_rad) {
       var com_m = new float[3];
       fixed (float* angles = angle_rad, to = com_m) Checked(Native.verp_core_com(handle, angles, Length(angle_rad), to));
