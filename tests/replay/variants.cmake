@@ -83,7 +83,7 @@ add_custom_target(replay_counted ALL DEPENDS ${programs})
 add_test(NAME replay.coverage
   COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/coverage ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/counted ${VERP_LONG_TRACE}
     ${VERP_GCOV} ${CMAKE_NM})
-set_tests_properties(replay.coverage PROPERTIES LABELS replay FIXTURES_REQUIRED long_trace REQUIRED_FILES ${programs})
+set_tests_properties(replay.coverage PROPERTIES COST 1000 LABELS replay FIXTURES_REQUIRED long_trace REQUIRED_FILES ${programs})
 
 # The boot check must refuse a core whose products are not rounded. The x87 keeps them in 80 bits.
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL x86_64)
