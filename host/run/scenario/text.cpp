@@ -91,16 +91,6 @@ class Reader {
     if (seed > kMostSeed)
       fail(key, fmt::format("{} is out of range; give 0 to {}", seed, kMostSeed));
   }
-  /// A file that the value names; `find` throws LoadError without it.
-  template <class Find>
-  void file(const char* key, Find&& find) const {
-    try {
-      find();
-    } catch (const model::LoadError& error) {
-      throw model::LoadError(
-          file_, 0, fmt::format("{}: {}: {}", join(key), error.file, error.message), error.fix);
-    }
-  }
 
   template <class T, class Fields>
   void object(const char* key, T& value, Fields&& fields) {
@@ -173,7 +163,6 @@ void fields(Io& io, World& world) {
     constexpr double kSteps_ms[] = {0.25, 0.5, 1, 2};
     if (std::ranges::find(kSteps_ms, world.physics_step_ms) == std::end(kSteps_ms))
       io.fail("physics_step_ms", "give one of: 0.25, 0.5, 1, 2");
-    if (!world.file.empty()) io.file("file", [&] { model::find_world(world.file); });
   }
 }
 
@@ -199,9 +188,6 @@ void fields(Io& io, Controller& controller) {
   if constexpr (Io::kReads) {
     if (!controller.board.empty() && !controller.link.empty())
       io.fail("", "give one of board, link");
-    const std::filesystem::path folder = controller.folder;
-    if (!folder.empty() && !std::filesystem::exists(folder / "controller.hpp"))
-      io.fail("folder", fmt::format("{} has no controller.hpp", controller.folder));
   }
 }
 
@@ -288,7 +274,6 @@ void fields(Io& io, Robot& robot) {
   const auto each = [](auto& inner, auto& value) { fields(inner, value); };
   io.value("name", robot.name);
   io.value("model", robot.model);
-  if constexpr (Io::kReads) io.file("model", [&] { model::find_model(robot.model); });
   io.value("bus", robot.bus);
   io.object("tuning", robot.tuning, each);
   io.object("orders", robot.orders, each);
@@ -391,6 +376,32 @@ Json parsed(const std::string& text, const std::string& file) {
   }
 }
 
+/// Runs `find`, which looks for the file that a key names. Throws LoadError with the key.
+template <class Find>
+void look_for(const std::string& file, const std::string& key, Find&& find) {
+  try {
+    find();
+  } catch (const model::LoadError& error) {
+    throw model::LoadError(file, 0, fmt::format("{}: {}: {}", key, error.file, error.message),
+                           error.fix);
+  }
+}
+
+void require_files(const Scenario& scenario, const std::string& file) {
+  const std::string& world = scenario.world.file;
+  if (!world.empty()) look_for(file, "world.file", [&] { model::find_world(world); });
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
+    const Robot& robot = scenario.robots[i];
+    const std::string key = fmt::format("robots[{}].", i);
+    look_for(file, key + "model", [&] { model::find_model(robot.model); });
+    const std::filesystem::path folder = robot.controller.folder;
+    if (folder.empty() || std::filesystem::exists(folder / "controller.hpp")) continue;
+    throw model::LoadError(file, 0,
+                           key + "controller.folder: " + folder.string() + " has no controller.hpp",
+                           "`verp new controller NAME` lays out a folder that has");
+  }
+}
+
 }  // namespace
 
 std::optional<sim::Lies> start_of(const std::string& name) {
@@ -421,7 +432,9 @@ Scenario parse(const std::string& text, const std::string& file) {
 Scenario read(const std::string& file) {
   const auto text = std::filesystem::is_directory(file) ? std::nullopt : files::read(file);
   if (!text) throw model::LoadError(file, 0, "cannot be read", "give a scenario's file");
-  return parse(*text, file);
+  Scenario scenario = parse(*text, file);
+  require_files(scenario, file);
+  return scenario;
 }
 
 }  // namespace verp::scenario

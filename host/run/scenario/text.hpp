@@ -12,6 +12,7 @@ std::string print(const Scenario& scenario);
 /// Missing fields keep their default. Throws model::LoadError with `file` and key for an unknown
 /// key, a wrong type or range.
 Scenario parse(const std::string& text, const std::string& file);
+/// Also throws for a robot, world or controller that is not there.
 Scenario read(const std::string& file);
 
 /// "standing", "lying:front" and so on; else empty.

@@ -19,7 +19,7 @@ class Draw {
   explicit Draw(unsigned seed) : random_(seed) {}
 
   Scenario scenario() {
-    Scenario s{.world = {.file = text(), .physics_step_ms = number(0.25, 2)},
+    Scenario s{.world = {.file = text(), .physics_step_ms = 0.25 * (1 << below(4))},
                .robots = {},
                .radio = {},
                .length_s = number(3, 100),
@@ -30,6 +30,7 @@ class Draw {
     for (int i = 0; i < robots; ++i) {
       s.robots.push_back(robot());
       s.robots.back().name = "r" + std::to_string(i);
+      s.robots.back().at.x_m += 20 * i;
     }
     if (flag())
       s.radio = Radio{.conditions = {.range_m = number(1, 9), .most_bytes = 50}, .seed = 9};
@@ -45,7 +46,8 @@ class Draw {
     if (flag()) r.orders = Velocity{number(-2, 2), number(-2, 2), number(-6, 6)};
     if (flag()) r.orders = Ahead{number(0, 0.15)};
     if (flag()) r.orders = Stand{};
-    r.controller = {.folder = text(), .board = text(), .link = text()};
+    r.controller.folder = text();
+    (flag() ? r.controller.board : r.controller.link) = text();
     r.seed = random_();
     r.vary = flag();
     r.at = {number(-9, 9), number(-9, 9), number(-3, 3)};
@@ -121,8 +123,8 @@ TEST(ScenarioFile, RefusesWhatItDoesNotUnderstandByFileAndKey) {
   expect_refused(R"({"real_time": 1})", "real_time: 1 is not true or false");
   expect_refused(R"({"world": {"file": 3}})", "world.file: 3 is not a text");
   expect_refused(R"({"robots": {}})", "robots: is no list");
-  expect_refused(R"({"robots": []})", "robots: there is none");
-  expect_refused(R"({"robots": [{}, {}]})", "robots: each of several robots needs a name");
+  expect_refused(R"({"robots": []})", "robots: 0 robots; give 1 to 16");
+  expect_refused(R"({"robots": [{}, {}]})", "robots[0].name: each of several robots needs one");
   expect_refused(R"({"robots": [{"seed": -1}]})", "robots[0].seed: -1 is not a whole number");
   expect_refused(R"({"robots": [{"seed": 1.5}]})", "robots[0].seed: 1.5 is not a whole number");
   expect_refused(R"({"robots": [{"start": "flying"}]})", "robots[0].start: 'flying'");
@@ -134,6 +136,11 @@ TEST(ScenarioFile, RefusesWhatItDoesNotUnderstandByFileAndKey) {
   expect_refused(R"({"robots": [{"disturbances": [{"at_s": 1}]}]})",
                  "robots[0].disturbances[0]: give one of push, set");
   expect_refused(R"({"radio": {"loss": 2}})", "radio: ");
+  expect_refused(R"({"world": {"physics_step_ms": 0.7}})", "give one of: 0.25, 0.5, 1, 2");
+  expect_refused(R"({"robots": [{"name": "a"}, {"name": "a"}]})",
+                 "robots[1].name: robots[0] has it");
+  expect_refused(R"({"robots": [{"name": "a"}, {"name": "b"}]})", "robots[1].at: robots[0] stands");
+  expect_refused(R"({"robots": [{"controller": {"board": "a", "link": "b"}}]})", "board, link");
 }
 
 TEST(Scenario, MakesOnePlanARobotWithThoseDrivenFromOutsideLast) {
