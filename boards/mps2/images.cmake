@@ -170,7 +170,8 @@ function(verp_add_serial_tests machine)
   # Sends actions while it runs, with a power cut.
   add_test(NAME hil.${VERP_BOARD}.actions COMMAND ${CMAKE_SOURCE_DIR}/tests/target/write_flash
     ${machine} $<TARGET_FILE:loop_${VERP_BOARD}> ${VERP_HOST_DIR}/host/apps/tool/verp)
-  set_tests_properties(hil.${VERP_BOARD}.actions PROPERTIES LABELS "hil;target")
+  # gdb plays the flash: beside other emulators that takes longer than a real board may.
+  set_tests_properties(hil.${VERP_BOARD}.actions PROPERTIES LABELS "hil;target" PROCESSORS 2)
   # Walks over a bad cable.
   add_test(NAME hil.${VERP_BOARD}.faults COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=SerialFaults.*)
   set_tests_properties(hil.${VERP_BOARD}.faults PROPERTIES LABELS "hil;target"
