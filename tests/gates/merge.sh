@@ -9,7 +9,7 @@ missing() { echo "$1" && failed=1; }
 
 boards_of_full='mps2_an385 mps2_an500 mps3_an547 nucleo_f446re'
 # The core, and readers of foreign bytes.
-sanitized='unit math replay contract host.action host.bus host.can host.edit host.eds host.files host.link host.live host.model host.radio
+sanitized='unit math replay contract hil host.action host.bus host.can host.edit host.eds host.files host.link host.live host.model host.radio
   host.record host.shadow'
 # Bits of every instruction set, loops over every bus, walks, faults, gates.
 kept='replay.golden replay.matrix trace.mps2_an386 loop.mps2_an386 tour.mps2_an386 bench.mps2_an386 unit.mps2_an386 hil.olimex_h405.walk
