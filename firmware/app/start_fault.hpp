@@ -11,7 +11,7 @@
 namespace verp::app {
 
 /// Opens the servo port and powers the servos, unless there is a fault. On a fault power stays off;
-/// servos with a supply of their own, perhaps left stiff, are told to release if the port works.
+/// servos with a supply of their own may be stiff: they are ordered to release if the port works.
 /// `Servos`: open() (false: the port failed), power(bool), release().
 template <class Servos>
 table::StartFault open_servos(Servos& servos, table::StartFault so_far) {

@@ -27,12 +27,12 @@ struct HilWords {
   bool lockstep = false, real_time = false;
 };
 
-/// `tells`: this program gives the orders; otherwise the controller has its own actions.
-Walk walk_of(const WalkOptions& options, bool tells) {
+/// `gives_orders`: this program does; otherwise the controller has its own actions.
+Walk walk_of(const WalkOptions& options, bool gives_orders) {
   Walk walk{.scenario = scenario_of(options, {}), .run = {}};
   walk.run = expand(options, walk.scenario, {});
   session::WalkPlan& plan = walk.run.plans.front();
-  if (tells && plan.get_ups > 0) action::take_get_up_actions(plan);
+  if (gives_orders && plan.get_ups > 0) action::take_get_up_actions(plan);
   return walk;
 }
 
@@ -171,19 +171,20 @@ void refuse_without_operator(const CLI::App& app) {
 
 int run_hil(const CLI::App& app, HilWords words) {
   WalkOptions& options = words.walk;
-  const bool tells = !words.hil.operator_link.empty();
-  Walk walk = walk_of(options, tells);
+  const bool gives_orders = !words.hil.operator_link.empty();
+  Walk walk = walk_of(options, gives_orders);
   WalkPlan& plan = walk.run.plans.front();
   plan.board = words.hil.link;
   check(words, plan.params);
-  if (!tells) refuse_without_operator(app);
-  if (tells && options.report_folder.empty() && !options.json) options.report_folder = "report";
+  if (!gives_orders) refuse_without_operator(app);
+  if (gives_orders && options.report_folder.empty() && !options.json)
+    options.report_folder = "report";
   LiveStream live("verp hil", options.live);
   WalkFiles files(options, plan, metadata_of(options, plan, walk.scenario), live.robot());
   cli::Progress progress(!options.json);
   KeptTrace kept(files.trace(), files.wants_report());
   const HilResult result = serve_controller(plan, words.hil, progress, {&kept, &live});
-  if (!tells) return answer_served(plan, options, result);
+  if (!gives_orders) return answer_served(plan, options, result);
   cli::Json more = to_json(result);
   live.add_to(more);
   more["changes"] = touch_json(result.walk);

@@ -4,21 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "host/apps/cli/command.hpp"
 #include "host/apps/tool/radio_words.hpp"
+#include "host/run/scenario/text.hpp"
 
 namespace verp::tool {
 namespace {
 
-constexpr int kMostRobots = 16;
 constexpr double kMostPatience_s = 3600;
-
-bool is_name(const std::string& text) {
-  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
-  return !text.empty() && std::all_of(text.begin(), text.end(), plain);
-}
 
 /// `text` without `prefix`; empty if it does not begin so.
 std::string behind(const std::string& prefix, const std::string& text) {
@@ -67,7 +61,7 @@ Seat parse_seat(const std::string& command, const std::string& word) {
 void declare_robots(CLI::App& app, TeamOptions& options) {
   app.add_option("--robots", options.robots,
                  "so many robots in one world, two abreast; their names are r1, r2, ...")
-      ->check(cli::whole_number_between(1, kMostRobots));
+      ->check(cli::whole_number_between(1, scenario::kMostRobots));
 }
 
 void declare_outside(CLI::App& app, TeamOptions& options) {
@@ -102,7 +96,7 @@ bool sort_robot_words(const std::vector<std::string>& words, std::string& model,
   bool given = false;
   for (const std::string& word : words) {
     const std::size_t equals = word.find('=');
-    if (equals != std::string::npos && is_name(word.substr(0, equals))) {
+    if (equals != std::string::npos && scenario::is_name(word.substr(0, equals))) {
       seats.push_back(word);
       continue;
     }
@@ -137,9 +131,9 @@ std::vector<Seat> seats_of(const std::string& command, const TeamOptions& option
                                    [&](const Seat& each) { return each.name == seat.name; });
     same == seats.end() ? seats.push_back(seat) : void(*same = seat);
   }
-  if (seats.size() > kMostRobots) {
+  if (seats.size() > scenario::kMostRobots) {
     throw cli::ToolError(cli::kBadInput, fmt::format("{}: {} robots; a world has room for {}",
-                                                     command, seats.size(), kMostRobots));
+                                                     command, seats.size(), scenario::kMostRobots));
   }
   return seats;
 }

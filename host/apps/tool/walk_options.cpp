@@ -106,7 +106,7 @@ void declare_tuning(CLI::App& app, WalkOptions& options) {
 void declare_basics(CLI::App& app, WalkOptions& options) {
   declare_gait(app, options);
   app.add_option("--seed", options.seed, "of every random thing in the twin")
-      ->check(cli::whole_number_between(0, 4294967295))
+      ->check(cli::whole_number_between(0, scenario::kMostSeed))
       ->capture_default_str();
   app.add_option("--record", options.record_file, "write the trace here (.mcap)");
   app.add_option("--report", options.report_folder, "write the report here (default: report)");
@@ -288,15 +288,14 @@ void read_robot_words(WalkOptions& options) {
 }
 
 std::pair<std::uint64_t, std::uint64_t> seeds_of(const WalkOptions& options) {
-  constexpr double kLargestSeed = 4294967295;
   const std::vector<std::string> parts = split(options.seeds_text, '-');
   const std::string& command = options.command;
   if (parts.size() != 2) {
     throw cli::ToolError(cli::kBadInput, fmt::format("{}: --seeds '{}' is not A-B; example: 1-20",
                                                      command, options.seeds_text));
   }
-  const double first = number(command, "--seeds A", parts[0], 0, kLargestSeed, "");
-  const double last = number(command, "--seeds B", parts[1], 0, kLargestSeed, "");
+  const double first = number(command, "--seeds A", parts[0], 0, scenario::kMostSeed, "");
+  const double last = number(command, "--seeds B", parts[1], 0, scenario::kMostSeed, "");
   if (last < first) {
     throw cli::ToolError(
         cli::kBadInput, fmt::format("{}: --seeds '{}' goes down; the smaller one is first", command,

@@ -55,7 +55,7 @@ struct SendOptions {
   int actions = 0;  ///< their number
   std::function<bool(std::size_t)> went = [](std::size_t) { return true; };
   double place_s = 15;  ///< limit to make a place
-  double start_s = 60;  ///< limit to write and restart; a board in QEMU took 35 s beside others
+  double start_s = 60;  ///< limit to write and restart; 30 were too few for a busy QEMU
 };
 
 /// Sends kept_image() and waits for the restart. False: `went` stopped it. Throws bus::DeviceError;

@@ -133,7 +133,7 @@ class Assembler {
     }
   }
 
-  /// P gain that fits the robot, and an eighth as D gain, where the file gives none.
+  /// Where the file has no gains: a P gain that fits the robot, and an eighth of it as D gain.
   void fit_gains() {
     std::map<std::string, std::uint16_t> fitted;
     for (const ServoFact& fact : facts_.bus().servos) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -20,6 +21,9 @@
 ///
 /// Defaults are those of `verp walk`. text.hpp reads and prints a Scenario as JSON.
 namespace verp::scenario {
+
+inline constexpr std::size_t kMostRobots = 16;
+inline constexpr std::uint64_t kMostSeed = 4294967295;
 
 struct World {
   std::string file;  ///< name in common/worlds or an SDF file; empty: level floor

@@ -16,6 +16,7 @@
 #include "host/robot/model/load_error.hpp"
 #include "host/robot/model/load_world.hpp"
 #include "host/robot/model/params.hpp"
+#include "host/run/session/plan.hpp"
 
 namespace verp::scenario {
 namespace {
@@ -30,8 +31,6 @@ constexpr std::pair<const char*, sim::Lies> kStarts[] = {
 struct Limits {
   double low, high;
 };
-constexpr std::uint64_t kMostSeed = 4294967295;
-constexpr std::size_t kMostRobots = 16;
 constexpr Limits kAny{-1e12, 1e12}, kPlace{-1000, 1000}, kSpeed{-2, 2}, kTurn{-6.3, 6.3};
 
 class Writer {
@@ -325,14 +324,8 @@ void fields(Io& io, Scenario& scenario) {
   io.number("patience_s", scenario.patience_s, {0.1, 3600});
 }
 
-bool is_name(const std::string& text) {
-  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
-  return std::ranges::all_of(text, plain);
-}
-
 /// Refuses robots that cannot be in one world.
 void check_robots(const std::vector<Robot>& robots, const Reader& reader) {
-  constexpr double kLeast_m = 0.1;  // session::Session refuses less
   if (robots.empty() || robots.size() > kMostRobots)
     reader.fail("robots", fmt::format("{} robots; give 1 to {}", robots.size(), kMostRobots));
   for (std::size_t i = 0; i < robots.size(); ++i) {
@@ -340,13 +333,16 @@ void check_robots(const std::vector<Robot>& robots, const Reader& reader) {
     const auto fail = [&](const char* key, const std::string& what) {
       reader.fail(fmt::format("robots[{}].{}", i, key), what);
     };
-    if (!is_name(robot.name)) fail("name", "a name has letters, digits, _ and -");
     if (robot.name.empty() && robots.size() > 1) fail("name", "each of several robots needs one");
+    if (!robot.name.empty() && !is_name(robot.name))
+      fail("name", "a name has letters, digits, _ and -");
     for (std::size_t other = 0; other < i; ++other) {
       const Robot& there = robots[other];
       if (there.name == robot.name) fail("name", fmt::format("robots[{}] has it too", other));
-      if (std::hypot(there.at.x_m - robot.at.x_m, there.at.y_m - robot.at.y_m) < kLeast_m)
-        fail("at", fmt::format("robots[{}] stands there; keep them {:g} m apart", other, kLeast_m));
+      if (std::hypot(there.at.x_m - robot.at.x_m, there.at.y_m - robot.at.y_m) <
+          session::kLeastApart_m)
+        fail("at", fmt::format("robots[{}] stands there; keep them {:g} m apart", other,
+                               session::kLeastApart_m));
     }
   }
 }
@@ -403,6 +399,11 @@ void require_files(const Scenario& scenario, const std::string& file) {
 }
 
 }  // namespace
+
+bool is_name(const std::string& text) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
+  return !text.empty() && std::ranges::all_of(text, plain);
+}
 
 std::optional<sim::Lies> start_of(const std::string& name) {
   for (const auto& [text, value] : kStarts) {

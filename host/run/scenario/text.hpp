@@ -15,6 +15,9 @@ Scenario parse(const std::string& text, const std::string& file);
 /// Also throws for a robot, world or controller that is not there.
 Scenario read(const std::string& file);
 
+/// A robot's name may have letters, digits, _ and -.
+bool is_name(const std::string& text);
+
 /// "standing", "lying:front" and so on; else empty.
 std::optional<sim::Lies> start_of(const std::string& name);
 

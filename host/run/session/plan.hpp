@@ -22,6 +22,9 @@ namespace verp::session {
 /// One tick of a controller in this process: Outputs for the robot, State for the trace.
 using Decide = std::function<void(const Params&, State&, const Inputs&, Outputs&)>;
 
+/// Robots begin at least this far from each other.
+inline constexpr double kLeastApart_m = 0.1;
+
 /// One walk of one robot, determined by these values and the world's.
 struct WalkPlan {
   model::Entity entity;

@@ -70,12 +70,11 @@ double ground_m(const sim::World& world, const sim::Vec3& start_m) {
 
 /// Throws NoRoom: a tick of robots inside each other takes minutes.
 void Session::need_room(const sim::Vec3& start_m) const {
-  constexpr double kLeast_m = 0.1;
   for (std::size_t i = 0; i < seats_.size(); ++i) {
     const sim::Vec3 way_m = start_m - seats_[i]->start_m;
-    if (way_m.head<2>().norm() >= kLeast_m) continue;
+    if (way_m.head<2>().norm() >= kLeastApart_m) continue;
     throw NoRoom(fmt::format("robot {} stands there already: robots begin at least {:g} m apart", i,
-                             kLeast_m));
+                             kLeastApart_m));
   }
 }
 

@@ -53,7 +53,7 @@ class Device {
   virtual dxl::Error backup(std::span<const std::uint8_t>) { return dxl::Error::kInstruction; }
   /// Refused while torque is on. Unless kept, the id becomes 1 and the baud rate 57600.
   dxl::Error factory_reset(dxl::Reset reset);
-  /// Removes full turns from Present Position; the twin has none. Refused while moving.
+  /// Removes full turns from Present Position; the twin has no full turns. Refused while moving.
   dxl::Error clear(std::span<const std::uint8_t> parameters);
 
  protected:

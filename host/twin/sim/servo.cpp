@@ -93,7 +93,7 @@ double ServoModel::position_loop(const ServoSetpoint& setpoint) {
   return std::clamp(pwm, -limit, limit) / kFullPwm;
 }
 
-// Velocity PI Gain (76, 78); the error's unit is an estimate, the e-Manual gives none.
+// Velocity PI Gain (76, 78). The error's unit is an estimate: it is not in the e-Manual.
 double ServoModel::velocity_loop(const ServoSetpoint& setpoint) {
   const double step_ms = joint_.servo.loop_s * 1e3;
   const double limit = std::min(static_cast<double>(setpoint.pwm_limit), kFullPwm);
