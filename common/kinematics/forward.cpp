@@ -65,11 +65,19 @@ void chain(const Pose& parent, const JointParams& joint, const math::SinCos& tur
 }
 
 Pose node_pose(const Params& params, const Pose& body, const float* angle_rad, int node) {
-  if (node == 0) return body;
-  const JointParams& joint = params.joint[node - 1];
-  Pose link;
-  chain(node_pose(params, body, angle_rad, joint.parent), joint, angle_rad[node - 1], link);
-  return link;
+  // A recursion would have no stack bound.
+  int path[kMaxJoints];
+  int length = 0;
+  for (; node != 0 && length < kMaxJoints; node = params.joint[node - 1].parent) {
+    path[length++] = node;
+  }
+  Pose pose = body;
+  while (length > 0) {
+    const int each = path[--length] - 1;
+    const Pose parent = pose;
+    chain(parent, params.joint[each], angle_rad[each], pose);
+  }
+  return pose;
 }
 
 void all_poses(const Params& params, const Pose& body, const float* angle_rad, Pose* node) {
