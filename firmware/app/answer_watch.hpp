@@ -30,107 +30,36 @@ class AnswerWatch {
   static constexpr int kSources = kCanNodes + 1;
   static constexpr int kMostGroups = kMaxJoints / canopen::plan::kAnswersToOneSync + 2;
 
-  void plan(int source, std::uint8_t group) {
-    planned_ |= node_bit(source);
-    source_[source] = {group, group, 0, 0, 0};
-  }
+  void plan(int source, std::uint8_t group);
   /// Sources that answer another SYNC than planned.
-  NodeMask astray() const {
-    NodeMask mask = 0;
-    for (int i = 0; i < kSources; ++i) {
-      mask |= source_[i].group != source_[i].planned ? node_bit(i) : 0;
-    }
-    return mask;
-  }
+  NodeMask astray() const;
   void restore(int source) { source_[source].group = source_[source].planned; }
 
-  void begin() {
-    const NodeMask missed = prompt_times_ == kKnown ? planned_ & ~answered_ : 0;
-    const bool tardy = tardy_ticks_ > 0;
-    if (tardy) --tardy_ticks_;
-    owing_ |= owing_since_ | (tardy ? 0 : missed);
-    owing_since_ = tardy ? missed : 0;
-    for (int i = 0; i < kSources; ++i) {
-      if ((answered_ & node_bit(i)) == 0) source_[i].times = 0;
-      source_[i].came = 0;
-    }
-    before_ = fresh_;
-    answered_ = fresh_ = spoilt_ = 0;
-  }
+  void begin();
   /// Call when a drive's SDO answer, requested at the end of the last tick, was there when this
   /// tick began: a ready PDO would have preceded it on the wire.
-  void prompt() {
-    owing_ = 0;
-    if (prompt_times_ < kKnown) ++prompt_times_;
-  }
+  void prompt();
   /// True if no source counts: the whole bus may be late.
   bool all_owe() const { return planned_ != 0 && (owing_ | owing_since_) == planned_; }
 
   /// Rates an answer that came after SYNC `window`.
-  Answer take(int source, std::uint8_t window) {
-    Source& each = source_[source];
-    const NodeMask bit = node_bit(source);
-    const bool first = (answered_ & bit) == 0;
-    answered_ |= bit;
-    if (((owing_ | owing_since_ | spoilt_) & bit) != 0) return Answer::kOld;
-    if (first) each.came = window;
-    if ((fresh_ & bit) != 0) return Answer::kAgain;
-    const bool planned = window == each.group;
-    if (planned) each.times = 0;
-    const bool later = window > each.group && (before_ & bit) != 0;
-    if (!planned && !move(each, window) && !later) return Answer::kOld;
-    fresh_ |= bit;
-    return Answer::kFresh;
-  }
+  Answer take(int source, std::uint8_t window);
   /// Two answers of this source in this tick differ: neither counts.
-  void spoil(int source) {
-    tardy_ticks_ = kTardyTicks;
-    fresh_ &= ~node_bit(source);
-    spoilt_ |= node_bit(source);
-  }
+  void spoil(int source);
   /// An answer after the tick does not count, but may show that the node now answers the last SYNC.
-  void take_late(int source, std::uint8_t last_window) {
-    Source& each = source_[source];
-    if (each.group != last_window) move(each, last_window);
-  }
+  void take_late(int source, std::uint8_t last_window);
 
   /// Sources that should answer this SYNC, or did in the last tick, and have not yet. Excludes
   /// `given_up`.
-  NodeMask due(std::uint8_t window, NodeMask given_up) const {
-    NodeMask mask = 0;
-    for (int i = 0; i < kSources; ++i) {
-      const Source& each = source_[i];
-      const bool again = each.times > 0 && each.heard == window;
-      mask |= each.group == window || again ? node_bit(i) : 0;
-    }
-    return mask & planned_ & ~answered_ & ~given_up;
-  }
+  NodeMask due(std::uint8_t window, NodeMask given_up) const;
   /// The group most of whose nodes answered SYNC `window` first, while most planned for it did not;
   /// 0: none. A single node proves nothing.
-  std::uint8_t group_in(std::uint8_t window) const {
-    int meant = 0, came = 0;
-    for (const Source& each : source_) {
-      if (each.planned != window) continue;
-      ++meant;
-      came += each.came == window ? 1 : 0;
-    }
-    if (came * 2 > meant) return 0;
-    return most(2, [&](int i) { return source_[i].came == window; });
-  }
+  std::uint8_t group_in(std::uint8_t window) const;
   /// True if most nodes planned for SYNC `window` answered in the previous tick, not in this. Two
   /// lost answers may be coincidence.
-  bool fell_silent(std::uint8_t window) const {
-    return most(3, [&](int i) {
-             return ((before_ & ~answered_) >> i & 1) != 0 && source_[i].planned == window;
-           }) == window;
-  }
+  bool fell_silent(std::uint8_t window) const;
   /// All nodes answer their planned SYNCs from now on.
-  void realign() {
-    for (Source& each : source_) {
-      each.group = each.planned;
-      each.times = 0;
-    }
-  }
+  void realign();
   NodeMask planned() const { return planned_; }
   NodeMask answered() const { return answered_; }
 
@@ -165,14 +94,7 @@ class AnswerWatch {
     return found;
   }
   /// True: the answer is expected in `window` from now on.
-  bool move(Source& each, std::uint8_t window) const {
-    each.times = each.heard == window ? static_cast<std::uint8_t>(each.times + 1) : std::uint8_t{1};
-    each.heard = window;
-    if (each.times < (prompt_times_ == kKnown ? kTicks : kTicksUnknown)) return false;
-    each.group = window;
-    each.times = 0;
-    return true;
-  }
+  bool move(Source& each, std::uint8_t window) const;
   Source source_[kSources];
   NodeMask planned_ = 0;
   NodeMask answered_ = ~NodeMask{0};

@@ -2,8 +2,12 @@
 #include <cstdint>
 
 #include "common/io/io.hpp"
+#include "common/model/params.hpp"
 
 namespace verp::app {
+
+class BusMaster;
+class CanMaster;
 
 enum class BringUpStatus : std::uint8_t {
   kReady,
@@ -28,5 +32,14 @@ struct BringUpReport {
   /// Bit j: joint j's drive has another maker's vendor id (1018h:1).
   std::uint32_t foreign_drives = 0;
 };
+
+/// Finds every device of the robot on the bus and writes its settings from Params, torque off.
+/// Writes EEPROM only where it differs, because it wears out; reads everything back.
+BringUpReport bring_up(const Params& params, BusMaster& master);
+
+/// Finds every node of the robot, sets it up and starts it, torque off. It listens first: resetting
+/// nodes would drop a robot that another controller runs. It then resets all nodes, so none stays
+/// stiff and unwritten settings have their stored values.
+BringUpReport bring_up(const Params& params, CanMaster& master);
 
 }  // namespace verp::app

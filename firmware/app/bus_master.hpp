@@ -14,10 +14,9 @@ namespace verp::app {
 
 enum class Take { kStray, kMore, kDone };
 
-template <hal::FrameBus Bus>
 class BusMaster {
  public:
-  explicit BusMaster(Bus& bus) : bus_(bus) {}
+  explicit BusMaster(hal::FrameBus& bus) : bus_(bus) {}
 
   std::uint8_t* frame() { return tx_; }  ///< build requests here
   static constexpr std::size_t capacity() { return sizeof tx_; }
@@ -31,18 +30,10 @@ class BusMaster {
   /// name its request, so its length must. 0 after an answered request, since bytes keep their
   /// order. Otherwise different from the last two reads, whose replies may still arrive. Call for
   /// at most two reads a tick, so that a number repeats only after three ticks.
-  std::uint8_t spare_bytes() {
-    if (missed_) spare_ = spare_ < kMostSpare ? static_cast<std::uint8_t>(spare_ + 1) : 0;
-    missed_ = false;
-    return spare_;
-  }
+  std::uint8_t spare_bytes();
 
   /// Sends frame(), for frames without a reply.
-  bool send(std::size_t size) {
-    if (size != 0 && bus_.send(tx_, size)) return true;
-    ++counters_.refused;
-    return false;
-  }
+  bool send(std::size_t size);
 
   /// Passes each status packet to `take` until it returns kDone or time is over.
   template <class Handler>
@@ -68,16 +59,7 @@ class BusMaster {
 
  private:
   /// Drops late bytes; whole packets count as strays.
-  void settle() {
-    constexpr int kMostPieces = 8;  // a flooded bus must not block
-    const auto stray = [](const dxl::Packet&) { return Take::kStray; };
-    for (int i = 0; i < kMostPieces; ++i) {
-      const std::size_t count = bus_.poll(rx_, sizeof rx_, 0);
-      if (count == 0) break;
-      digest(count, stray);
-    }
-    unsettled_ = false;
-  }
+  void settle();
 
   template <class Handler>
   bool digest(std::size_t count, const Handler& take) {
@@ -95,7 +77,7 @@ class BusMaster {
     return done;
   }
 
-  Bus& bus_;
+  hal::FrameBus& bus_;
   dxl::Parser parser_;
   BusCounters counters_;
   bool unsettled_ = true;

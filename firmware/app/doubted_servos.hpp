@@ -17,7 +17,6 @@ namespace verp::app {
 /// the core holds and lowers the robot. A servo that kept its torque counts again. Any other gets
 /// gains and profile once the robot was released, and rises from the pose it is found in. After a
 /// hardware error a servo is treated alike until it is rebooted.
-template <hal::FrameBus Bus>
 class DoubtedServos {
  public:
   explicit DoubtedServos(const Params& params) : params_(params) {}
@@ -25,96 +24,26 @@ class DoubtedServos {
   /// Bit j: joint j's servo is doubted.
   std::uint32_t all() const { return doubted_; }
 
-  void silent_for(int joint, std::uint32_t time_us) {
-    if (time_us < patience_us_) return;
-    doubted_ |= 1u << joint;
-    here_ &= ~(1u << joint);
-  }
+  void silent_for(int joint, std::uint32_t time_us);
   /// `alert`: the answer's hardware error bit. True: the answer counts.
-  bool counts(int joint, bool alert) {
-    if (!alert) broken_ &= ~(1u << joint);
-    here_ |= doubted_ & ~broken_ & 1u << joint;
-    return (doubted_ >> joint & 1) == 0;
-  }
+  bool counts(int joint, bool alert);
   /// A hardware error took the servo's torque.
-  void shut_down(int joint) {
-    doubted_ |= 1u << joint;
-    broken_ |= 1u << joint;
-    here_ &= ~(1u << joint);
-  }
+  void shut_down(int joint);
 
   /// Call in ticks with room on the bus: queries a few servos, or sets them up again. `torque`:
   /// torque is wanted.
-  void resolve(BusMaster<Bus>& master, bool torque) {
-    if (!torque) limp_ = 0;
-    if (torque) renewals_ = 0;
-    const std::uint32_t open = here_ & ~limp_;
-    if (open == 0) return;
-    if (torque) {
-      ask(master, some(open));
-    } else {
-      renew(master);
-    }
-  }
+  void resolve(BusMaster& master, bool torque);
 
  private:
   static constexpr std::uint8_t kRepeats = 3;  ///< of unconfirmed writes
 
-  std::uint32_t some(std::uint32_t joints) const {
-    std::uint32_t chosen = 0;
-    std::size_t count = 0;
-    for (int j = 0; j < params_.servo_count() && count < kResolvedAtOnce; ++j) {
-      if ((joints >> j & 1) == 0) continue;
-      chosen |= 1u << j;
-      ++count;
-    }
-    return chosen;
-  }
-
-  void ask(BusMaster<Bus>& master, std::uint32_t joints) {
-    ReadChain<kResolvedAtOnce> chain;
-    for (int j = 0; j < params_.servo_count(); ++j) {
-      if ((joints >> j & 1) != 0) {
-        chain.add(params_.joint[j].servo_id, static_cast<std::uint8_t>(j));
-      }
-    }
-    constexpr std::uint16_t kBytes = 1;
-    const auto count = static_cast<std::size_t>(chain.count());
-    const std::size_t frame =
-        dxl::encode_sync_read(master.frame(), master.capacity(), dxl::Instruction::kSyncRead,
-                              dxl::address::kTorqueEnable, kBytes, chain.ids(), count);
-    chain.begin();
-    master.request(frame, timeout_us(sync_read_bytes(count, kBytes), count, params_.baud),
-                   [&](const dxl::Packet& packet) {
-                     if (packet.size != kBytes) return Take::kStray;
-                     const int joint = chain.match(packet.id);
-                     if (joint < 0) return Take::kStray;
-                     learn(joint, packet.parameters[0] != 0);
-                     return chain.ended() ? Take::kDone : Take::kMore;
-                   });
-  }
-  void learn(int joint, bool kept) {
-    const std::uint32_t bit = 1u << joint;
-    if (kept) trust(bit);
-    if (!kept) limp_ |= bit;
-  }
-  void trust(std::uint32_t joints) {
-    doubted_ &= ~joints;
-    here_ &= ~joints;
-  }
-
-  void renew(BusMaster<Bus>& master) {
-    if (renewals_ == 0) {
-      batch_ = some(here_);
-      renewals_ = kRepeats;
-    }
-    send_ram(master, dxl::address::kPositionDGain, &ServoRam::gains);
-    send_ram(master, dxl::address::kProfileAcceleration, &ServoRam::motion);
-    if (--renewals_ == 0) trust(batch_ & here_);
-  }
+  std::uint32_t some(std::uint32_t joints) const;
+  void ask(BusMaster& master, std::uint32_t joints);
+  void learn(int joint, bool kept);
+  void trust(std::uint32_t joints);
+  void renew(BusMaster& master);
   template <std::size_t bytes>
-  void send_ram(BusMaster<Bus>& master, std::uint16_t address,
-                std::uint8_t (ServoRam::*part)[bytes]) {
+  void send_ram(BusMaster& master, std::uint16_t address, std::uint8_t (ServoRam::*part)[bytes]) {
     dxl::Encoder encoder(master.frame(), master.capacity());
     dxl::begin_sync_write(encoder, address, bytes);
     for (int j = 0; j < params_.servo_count(); ++j) {

@@ -15,8 +15,8 @@ concept Clock = requires(const Source& clock) {
 
 /// A FrameBus over a byte stream to real devices, such as a serial port. Bus time is the clock's,
 /// from construction. While the link is lost, polls wait out their timeout.
-template <hal::ByteLink Link, Clock Source>
-class LinkBus {
+template <std::derived_from<hal::ByteLink> Link, Clock Source>
+class LinkBus final : public hal::FrameBus {
  public:
   /// `held_us`: how long the link may delay bytes, both directions together; 0 for a wire.
   LinkBus(Link& link, const Source& clock, std::uint32_t held_us = 0)
@@ -24,7 +24,7 @@ class LinkBus {
 
   void set_held(std::uint32_t held_us) { held_us_ = held_us; }
 
-  bool send(const std::uint8_t* data, std::size_t size) {
+  bool send(const std::uint8_t* data, std::size_t size) override {
     if (size == 0 || size > hal::kMaxFrame) return false;
     push();
     if (left_ > 0) return false;
@@ -36,7 +36,7 @@ class LinkBus {
     return true;
   }
 
-  std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) {
+  std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) override {
     const std::uint64_t deadline_us = sent_us_ + timeout_us + held_us_;
     for (;;) {
       push();
@@ -50,7 +50,7 @@ class LinkBus {
     }
   }
 
-  std::uint64_t now_us() const { return clock_.now_us() - opened_us_; }
+  std::uint64_t now_us() override { return clock_.now_us() - opened_us_; }
 
  private:
   static constexpr std::uint64_t kPush_us = 1000;

@@ -39,8 +39,8 @@ concept IdleHook = requires(Idle& idle) {
 /// The controller's end of lockstep_messages.hpp: a FrameBus in the twin's time over any byte
 /// stream. Call greet() first. A slow, paused or unplugged PC makes it wait as long as `idle`
 /// allows, but never causes a timeout.
-template <hal::ByteLink Link, IdleHook Idle>
-class LockstepBus {
+template <std::derived_from<hal::ByteLink> Link, IdleHook Idle>
+class LockstepBus final : public hal::FrameBus {
  public:
   /// Longest wait of one link read: at first, and after kEager_us without data. A clock that wakes
   /// every millisecond stretches short waits, which add up.
@@ -71,14 +71,14 @@ class LockstepBus {
   const LockstepCounters& counters() const { return counters_; }
 
   // Frames leave with the next poll.
-  bool send(const std::uint8_t* data, std::size_t size) {
+  bool send(const std::uint8_t* data, std::size_t size) override {
     if (lost_ || size == 0 || size > hal::kMaxFrame || size > kOutbox - used_) return false;
     __builtin_memcpy(outbox_ + used_, data, size);
     used_ += size;
     return true;
   }
 
-  std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) {
+  std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) override {
     if (lost_) return 0;
     if (capacity > lockstep::kMaxPollBytes) capacity = lockstep::kMaxPollBytes;
     const lockstep::Advance advance{.sequence = ++sequence_,
@@ -93,7 +93,7 @@ class LockstepBus {
     return answer_.size;
   }
 
-  std::uint64_t now_us() const { return answer_.now_us; }
+  std::uint64_t now_us() override { return answer_.now_us; }
 
  private:
   /// The twin sent kStop, maybe in the middle of a tick: nothing waits for it.

@@ -1,4 +1,5 @@
 #pragma once
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 
@@ -12,8 +13,8 @@ namespace verp::app {
 /// The controller's end of lockstep_can_messages.hpp: a CanBus in the twin's time over another
 /// CanBus. Like LockstepBus it waits as long as `idle` allows, without a timeout. The time of `Bus`
 /// only decides when to ask again.
-template <hal::CanBus Bus, IdleHook Idle>
-class LockstepCan {
+template <std::derived_from<hal::CanBus> Bus, IdleHook Idle>
+class LockstepCan final : public hal::CanBus {
  public:
   /// `slice_us`: longest wait between two calls of `idle`.
   LockstepCan(Bus& bus, Idle idle, std::uint32_t slice_us = kSlice_us)
@@ -40,14 +41,14 @@ class LockstepCan {
   const LockstepCounters& counters() const { return counters_; }
 
   // CanBus.
-  bool send(const CanFrame& frame) {
+  bool send(const CanFrame& frame) override {
     if (lost_ || over_ || lockstep::is_clock_frame(frame) || !push(frame)) return false;
     ++sent_;
     sent_sum_ = static_cast<std::uint16_t>(sent_sum_ + lockstep::sum_of(frame));
     return true;
   }
 
-  bool poll(CanFrame& frame, std::uint32_t timeout_us) {
+  bool poll(CanFrame& frame, std::uint32_t timeout_us) override {
     if (lost_) return false;
     if (taken_ == count_ && !advance(timeout_us)) return false;
     if (taken_ == count_) return false;
@@ -55,8 +56,8 @@ class LockstepCan {
     return true;
   }
 
-  std::uint64_t now_us() const { return now_us_; }
-  hal::CanErrors errors() const { return bus_.errors(); }
+  std::uint64_t now_us() override { return now_us_; }
+  hal::CanErrors errors() const override { return bus_.errors(); }
 
  private:
   enum class Outcome : std::uint8_t { kMore, kWhole, kSpoilt, kGone };

@@ -21,86 +21,19 @@ class NodeRenewal {
   /// Restarts the set-up of a node that has rebooted, and queues it for stop_one(). It does not
   /// know our SYNC counter and may send EMCY 8240h on each SYNC ahead of other answers. Stopped
   /// (CiA 301) it is silent until its turn.
-  void rebooted(int slot) {
-    if (slot == slot_) slot_ = -1;
-    to_stop_ |= node_bit(slot);
-  }
+  void rebooted(int slot);
   /// Stops one node that has rebooted; false: there is none.
-  template <hal::CanBus Bus>
-  bool stop_one(CanMaster<Bus>& master) {
-    for (int slot = 0; slot < kCanNodes; ++slot) {
-      if ((to_stop_ & node_bit(slot)) == 0) continue;
-      to_stop_ &= ~node_bit(slot);
-      master.send(canopen::nmt_frame(canopen::NmtCommand::kStop, node_id(params_, slot)));
-      return true;
-    }
-    return false;
-  }
+  bool stop_one(CanMaster& master);
 
   /// Call once a tick; serves `candidates` in turn. Returns the node that was started, or -1.
-  template <hal::CanBus Bus>
-  int run(CanMaster<Bus>& master, NodeMask candidates) {
-    if (slot_ >= 0 && (candidates & node_bit(slot_)) == 0) slot_ = -1;
-    if (slot_ < 0) {
-      if (!choose(candidates, master.now_us())) return -1;
-      // A stopped node would ignore the settings.
-      master.send(
-          canopen::nmt_frame(canopen::NmtCommand::kEnterPreOperational, node_id(params_, slot_)));
-    }
-    if (!proceed(master)) return -1;
-    if (!finished_) return -1;
-    const int done = slot_;
-    slot_ = -1;
-    master.send(canopen::nmt_frame(canopen::NmtCommand::kStart, node_id(params_, done)));
-    return done;
-  }
-  template <hal::CanBus Bus>
-  bool proceed(CanMaster<Bus>& master) {
-    if (slot_ < 0 || !advance(master.now_us())) {
-      ++master.counters.errors;
-      return false;
-    }
-    CanFrame frame;
-    if (!finished_ && client_.next(frame, master.now_us())) master.send(frame);
-    return true;
-  }
+  int run(CanMaster& master, NodeMask candidates);
+  bool proceed(CanMaster& master);
 
  private:
-  bool choose(NodeMask candidates, std::uint64_t now_us) {
-    for (int i = 0; i < kCanNodes; ++i) {
-      last_ = last_ + 1 < kCanNodes ? last_ + 1 : 0;
-      if ((candidates >> last_ & 1) == 0) continue;
-      slot_ = last_;
-      to_stop_ &= ~node_bit(slot_);
-      client_ = canopen::SdoClient(node_id(params_, slot_));
-      step_ = 0;
-      begin(now_us);
-      return true;
-    }
-    return false;
-  }
-  void begin(std::uint64_t now_us) {
-    finished_ = !node_setting(params_, slot_, step_, setting_);
-    if (finished_) return;
-    canopen::put_le(data_, setting_.value, 4);
-    client_.download(setting_.at, data_, setting_.bytes, canopen::SdoClient::Mode::kPlain, now_us);
-  }
+  bool choose(NodeMask candidates, std::uint64_t now_us);
+  void begin(std::uint64_t now_us);
   // Moves on when a setting is written; false if the node refused it or was silent.
-  bool advance(std::uint64_t now_us) {
-    using State = canopen::SdoClient::State;
-    if (client_.state() == State::kBusy || finished_) return true;
-    if (client_.state() == State::kAborted) {
-      const canopen::Abort why = client_.reason();
-      const bool absent = why == canopen::Abort::kNoObject || why == canopen::Abort::kNoSubindex;
-      if (!setting_.optional || !absent) {
-        slot_ = -1;
-        return false;
-      }
-    }
-    ++step_;
-    begin(now_us);
-    return true;
-  }
+  bool advance(std::uint64_t now_us);
 
   const Params& params_;
   canopen::SdoClient client_{1};

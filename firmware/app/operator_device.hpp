@@ -17,7 +17,7 @@ namespace verp::app {
 ///
 /// Answers Ping, Read, Write, Reg Write, Action, Sync, Bulk and fast reads, Sync and Bulk Write and
 /// Reboot; others give the Instruction Error. Orders expire: the core checks their age.
-template <hal::ByteLink Link, Images Store = NoImages>
+template <std::derived_from<hal::ByteLink> Link, Images Store = NoImages>
 class OperatorDevice {
  public:
   OperatorDevice(Link& link, const Params& params, const OperatorSetup& setup, Store& images)

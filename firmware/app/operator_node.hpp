@@ -1,4 +1,5 @@
 #pragma once
+#include <concepts>
 #include <cstdint>
 
 #include "common/protocol/canopen/device.hpp"
@@ -23,8 +24,8 @@ namespace verp::app {
 ///
 /// `bus`, `params`, `registers` and `images` must outlive it. An OperatorDevice with the same
 /// registers is then the loop's OperatorLink and Recorder; its user calls tell() after each tick.
-template <hal::CanBus Bus, Images Store = NoImages>
-class OperatorNode {
+template <std::derived_from<hal::CanBus> Bus, Images Store = NoImages>
+class OperatorNode final : public hal::CanBus {
  public:
   static constexpr std::uint8_t kNode = canopen::plan::kControllerNode;
 
@@ -43,8 +44,8 @@ class OperatorNode {
     device_.receive(canopen::nmt_frame(canopen::NmtCommand::kStart, kNode), kBegin_us);
   }
 
-  bool send(const CanFrame& frame) { return bus_.send(frame); }
-  bool poll(CanFrame& frame, std::uint32_t timeout_us) {
+  bool send(const CanFrame& frame) override { return bus_.send(frame); }
+  bool poll(CanFrame& frame, std::uint32_t timeout_us) override {
     for (int taken = 0; bus_.poll(frame, timeout_us); ++taken) {
       if (!is_for_node(frame)) return true;
       if (frame.id != kWatchers) ++asked_;
@@ -54,8 +55,8 @@ class OperatorNode {
     }
     return false;
   }
-  std::uint64_t now_us() { return bus_.now_us(); }
-  hal::CanErrors errors() const { return bus_.errors(); }
+  std::uint64_t now_us() override { return bus_.now_us(); }
+  hal::CanErrors errors() const override { return bus_.errors(); }
 
   // OperatorLink
   OperatorOrder order(std::uint32_t tick) {

@@ -27,7 +27,7 @@ concept OutStream = requires(Stream& stream, const void* from, std::size_t size)
 /// The controller's end of link_messages.hpp: FrameBus, OperatorLink and Recorder over two byte
 /// streams. Call hello() first. After a loss, polls return nothing and stopped() is true.
 template <InStream In, OutStream Out>
-class RemoteBus {
+class RemoteBus final : public hal::FrameBus {
  public:
   RemoteBus(In& in, Out& out) : in_(in), out_(out) {}
 
@@ -51,12 +51,12 @@ class RemoteBus {
   std::uint32_t refused() const { return refused_; }
 
   // FrameBus
-  bool send(const std::uint8_t* data, std::size_t size) {
+  bool send(const std::uint8_t* data, std::size_t size) override {
     if (lost_ || size == 0 || size > hal::kMaxFrame) return false;
     append_bytes(link::Kind::kSend, data, size);
     return true;
   }
-  std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) {
+  std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) override {
     if (capacity > link::kMaxPollBytes) capacity = link::kMaxPollBytes;
     append(link::Kind::kPoll,
            link::Poll{.timeout_us = timeout_us, .capacity = static_cast<std::uint16_t>(capacity)});
@@ -64,7 +64,7 @@ class RemoteBus {
     __builtin_memcpy(buffer, inbox_ + sizeof reply_, reply_.size);
     return reply_.size;
   }
-  std::uint64_t now_us() const { return reply_.now_us; }
+  std::uint64_t now_us() override { return reply_.now_us; }
 
   // OperatorLink
   OperatorOrder order(std::uint32_t) const { return reply_.order; }

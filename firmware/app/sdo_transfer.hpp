@@ -6,9 +6,8 @@ namespace verp::app {
 
 /// Runs a started transfer to its end; true on success. Drops other frames. `timeout_us`: for an
 /// answer, at most SDO's own.
-template <hal::CanBus Bus>
-bool run_transfer(canopen::SdoClient& client, CanMaster<Bus>& master,
-                  std::uint32_t timeout_us = canopen::sdo::kTimeoutUs) {
+inline bool run_transfer(canopen::SdoClient& client, CanMaster& master,
+                         std::uint32_t timeout_us = canopen::sdo::kTimeoutUs) {
   CanFrame frame;
   while (client.state() == canopen::SdoClient::State::kBusy) {
     while (client.next(frame, master.now_us())) master.send(frame);

@@ -1,4 +1,6 @@
 #pragma once
+#include <concepts>
+
 #include "firmware/app/canopen_servos.hpp"
 #include "firmware/app/dynamixel_servos.hpp"
 
@@ -8,13 +10,13 @@ namespace verp::app {
 template <class Bus>
 struct ServosOn;
 
-template <hal::FrameBus Bus>
+template <std::derived_from<hal::FrameBus> Bus>
 struct ServosOn<Bus> {
-  using Type = DynamixelServos<Bus>;
+  using Type = DynamixelServos;
 };
-template <hal::CanBus Bus>
+template <std::derived_from<hal::CanBus> Bus>
 struct ServosOn<Bus> {
-  using Type = CanopenServos<Bus>;
+  using Type = CanopenServos;
 };
 
 }  // namespace verp::app

@@ -1,5 +1,4 @@
 #pragma once
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 
@@ -29,13 +28,17 @@ struct LinkErrors {
   std::uint32_t losses = 0;    ///< times connected() became false
 };
 
-template <class Link>
-concept ByteLink = requires(Link& link, const Link& seen, const std::uint8_t* from,
-                            std::uint8_t* to, std::size_t size, std::uint32_t timeout_us) {
-  { link.write(from, size, timeout_us) } -> std::same_as<std::size_t>;
-  { link.read(to, size, timeout_us) } -> std::same_as<std::size_t>;
-  { seen.connected() } -> std::same_as<bool>;
-  { seen.errors() } -> std::same_as<LinkErrors>;
+class ByteLink {
+ public:
+  virtual std::size_t write(const std::uint8_t* data, std::size_t size,
+                            std::uint32_t timeout_us) = 0;
+  virtual std::size_t read(std::uint8_t* buffer, std::size_t capacity,
+                           std::uint32_t timeout_us) = 0;
+  virtual bool connected() const = 0;
+  virtual LinkErrors errors() const = 0;
+
+ protected:
+  ~ByteLink() = default;
 };
 
 }  // namespace verp::hal

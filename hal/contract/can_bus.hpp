@@ -1,5 +1,4 @@
 #pragma once
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 
@@ -35,13 +34,15 @@ struct CanErrors {
   std::uint32_t dropped = 0;   ///< accepted frames that bus-off dropped
 };
 
-template <class Bus>
-concept CanBus = requires(Bus& bus, const Bus& seen, const CanFrame& out, CanFrame& in,
-                          std::uint32_t us) {
-  { bus.send(out) } -> std::same_as<bool>;
-  { bus.poll(in, us) } -> std::same_as<bool>;
-  { bus.now_us() } -> std::same_as<std::uint64_t>;
-  { seen.errors() } -> std::same_as<CanErrors>;
+class CanBus {
+ public:
+  virtual bool send(const CanFrame& frame) = 0;
+  virtual bool poll(CanFrame& frame, std::uint32_t timeout_us) = 0;
+  virtual std::uint64_t now_us() = 0;
+  virtual CanErrors errors() const = 0;
+
+ protected:
+  ~CanBus() = default;
 };
 
 }  // namespace verp::hal

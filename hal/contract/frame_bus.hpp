@@ -1,5 +1,4 @@
 #pragma once
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 
@@ -22,12 +21,15 @@ namespace verp::hal {
 /// Bytes; a Sync Write of 4 bytes to 32 servos has 174.
 inline constexpr std::size_t kMaxFrame = 512;
 
-template <class Bus>
-concept FrameBus = requires(Bus& bus, const std::uint8_t* data, std::uint8_t* buffer,
-                            std::size_t size, std::uint32_t timeout_us) {
-  { bus.send(data, size) } -> std::same_as<bool>;
-  { bus.poll(buffer, size, timeout_us) } -> std::same_as<std::size_t>;
-  { bus.now_us() } -> std::same_as<std::uint64_t>;
+class FrameBus {
+ public:
+  virtual bool send(const std::uint8_t* data, std::size_t size) = 0;
+  virtual std::size_t poll(std::uint8_t* buffer, std::size_t capacity,
+                           std::uint32_t timeout_us) = 0;
+  virtual std::uint64_t now_us() = 0;
+
+ protected:
+  ~FrameBus() = default;
 };
 
 }  // namespace verp::hal

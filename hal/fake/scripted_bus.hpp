@@ -8,7 +8,7 @@
 /// Also runs on a microcontroller. Frames take no time.
 namespace verp::hal {
 
-class ScriptedBus {
+class ScriptedBus final : public FrameBus {
  public:
   /// `reply`, if not empty, arrives `delay_us` after `frame`. False: script full.
   bool expect(const std::uint8_t* frame, std::size_t frame_size, const std::uint8_t* reply,
@@ -31,7 +31,7 @@ class ScriptedBus {
   bool finished() const { return mismatches_ == 0 && played_ == exchanges_; }
   std::size_t mismatches() const { return mismatches_; }
 
-  bool send(const std::uint8_t* data, std::size_t size) {
+  bool send(const std::uint8_t* data, std::size_t size) override {
     if (size == 0 || size > kMaxFrameBytes) return false;
     sent_us_ = now_us_;
     if (played_ == exchanges_ || !same(script_[played_], data, size)) {
@@ -45,7 +45,7 @@ class ScriptedBus {
     return true;
   }
 
-  std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) {
+  std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) override {
     std::uint64_t deadline_us = sent_us_ + timeout_us;
     if (deadline_us < now_us_) deadline_us = now_us_;
     if (capacity > piece_) capacity = piece_;
@@ -60,7 +60,7 @@ class ScriptedBus {
     return count;
   }
 
-  std::uint64_t now_us() const { return now_us_; }
+  std::uint64_t now_us() override { return now_us_; }
 
  private:
   static constexpr std::size_t kExchanges = 32;
@@ -106,7 +106,5 @@ class ScriptedBus {
   std::uint64_t now_us_ = 0;
   std::uint64_t sent_us_ = 0;
 };
-
-static_assert(FrameBus<ScriptedBus>);
 
 }  // namespace verp::hal

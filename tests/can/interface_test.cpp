@@ -58,15 +58,15 @@ class LiveNodes {
   std::thread thread_;
 };
 
-class PortLine {
+class PortLine final : public hal::CanBus {
  public:
   explicit PortLine(const link::Endpoint& endpoint) : port_(endpoint) {}
-  bool send(const CanFrame& frame) { return port_.send(frame); }
-  bool poll(CanFrame& frame, std::uint32_t timeout_us) {
+  bool send(const CanFrame& frame) override { return port_.send(frame); }
+  bool poll(CanFrame& frame, std::uint32_t timeout_us) override {
     return port_.poll(frame, timeout_us == 0 ? 0 : timeout_us + kHeld_us);
   }
-  std::uint64_t now_us() { return port_.now_us(); }
-  hal::CanErrors errors() const { return port_.errors(); }
+  std::uint64_t now_us() override { return port_.now_us(); }
+  hal::CanErrors errors() const override { return port_.errors(); }
   std::uint64_t time_us() const {
     const auto since = std::chrono::steady_clock::now() - opened_;
     return static_cast<std::uint64_t>(

@@ -38,10 +38,11 @@ class UsartPair {
   static constexpr bool kDetectsLoss = false;
   static constexpr bool kKeepsBytesOnLoss = true;
 
-  class Far {
+  class Far final : public hal::ByteLink {
    public:
     explicit Far(UsartPair& pair) : pair_(pair) {}
-    std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t timeout_us) {
+    std::size_t write(const std::uint8_t* data, std::size_t size,
+                      std::uint32_t timeout_us) override {
       std::size_t taken = 0;
       for (std::uint32_t waited_us = 0;; waited_us += kStep_us) {
         for (; taken < size && pair_.line_has_room(); ++taken) pair_.put(data[taken]);
@@ -49,7 +50,8 @@ class UsartPair {
         pair_.rig_.machine.advance(hal::stm32::model::us(kStep_us));
       }
     }
-    std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) {
+    std::size_t read(std::uint8_t* buffer, std::size_t capacity,
+                     std::uint32_t timeout_us) override {
       for (std::uint32_t waited_us = 0; inbox_.empty() && waited_us < timeout_us;
            waited_us += kStep_us) {
         pair_.rig_.machine.advance(hal::stm32::model::us(kStep_us));
@@ -60,8 +62,8 @@ class UsartPair {
       }
       return count;
     }
-    bool connected() const { return true; }
-    hal::LinkErrors errors() const { return {}; }
+    bool connected() const override { return true; }
+    hal::LinkErrors errors() const override { return {}; }
 
    private:
     friend class UsartPair;

@@ -17,11 +17,12 @@ class UsbPair {
   static constexpr bool kDetectsLoss = true;
   static constexpr bool kKeepsBytesOnLoss = !kPulled;  // some bytes may be in the PC
 
-  class Far {
+  class Far final : public hal::ByteLink {
    public:
     explicit Far(UsbPair& pair) : pair_(pair) {}
     /// Waits until the device has them.
-    std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t timeout_us) {
+    std::size_t write(const std::uint8_t* data, std::size_t size,
+                      std::uint32_t timeout_us) override {
       constexpr std::size_t kRoom = 256;
       auto& host = pair_.rig_.host;
       std::size_t taken = 0;
@@ -33,7 +34,8 @@ class UsbPair {
         pair_.pass(kStep_us);
       }
     }
-    std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) {
+    std::size_t read(std::uint8_t* buffer, std::size_t capacity,
+                     std::uint32_t timeout_us) override {
       auto& host = pair_.rig_.host;
       for (std::uint32_t waited_us = 0; inbox_.empty() && waited_us < timeout_us;
            waited_us += kStep_us) {
@@ -46,8 +48,8 @@ class UsbPair {
       inbox_.erase(inbox_.begin(), inbox_.begin() + static_cast<std::ptrdiff_t>(count));
       return count;
     }
-    bool connected() const { return pair_.rig_.host.opened(); }
-    hal::LinkErrors errors() const { return {}; }
+    bool connected() const override { return pair_.rig_.host.opened(); }
+    hal::LinkErrors errors() const override { return {}; }
 
    private:
     UsbPair& pair_;

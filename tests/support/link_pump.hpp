@@ -1,4 +1,5 @@
 #pragma once
+#include <concepts>
 #include <cstdint>
 #include <vector>
 
@@ -14,7 +15,7 @@ concept ByteServer = requires(Server& server, const std::uint8_t* bytes,
 };
 
 /// Passes a link's bytes to the server and the answers back.
-template <hal::ByteLink Link, ByteServer Server>
+template <std::derived_from<hal::ByteLink> Link, ByteServer Server>
 class LinkPump {
  public:
   LinkPump(Link& link, Server& server) : link_(link), server_(server) {}

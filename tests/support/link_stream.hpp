@@ -1,4 +1,5 @@
 #pragma once
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 
@@ -8,7 +9,7 @@ namespace verp::app {
 
 /// A ByteLink as a stream of a RemoteBus, which waits without limit. A loss ends the stream: a peer
 /// that returns knows nothing of it.
-template <hal::ByteLink Link>
+template <std::derived_from<hal::ByteLink> Link>
 class LinkStream {
  public:
   explicit LinkStream(Link& link) : link_(&link), losses_(link.errors().losses) {}

@@ -1,4 +1,5 @@
 #pragma once
+#include <concepts>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -9,7 +10,7 @@
 /// and SCIP2.0, and scans on request.
 namespace verp::test {
 
-template <hal::ByteLink Link>
+template <std::derived_from<hal::ByteLink> Link>
 class ScipSensor {
  public:
   explicit ScipSensor(Link& link) : link_(link) {}

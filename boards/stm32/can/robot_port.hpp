@@ -51,11 +51,17 @@ struct RobotWiring {
 
 /// A node that publishes each tick; the loop uses it as its port.
 template <class Port, class Store>
-class RobotNode : public app::OperatorNode<Port, Store> {
+class RobotNode {
  public:
-  using LoopPort = RobotNode;
-  using app::OperatorNode<Port, Store>::OperatorNode;
-  RobotNode& port() { return *this; }
+  using LoopPort = app::OperatorNode<Port, Store>;
+  RobotNode(Port& port, const Params& params, app::OperatorRegisters<Store>& registers,
+            Store& images)
+      : node_(port, params, registers, images) {}
+  LoopPort& port() { return node_; }
+  void tell(const Inputs& inputs) { node_.tell(inputs); }
+
+ private:
+  LoopPort node_;
 };
 
 template <class Port, class Idle>
@@ -65,16 +71,16 @@ using LockstepOn = app::LockstepCan<Port, Idle>;
 template <class Port, class Timer, class Watch>
 class RealTimeOn {
  public:
-  class Bus {
+  class Bus final : public hal::CanBus {
    public:
     Bus(Port& port, Watch watch) : port_(port), watch_(watch) {}
-    bool send(const CanFrame& frame) {
+    bool send(const CanFrame& frame) override {
       const std::uint64_t now_us = port_.now_us();
       const bool accepted = port_.send(frame);
       if (accepted) sent_us_ = now_us;
       return accepted;
     }
-    bool poll(CanFrame& frame, std::uint32_t timeout_us) {
+    bool poll(CanFrame& frame, std::uint32_t timeout_us) override {
       for (;;) {
         watch_();
         const std::uint64_t slice_us = port_.now_us() - sent_us_ + kSlice_us;
@@ -84,8 +90,8 @@ class RealTimeOn {
         if (last) return false;
       }
     }
-    std::uint64_t now_us() { return port_.now_us(); }
-    hal::CanErrors errors() const { return port_.errors(); }
+    std::uint64_t now_us() override { return port_.now_us(); }
+    hal::CanErrors errors() const override { return port_.errors(); }
 
    private:
     static constexpr std::uint64_t kSlice_us = 5000;

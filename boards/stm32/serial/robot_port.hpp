@@ -56,16 +56,19 @@ using LockstepOn = app::LockstepBus<Port, Idle>;
 /// The far end is real servos. `Watch` is called when the port is read and no tick is due soon.
 template <class Port, class Timer, class Watch>
 class RealTimeOn {
-  struct Patient {
-    std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t timeout_us) {
+  struct Patient final : hal::ByteLink {
+    Patient(Port& of, Watch each) : port(of), watch(each) {}
+    std::size_t write(const std::uint8_t* data, std::size_t size,
+                      std::uint32_t timeout_us) override {
       return port.write(data, size, timeout_us);
     }
-    std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) {
+    std::size_t read(std::uint8_t* buffer, std::size_t capacity,
+                     std::uint32_t timeout_us) override {
       watch();
       return port.read(buffer, capacity, timeout_us);
     }
-    bool connected() const { return port.connected(); }
-    hal::LinkErrors errors() const { return port.errors(); }
+    bool connected() const override { return port.connected(); }
+    hal::LinkErrors errors() const override { return port.errors(); }
 
     Port& port;
     Watch watch;
@@ -75,7 +78,7 @@ class RealTimeOn {
   using Bus = app::LinkBus<Patient, Timer>;
 
   RealTimeOn(Port& port, const Timer& timer, Watch watch, std::uint32_t held_us)
-      : patient_{port, watch}, bus_(patient_, timer, held_us) {}
+      : patient_(port, watch), bus_(patient_, timer, held_us) {}
   Bus& bus() { return bus_; }
 
  private:

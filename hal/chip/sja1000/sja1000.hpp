@@ -35,7 +35,7 @@ concept Io = std::copyable<Access> &&
 };
 
 template <Io Access>
-class Sja1000 {
+class Sja1000 final : public CanBus {
  public:
   static constexpr std::size_t kReceived = 64;  ///< frames that may wait for poll()
 
@@ -73,7 +73,7 @@ class Sja1000 {
     return open_;
   }
 
-  bool send(const CanFrame& frame) {
+  bool send(const CanFrame& frame) override {
     if (!open_ || !is_sound(frame) || frame.fd) return false;
     const Held held(io_);
     serve();
@@ -83,7 +83,7 @@ class Sja1000 {
     return true;
   }
 
-  bool poll(CanFrame& frame, std::uint32_t timeout_us) {
+  bool poll(CanFrame& frame, std::uint32_t timeout_us) override {
     for (;;) {
       const Held held(io_);
       serve();
@@ -98,8 +98,8 @@ class Sja1000 {
     }
   }
 
-  std::uint64_t now_us() const { return now_us_; }
-  CanErrors errors() const { return errors_; }
+  std::uint64_t now_us() override { return now_us_; }
+  CanErrors errors() const override { return errors_; }
 
   void on_interrupt() { serve(); }
 

@@ -31,7 +31,7 @@ struct CanFilterBanks {
 inline constexpr CanFilterBanks kCan2Filters = {.base = base::kCan1, .first = can::kCan2FirstBank};
 
 template <Io Access, class Timer>
-class BxCan {
+class BxCan final : public CanBus {
  public:
   static constexpr std::size_t kInbox = 64;
   static constexpr std::size_t kRules = 14;  ///< filter banks of each bxCAN
@@ -64,7 +64,7 @@ class BxCan {
   }
 
   // CanBus
-  bool send(const CanFrame& frame) {
+  bool send(const CanFrame& frame) override {
     const Masked<Access> masked(io_);
     stands_ = false;
     if (!is_sound(frame) || frame.fd || !on_bus() || outbox_.size() >= kCanQueue) return false;
@@ -73,7 +73,7 @@ class BxCan {
     pump();
     return true;
   }
-  bool poll(CanFrame& frame, std::uint32_t timeout_us) {
+  bool poll(CanFrame& frame, std::uint32_t timeout_us) override {
     for (;;) {
       const std::uint64_t time_us = timer_.now_us();
       if (take(frame, time_us)) return true;
@@ -86,12 +86,12 @@ class BxCan {
       timer_.doze_until(deadline_us, [this] { return arrived_ != taken_; });
     }
   }
-  std::uint64_t now_us() {
+  std::uint64_t now_us() override {
     const std::uint64_t time_us = timer_.now_us() - opened_us_;
     if (!stands_ && time_us > last_us_) last_us_ = time_us;
     return last_us_;
   }
-  CanErrors errors() const {
+  CanErrors errors() const override {
     const Masked<Access> masked(io_);
     return errors_;
   }

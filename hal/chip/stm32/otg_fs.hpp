@@ -20,7 +20,7 @@ namespace verp::hal::stm32 {
 
 /// `Timer` is a TickTimer.
 template <Io Access, class Function, class Timer, std::size_t kRing = 1024>
-class OtgFs {
+class OtgFs final : public ByteLink {
  public:
   OtgFs(Family family, Function& function, Timer& timer, Access io = {})
       : io_(io), core_(family, io), control_(core_, function), function_(function), timer_(timer) {}
@@ -39,7 +39,7 @@ class OtgFs {
   }
 
   // ByteLink
-  std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t timeout_us) {
+  std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t timeout_us) override {
     const std::uint64_t deadline_us = timer_.now_us() + timeout_us;
     std::size_t queued = 0;
     for (bool lost = false;;) {
@@ -52,7 +52,7 @@ class OtgFs {
       });
     }
   }
-  std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) {
+  std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) override {
     const std::uint64_t deadline_us = timer_.now_us() + timeout_us;
     for (;;) {
       const std::size_t count = take(buffer, capacity);
@@ -63,8 +63,8 @@ class OtgFs {
                         [&] { return received_ != taken_ || lost_ || up_ != connected_; });
     }
   }
-  bool connected() const { return connected_; }
-  LinkErrors errors() const {
+  bool connected() const override { return connected_; }
+  LinkErrors errors() const override {
     const Masked<Access> masked(io_);
     return {.overruns = overruns_, .framing = function_.breaks(), .noise = 0, .losses = losses_};
   }

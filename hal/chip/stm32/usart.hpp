@@ -27,7 +27,7 @@ struct UsartWiring {
 
 /// `Timer` is a TickTimer.
 template <Io Access, class Kind, class Timer, std::size_t kRing = 1024>
-class Usart {
+class Usart final : public ByteLink {
  public:
   Usart(const UsartWiring& wiring, Timer& timer, Access io = {})
       : io_(io), gpio_(io), wiring_(wiring), timer_(timer) {}
@@ -51,7 +51,7 @@ class Usart {
   }
 
   // ByteLink
-  std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t timeout_us) {
+  std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t timeout_us) override {
     const std::uint64_t deadline_us = timer_.now_us() + timeout_us;
     std::size_t queued = 0;
     for (;;) {
@@ -60,7 +60,7 @@ class Usart {
       timer_.doze_until(deadline_us, [&] { return queued_ - sent_ < kRing; });
     }
   }
-  std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) {
+  std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) override {
     const std::uint64_t deadline_us = timer_.now_us() + timeout_us;
     for (;;) {
       free_stuck_line();
@@ -69,8 +69,8 @@ class Usart {
       timer_.doze_until(deadline_us, [&] { return track(), received_ != taken_; });
     }
   }
-  bool connected() const { return true; }
-  LinkErrors errors() const {
+  bool connected() const override { return true; }
+  LinkErrors errors() const override {
     const Masked<Access> masked(io_);
     return errors_;
   }

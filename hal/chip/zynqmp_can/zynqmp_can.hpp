@@ -34,7 +34,7 @@ enum class Layout : std::uint8_t {
 };
 
 template <Io Access, Layout kLayout = Layout::kSilicon>
-class ZynqmpCan {
+class ZynqmpCan final : public CanBus {
  public:
   explicit ZynqmpCan(Access io) : io_(io) {}
 
@@ -55,7 +55,7 @@ class ZynqmpCan {
     return open_;
   }
 
-  bool send(const CanFrame& frame) {
+  bool send(const CanFrame& frame) override {
     if (!open_ || !is_sound(frame) || frame.fd) return false;
     follow_bus();
     if (off_ || queue_.size() == kCanQueue) return false;
@@ -64,7 +64,7 @@ class ZynqmpCan {
     return true;
   }
 
-  bool poll(CanFrame& frame, std::uint32_t timeout_us) {
+  bool poll(CanFrame& frame, std::uint32_t timeout_us) override {
     for (;;) {
       follow_bus();
       if (receive(frame)) {
@@ -82,8 +82,8 @@ class ZynqmpCan {
     }
   }
 
-  std::uint64_t now_us() const { return now_us_; }
-  CanErrors errors() const { return errors_; }
+  std::uint64_t now_us() override { return now_us_; }
+  CanErrors errors() const override { return errors_; }
 
  private:
   static constexpr std::uint64_t kRecessiveBits = 128 * 11;  ///< ISO 11898-1, 12.1.4.4

@@ -19,16 +19,16 @@ namespace verp::tool {
 namespace {
 
 /// A CanBus that allows extra delay for the nodes' answers.
-class PatientCan {
+class PatientCan final : public hal::CanBus {
  public:
   explicit PatientCan(link::CanPort& port) : port_(port) {}
 
-  bool send(const CanFrame& frame) { return port_.send(frame); }
-  bool poll(CanFrame& frame, std::uint32_t timeout_us) {
+  bool send(const CanFrame& frame) override { return port_.send(frame); }
+  bool poll(CanFrame& frame, std::uint32_t timeout_us) override {
     return port_.poll(frame, timeout_us == 0 ? 0 : timeout_us + held_us_);
   }
-  std::uint64_t now_us() { return port_.now_us(); }
-  hal::CanErrors errors() const { return port_.errors(); }
+  std::uint64_t now_us() override { return port_.now_us(); }
+  hal::CanErrors errors() const override { return port_.errors(); }
 
   void set_held(std::uint32_t held_us) { held_us_ = held_us; }
 
@@ -36,7 +36,6 @@ class PatientCan {
   link::CanPort& port_;
   std::uint32_t held_us_ = 0;
 };
-static_assert(hal::CanBus<PatientCan>);
 
 /// CiA 402 drives, with this PC's controller as a node beside them. It takes orders with
 /// `--take-orders`, else the program that started the run gives them.

@@ -27,7 +27,7 @@ struct CanFilter {
 /// queue leave in its order, those here by priority. An interface that is down or gone acts like a
 /// silent bus, and is used again when it is back. Waiting frames are then dropped and counted, as
 /// at a bus-off: old goals must not leave later.
-class CanPort {
+class CanPort : public hal::CanBus {
  public:
   /// `filters`: any of them accepts; empty: all. With filters, a poll's timeout starts at an
   /// accepted frame, not when that left. Without `stamps` frames have the time of this port's read,
@@ -35,16 +35,18 @@ class CanPort {
   explicit CanPort(const Endpoint& endpoint, const std::vector<CanFilter>& filters = {},
                    bool stamps = true);
 
+  virtual ~CanPort() = default;
+
   // CanBus
-  bool send(const CanFrame& frame);
-  bool poll(CanFrame& frame, std::uint32_t timeout_us);
+  bool send(const CanFrame& frame) override;
+  bool poll(CanFrame& frame, std::uint32_t timeout_us) override;
   /// Sends in one kernel call if possible, in this order. Returns the number before the first
   /// refused frame.
   std::size_t send_all(const CanFrame* frames, std::size_t count);
   /// Like poll(), but the timeout starts now.
   bool await(CanFrame& frame, std::uint32_t wait_us);
-  std::uint64_t now_us();
-  hal::CanErrors errors() const;
+  std::uint64_t now_us() override;
+  hal::CanErrors errors() const override;
 
   /// Errors by kind; updated by each send and poll.
   const CanTrouble& trouble() const { return trouble_; }
@@ -100,7 +102,5 @@ class CanPort {
   std::size_t inbox_count_ = 0;
   Arrived inbox_[kInbox];
 };
-
-static_assert(hal::CanBus<CanPort>);
 
 }  // namespace verp::link

@@ -13,7 +13,7 @@ namespace verp::link {
 
 /// The PC's ByteLink: serial port, pseudo-terminal or socket. read() and write() reconnect after a
 /// loss. For one thread.
-class Link {
+class Link final : public hal::ByteLink {
  public:
   /// A listener or pseudo-terminal connects when a peer comes. Throws LinkError.
   explicit Link(const Endpoint& endpoint);
@@ -25,10 +25,10 @@ class Link {
   void set_rate(std::uint32_t baud) { port_->set_rate(baud); }
 
   // ByteLink
-  std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t timeout_us);
-  std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us);
-  bool connected() const { return descriptor_ >= 0; }
-  hal::LinkErrors errors() const;
+  std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t timeout_us) override;
+  std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) override;
+  bool connected() const override { return descriptor_ >= 0; }
+  hal::LinkErrors errors() const override;
 
   /// Waits for a peer; false: timeout. read() and write() wait too.
   bool wait_connected(std::uint32_t timeout_us);
@@ -43,7 +43,5 @@ class Link {
   int descriptor_ = -1;
   std::uint32_t losses_ = 0;
 };
-
-static_assert(hal::ByteLink<Link>);
 
 }  // namespace verp::link

@@ -1,4 +1,5 @@
 #pragma once
+#include <concepts>
 #include <cstdint>
 #include <string>
 
@@ -10,7 +11,7 @@ namespace verp::link {
 
 /// A Hokuyo as hal/contract/range_finder.hpp. Endless scans, requested again after a silence. Now:
 /// ns.
-template <hal::ByteLink Line, std::uint64_t (*Now)() = monotonic_ns>
+template <std::derived_from<hal::ByteLink> Line, std::uint64_t (*Now)() = monotonic_ns>
 class ScipRangeFinder {
  public:
   struct Steps {

@@ -22,19 +22,19 @@ class OperatorConsole {
 
  private:
   /// The controller's end; the buffers are the other.
-  struct Wire {
-    std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t) {
+  struct Wire final : hal::ByteLink {
+    std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t) override {
       told.insert(told.end(), data, data + size);
       return size;
     }
-    std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t) {
+    std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t) override {
       const std::size_t count = std::min(capacity, asked.size());
       std::copy_n(asked.begin(), count, buffer);
       asked.erase(asked.begin(), asked.begin() + static_cast<std::ptrdiff_t>(count));
       return count;
     }
-    bool connected() const { return true; }
-    hal::LinkErrors errors() const { return {}; }
+    bool connected() const override { return true; }
+    hal::LinkErrors errors() const override { return {}; }
     std::vector<std::uint8_t> asked, told;
   };
 

@@ -10,7 +10,7 @@
 #include "common/protocol/canopen/drive_objects.hpp"
 #include "common/protocol/canopen/robot_plan.hpp"
 #include "common/protocol/canopen/sdo.hpp"
-#include "firmware/app/canopen_bring_up.hpp"
+#include "firmware/app/drive_telemetry.hpp"
 
 namespace verp::shadow {
 namespace {

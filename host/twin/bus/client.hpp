@@ -91,7 +91,7 @@ class Client {
   std::optional<link::Link> own_;
   link::Link& link_;
   Bus bus_;
-  app::BusMaster<Bus> master_;
+  app::BusMaster master_;
   Owed owed_;
   int tries_ = 0;
 };

@@ -18,8 +18,8 @@ namespace verp::bus {
 /// loop that repeats the run; the kind of bus adds:
 ///  - Sent: a frame that the controller sent. Received: all that one answer brought.
 ///  - kWholeTicks: catch_up() is called at the start of each tick.
-template <class Sent_, class Received_>
-class ShadowTape {
+template <class Bus, class Sent_, class Received_>
+class ShadowTape : public Bus {
  public:
   using Sent = Sent_;
   using Received = Received_;
@@ -39,7 +39,7 @@ class ShadowTape {
     std::uint64_t time_us = 0;
   };
 
-  std::uint64_t now_us() const { return here.time_us; }
+  std::uint64_t now_us() override { return here.time_us; }
   app::OperatorOrder order(std::uint32_t) {
     const app::OperatorOrder order = here.standing;
     here.standing.flags = 0;
@@ -60,6 +60,7 @@ class ShadowTape {
   bool torn = false;  ///< the loop asked for a poll not recorded yet
 
  protected:
+  ~ShadowTape() = default;
   /// Plays the next poll; false at the end of the tape.
   template <class Same>
   bool play(Same same) {
@@ -176,14 +177,15 @@ class ShadowLoopOver final : public Shadow {
   std::unique_ptr<Loop> loop_;
 };
 
-class SerialTape : public ShadowTape<std::vector<std::uint8_t>, std::vector<std::uint8_t>> {
+class SerialTape final
+    : public ShadowTape<hal::FrameBus, std::vector<std::uint8_t>, std::vector<std::uint8_t>> {
  public:
   static constexpr bool kWholeTicks = false;
-  bool send(const std::uint8_t* data, std::size_t size) {
+  bool send(const std::uint8_t* data, std::size_t size) override {
     here.frames.emplace_back(data, data + size);
     return true;
   }
-  std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t) {
+  std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t) override {
     if (!play([](const auto& a, const auto& b) { return a == b; })) return 0;
     const std::size_t count = std::min(capacity, here.received.size());
     std::copy_n(here.received.begin(), count, buffer);

@@ -25,7 +25,7 @@ namespace verp::bus {
 /// In a Sync or Bulk Read a silent device silences those behind it. Replies of devices with the
 /// same id collide (collision.hpp). A device at another baud rate neither hears nor answers.
 /// Deterministic: the same frames give the same replies at the same times.
-class VirtualBus {
+class VirtualBus final : public hal::FrameBus {
  public:
   /// The plant must outlive the bus and be at time 0.
   VirtualBus(const Params& params, sim::Plant& plant);
@@ -33,9 +33,9 @@ class VirtualBus {
   /// A device that `params` does not name; call before the first frame.
   void add(std::unique_ptr<Device> device) { devices_.push_back(std::move(device)); }
 
-  bool send(const std::uint8_t* data, std::size_t size);
-  std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us);
-  std::uint64_t now_us() const { return now_ns_ / 1000; }
+  bool send(const std::uint8_t* data, std::size_t size) override;
+  std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) override;
+  std::uint64_t now_us() override { return now_ns_ / 1000; }
 
   /// Control periods since the first tick, as the controller counts them; 0 before it.
   std::uint32_t tick() const { return tick_; }
@@ -144,7 +144,5 @@ class VirtualBus {
   bool real_time_ = false;
   bool held_ = false;
 };
-
-static_assert(hal::FrameBus<VirtualBus>);
 
 }  // namespace verp::bus

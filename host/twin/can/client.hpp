@@ -46,17 +46,12 @@ struct NodeIdentity {
   Asked asked = Asked::kToTheEnd;
 };
 
-/// An interface of this PC or a test's bus; a hal::CanBus.
-class ClientBus {
+/// An interface of this PC or a test's bus.
+class ClientBus : public hal::CanBus {
  public:
   virtual ~ClientBus() = default;
-  virtual bool send(const CanFrame& frame) = 0;
-  virtual bool poll(CanFrame& frame, std::uint32_t timeout_us) = 0;
-  virtual std::uint64_t now_us() = 0;
-  virtual hal::CanErrors errors() const = 0;
   virtual bool connected() const = 0;
 };
-static_assert(hal::CanBus<ClientBus>);
 
 /// "6064:0", the usual form of an object's address; both parts are hexadecimal.
 std::string to_text(canopen::Address at);
@@ -106,7 +101,7 @@ class Client {
 
   std::unique_ptr<ClientBus> own_;
   ClientBus& bus_;
-  app::CanMaster<ClientBus> master_;
+  app::CanMaster master_;
   const std::uint32_t timeout_us_;
   std::string place_;
   std::function<bool()> stop_ = [] { return false; };

@@ -10,20 +10,20 @@ namespace verp::can {
 
 /// Between two polls the controller fixes only the order of frames with the same identifier. A tick
 /// ends when the next SYNC 1 is sent (LockstepHooks::tick_ends).
-class CanTape : public bus::ShadowTape<CanFrame, std::vector<CanFrame>> {
+class CanTape final : public bus::ShadowTape<hal::CanBus, CanFrame, std::vector<CanFrame>> {
  public:
   static constexpr bool kWholeTicks = true;
-  bool send(const CanFrame& frame) {
+  bool send(const CanFrame& frame) override {
     here.frames.push_back(frame);
     return true;
   }
-  bool poll(CanFrame& frame, std::uint32_t) {
+  bool poll(CanFrame& frame, std::uint32_t) override {
     if (here.taken == here.received.size() && !play(same)) return false;
     if (here.taken == here.received.size()) return false;
     frame = here.received[here.taken++];
     return true;
   }
-  hal::CanErrors errors() const { return {}; }
+  hal::CanErrors errors() const override { return {}; }
 
  private:
   static bool same(std::vector<CanFrame> a, std::vector<CanFrame> b) {

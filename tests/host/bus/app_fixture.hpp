@@ -41,14 +41,15 @@ struct Memory {
 };
 
 /// Can lose, record or corrupt frames.
-struct Tap {
-  bool send(const std::uint8_t* data, std::size_t size) {
+struct Tap final : hal::FrameBus {
+  explicit Tap(bus::VirtualBus& of) : bus(of) {}
+  bool send(const std::uint8_t* data, std::size_t size) override {
     frames.emplace_back(data, data + size);
     if (lost.count(frames.size() - 1) > 0) return true;
     if (lose_sends > 0 && --lose_sends >= 0) return true;
     return bus.send(data, size);
   }
-  std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) {
+  std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) override {
     ++polls;
     std::size_t kept = 0;
     const std::size_t count = bus.poll(buffer, capacity, timeout_us);
@@ -59,7 +60,7 @@ struct Tap {
     }
     return kept;
   }
-  std::uint64_t now_us() { return bus.now_us(); }
+  std::uint64_t now_us() override { return bus.now_us(); }
   bus::VirtualBus& bus;
   std::vector<std::vector<std::uint8_t>> frames;
   int lose_sends = 0;
@@ -91,7 +92,7 @@ class AppLoop : public ::testing::Test {
   Params params = bus_params(kJoints);
   FakePlant plant;
   bus::VirtualBus bus{params, plant};
-  Tap tap{bus, {}};
+  Tap tap{bus};
   Script script;
   Memory memory;
   app::App<Tap, Script, Memory> app{params, tap, script, memory};

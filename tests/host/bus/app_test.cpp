@@ -152,7 +152,7 @@ TEST_F(AppLoop, LostFramesWakeNoServoWithOldOrders) {
   const auto wake = [&](std::set<std::size_t> lost) {
     FakePlant twin;
     bus::VirtualBus twin_bus(params, twin);
-    Tap twin_tap{twin_bus, {}};
+    Tap twin_tap{twin_bus};
     Memory records;
     app::App<Tap, Script, Memory> loop{params, twin_tap, script, records};
     EXPECT_EQ(loop.bring_up().status, app::BringUpStatus::kReady);
@@ -276,7 +276,7 @@ TEST_F(AppLoop, ServosWithoutFastSyncReadAreReadOneByOne) {
   plain.servo[0].model_number = dxl::kModelMx28;
   test::FakePlant mx_plant;
   bus::VirtualBus mx(plain, mx_plant);
-  Tap mx_tap{mx, {}};
+  Tap mx_tap{mx};
   app::App<Tap, Script, Memory> mx_app{plain, mx_tap, script, memory};
   ASSERT_EQ(mx_app.bring_up().status, app::BringUpStatus::kReady);
   for (int i = 0; i < 3; ++i) mx_app.tick();
@@ -311,7 +311,7 @@ TEST_F(AppLoop, TheSameRunGivesTheSameRecords) {
   const auto run = [this] {
     test::FakePlant twin;
     bus::VirtualBus twin_bus(params, twin);
-    Tap twin_tap{twin_bus, {}};
+    Tap twin_tap{twin_bus};
     Script operator_script;
     Memory records;
     app::App<Tap, Script, Memory> twin_app{params, twin_tap, operator_script, records};

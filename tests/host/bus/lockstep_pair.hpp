@@ -14,16 +14,16 @@
 /// bytes.
 namespace verp::test {
 
-class ServedLink {
+class ServedLink final : public hal::ByteLink {
  public:
   explicit ServedLink(bus::LockstepServer& server) : server_(server) {}
 
-  std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t) {
+  std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t) override {
     if (cut) return 0;
     spoil({data, size}, to_server_, outbound);
     return size;
   }
-  std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t) {
+  std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t) override {
     if (to_client_.empty() && !cut) serve();
     const std::size_t count = std::min(capacity, to_client_.size());
     std::copy_n(to_client_.begin(), count, buffer);
@@ -31,8 +31,8 @@ class ServedLink {
     if (count == 0) ++quiet_reads;
     return count;
   }
-  bool connected() const { return true; }
-  hal::LinkErrors errors() const { return {}; }
+  bool connected() const override { return true; }
+  hal::LinkErrors errors() const override { return {}; }
   void whisper(std::span<const std::uint8_t> bytes) {
     to_client_.insert(to_client_.end(), bytes.begin(), bytes.end());
   }
@@ -63,7 +63,6 @@ class ServedLink {
   LinkSpoiler spoiler_{1};
   int answers_ = 0;
 };
-static_assert(hal::ByteLink<ServedLink>);
 
 /// Restores the link on each hundredth call.
 struct Waiting {

@@ -33,7 +33,7 @@ struct Heard {
 
 constexpr int kTicks = 200;
 
-template <hal::CanBus Bus>
+template <std::derived_from<hal::CanBus> Bus>
 std::vector<Heard> drive(const Params& params, Bus& bus) {
   constexpr std::uint32_t kTimeout_us = 700;
   std::vector<Heard> heard;

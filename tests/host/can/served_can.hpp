@@ -21,11 +21,11 @@ struct Odds {
   double foreign = 0;                         ///< share of frames after another sender's
 };
 
-class ServedCan {
+class ServedCan final : public hal::CanBus {
  public:
   explicit ServedCan(LockstepServer& server) : server_(server) {}
 
-  bool send(const CanFrame& frame) {
+  bool send(const CanFrame& frame) override {
     if (cut) return true;
     if (lost_beginnings > 0 && VirtualCan::begins_tick(frame)) {
       --lost_beginnings;
@@ -35,7 +35,7 @@ class ServedCan {
     spoil(frame, outbound, to_server_);
     return true;
   }
-  bool poll(CanFrame& frame, std::uint32_t timeout_us) {
+  bool poll(CanFrame& frame, std::uint32_t timeout_us) override {
     if (to_client_.empty()) serve();
     if (to_client_.empty()) {
       now_us_ += timeout_us;
@@ -45,8 +45,8 @@ class ServedCan {
     to_client_.pop_front();
     return true;
   }
-  std::uint64_t now_us() const { return now_us_; }
-  hal::CanErrors errors() const { return {}; }
+  std::uint64_t now_us() override { return now_us_; }
+  hal::CanErrors errors() const override { return {}; }
 
   Odds outbound, inbound;
   bool cut = false;

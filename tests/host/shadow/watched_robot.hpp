@@ -15,19 +15,19 @@
 
 namespace verp::shadow::test {
 
-class DeafBus {
+class DeafBus final : public hal::CanBus {
  public:
   explicit DeafBus(can::VirtualCan& bus) : bus_(bus) {}
-  bool send(const CanFrame& frame) { return bus_.send(frame); }
-  bool poll(CanFrame& frame, std::uint32_t timeout_us) {
+  bool send(const CanFrame& frame) override { return bus_.send(frame); }
+  bool poll(CanFrame& frame, std::uint32_t timeout_us) override {
     while (bus_.poll(frame, timeout_us)) {
       if (random_() % 1000 >= lost_per_mille) return true;
       ++lost;
     }
     return false;
   }
-  std::uint64_t now_us() { return bus_.now_us(); }
-  hal::CanErrors errors() const { return bus_.errors(); }
+  std::uint64_t now_us() override { return bus_.now_us(); }
+  hal::CanErrors errors() const override { return bus_.errors(); }
 
   void seed(unsigned seed) { random_.seed(seed); }
   unsigned lost_per_mille = 0;

@@ -153,10 +153,15 @@ TEST(CanPort, TellsOfEachTickAndAnswersWhoAsksThere) {
   ASSERT_EQ(chip.bus.sent().size(), before + 3);
   const auto* sent = &chip.bus.sent()[before];
   namespace published = canopen::published;
-  EXPECT_EQ(sent[0].frame.id, canopen::tpdo_id(published::kDigestPdo, node.kNode));
+  EXPECT_EQ(sent[0].frame.id,
+            canopen::tpdo_id(published::kDigestPdo,
+                             app::OperatorNode<Wiring::Port, app::NoImages>::kNode));
   EXPECT_EQ(canopen::get_le(sent[0].frame.data, 8), record.digest.chain);
-  EXPECT_EQ(sent[1].frame.id, canopen::tpdo_id(published::kRecordPdo, node.kNode));
-  EXPECT_EQ(sent[2].frame.id, canopen::sdo_response_id(node.kNode));
+  EXPECT_EQ(sent[1].frame.id,
+            canopen::tpdo_id(published::kRecordPdo,
+                             app::OperatorNode<Wiring::Port, app::NoImages>::kNode));
+  EXPECT_EQ(sent[2].frame.id,
+            canopen::sdo_response_id(app::OperatorNode<Wiring::Port, app::NoImages>::kNode));
   client.receive(sent[2].frame, 0);
   EXPECT_EQ(canopen::get_le(crc, 4), params_crc(params));
 }

@@ -16,14 +16,14 @@
 namespace verp::test {
 
 /// Opens as soon as its endpoint exists; a test can disturb it.
-class ControllerPort {
+class ControllerPort final : public hal::ByteLink {
  public:
   explicit ControllerPort(std::string endpoint) : endpoint_(std::move(endpoint)) {}
 
-  std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t timeout_us) {
+  std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t timeout_us) override {
     return open(timeout_us) ? link_->write(data, size, timeout_us) : 0;
   }
-  std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) {
+  std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) override {
     if (!open(timeout_us)) return 0;
     const std::size_t count = link_->read(buffer, capacity, timeout_us);
     for (std::size_t i = 0; i < count; ++i) {
@@ -36,8 +36,8 @@ class ControllerPort {
     }
     return count;
   }
-  bool connected() const { return link_ && link_->connected(); }
-  hal::LinkErrors errors() const { return link_ ? link_->errors() : hal::LinkErrors{}; }
+  bool connected() const override { return link_ && link_->connected(); }
+  hal::LinkErrors errors() const override { return link_ ? link_->errors() : hal::LinkErrors{}; }
 
   unsigned flips_per_million = 0;  ///< of received bytes
   int cut_every = 0;               ///< every so many reads with data

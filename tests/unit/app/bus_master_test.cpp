@@ -27,7 +27,7 @@ struct Exchange {
     size = dxl::encode_status(reply, sizeof reply, kId, 0, new_value, 4);
     bus.expect(request, request_size, reply, size, kSoonUs);
   }
-  bool ask(BusMaster<hal::ScriptedBus>& master, std::uint32_t timeout) {
+  bool ask(BusMaster& master, std::uint32_t timeout) {
     for (std::size_t i = 0; i < request_size; ++i) master.frame()[i] = request[i];
     return master.request(request_size, timeout, [this](const dxl::Packet& packet) {
       value = packet.parameters[0];
@@ -42,7 +42,7 @@ struct Exchange {
 
 TEST(BusMaster, GivesUpWhenTheTimeIsOverAndCountsIt) {
   static Exchange exchange;
-  static BusMaster<hal::ScriptedBus> master(exchange.bus);
+  static BusMaster master(exchange.bus);
   EXPECT_FALSE(exchange.ask(master, kLateUs - 1));
   EXPECT_EQ(exchange.bus.now_us(), kLateUs - 1);
   EXPECT_EQ(master.counters().timeouts, 1u);
@@ -51,7 +51,7 @@ TEST(BusMaster, GivesUpWhenTheTimeIsOverAndCountsIt) {
 
 TEST(BusMaster, ARequestIsNotAnsweredByItsPredecessorsReply) {
   static Exchange exchange;
-  static BusMaster<hal::ScriptedBus> master(exchange.bus);
+  static BusMaster master(exchange.bus);
   EXPECT_FALSE(exchange.ask(master, kLateUs - 1));
   std::uint8_t seen = 0;
   EXPECT_EQ(exchange.bus.poll(&seen, 1, kLateUs), 1u);
@@ -62,7 +62,7 @@ TEST(BusMaster, ARequestIsNotAnsweredByItsPredecessorsReply) {
 
 TEST(BusMaster, RepliesMayComeByteByByte) {
   static Exchange exchange;
-  static BusMaster<hal::ScriptedBus> master(exchange.bus);
+  static BusMaster master(exchange.bus);
   exchange.bus.set_piece(1);
   EXPECT_TRUE(exchange.ask(master, kLateUs));
   EXPECT_EQ(exchange.value, 1);

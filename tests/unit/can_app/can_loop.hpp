@@ -13,7 +13,7 @@ inline constexpr std::uint32_t kAll = (1u << kBenchJoints) - 1;
 /// No core: the test sets the outputs.
 struct CanLoop {
   CanBench bench;
-  app::CanopenServos<CanBench> servos{bench.params, bench};
+  app::CanopenServos servos{bench.params, bench};
   Inputs inputs;
   Outputs outputs;
 

@@ -1,4 +1,4 @@
-#include "firmware/app/canopen_bring_up.hpp"
+#include "firmware/app/bring_up_report.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ TEST(CanopenBringUp, NamesASilentNodeAndLeavesNobodyStiff) {
   loop.enable();
   ASSERT_TRUE(loop.all_in(State::kOperationEnabled));
   loop.bench.drives[4].off = true;
-  CanopenServos<CanBench> again(loop.bench.params, loop.bench);
+  CanopenServos again(loop.bench.params, loop.bench);
   const BringUpReport report = again.bring_up();
   EXPECT_TRUE(report.status == BringUpStatus::kSilent);
   EXPECT_EQ(report.device_id, 15);
@@ -118,7 +118,7 @@ TEST(CanopenBringUp, RefusesIdsThatCanopenHasNotOrTwiceTheSame) {
   for (const std::uint8_t id : {std::uint8_t{200}, std::uint8_t{127}, std::uint8_t{12}}) {
     Loop& loop = test::new_can_loop();
     loop.bench.params.joint[0].servo_id = id;
-    CanopenServos<CanBench> servos(loop.bench.params, loop.bench);
+    CanopenServos servos(loop.bench.params, loop.bench);
     EXPECT_TRUE(servos.bring_up().status == BringUpStatus::kRefused) << id;
     EXPECT_EQ(loop.bench.sent, 0u);
   }

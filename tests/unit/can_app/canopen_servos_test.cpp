@@ -17,7 +17,7 @@ using test::kAll;
 using test::kBenchJoints;
 using Loop = test::CanLoop;
 
-static_assert(ServoBinding<CanopenServos<CanBench>>);
+static_assert(ServoBinding<CanopenServos>);
 
 TEST(CanopenServos, ReadsEveryNodeInEachTickAndSetsItsFlags) {
   Loop& loop = test::new_can_loop();

@@ -1,4 +1,3 @@
-#pragma once
 #include <cstdint>
 
 #include "common/model/params.hpp"
@@ -10,28 +9,16 @@
 #include "firmware/app/can_master.hpp"
 #include "firmware/app/can_nodes.hpp"
 #include "firmware/app/can_schedule.hpp"
+#include "firmware/app/drive_telemetry.hpp"
 #include "firmware/app/node_settings.hpp"
 #include "firmware/app/sdo_transfer.hpp"
 
 namespace verp::app {
+namespace {
 
-/// The dxl::HardwareError nearest to a CiA 402 error code, for the core.
-constexpr std::uint8_t hardware_error_of(std::uint16_t code) {
-  if (code == 0) return 0;
-  if (code >> 8 == 0x31 || code >> 8 == 0x32) return dxl::kInputVoltageError;
-  if (code >> 12 == 0x4) return dxl::kOverheatingError;
-  if (code >> 12 == 0x2) return dxl::kElectricalShockError;
-  if (code >> 8 == 0x73) return dxl::kEncoderError;
-  return dxl::kOverloadError;
-}
-
-/// Finds every node of the robot, sets it up and starts it, torque off. It listens first: resetting
-/// nodes would drop a robot that another controller runs. It then resets all nodes, so none stays
-/// stiff and unwritten settings have their stored values.
-template <hal::CanBus Bus>
 class CanopenBringUp {
  public:
-  CanopenBringUp(const Params& params, CanMaster<Bus>& master)
+  CanopenBringUp(const Params& params, CanMaster& master)
       : params_(params), master_(master), nodes_(params) {}
 
   BringUpReport run() {
@@ -245,9 +232,15 @@ class CanopenBringUp {
   }
 
   const Params& params_;
-  CanMaster<Bus>& master_;
+  CanMaster& master_;
   CanNodes nodes_;
   BringUpReport report_;
 };
+
+}  // namespace
+
+BringUpReport bring_up(const Params& params, CanMaster& master) {
+  return CanopenBringUp(params, master).run();
+}
 
 }  // namespace verp::app

@@ -1,4 +1,3 @@
-#pragma once
 #include <cstdint>
 
 #include "common/model/params.hpp"
@@ -7,14 +6,12 @@
 #include "firmware/app/bus_master.hpp"
 #include "firmware/app/servo_ram.hpp"
 
-/// Finds every device of the robot on the bus and writes its settings from Params, torque off.
-/// Writes EEPROM only where it differs, because it wears out; reads everything back.
 namespace verp::app {
+namespace {
 
-template <hal::FrameBus Bus>
 class BringUp {
  public:
-  BringUp(const Params& params, BusMaster<Bus>& master) : params_(params), master_(master) {}
+  BringUp(const Params& params, BusMaster& master) : params_(params), master_(master) {}
 
   BringUpReport run() {
     release_all();
@@ -154,9 +151,15 @@ class BringUp {
   }
 
   const Params& params_;
-  BusMaster<Bus>& master_;
+  BusMaster& master_;
   BringUpReport report_;
   bool alert_ = false;  ///< last reply's
 };
+
+}  // namespace
+
+BringUpReport bring_up(const Params& params, BusMaster& master) {
+  return BringUp(params, master).run();
+}
 
 }  // namespace verp::app
