@@ -18,7 +18,7 @@ ROOT = HERE.parent.parent
 
 
 def output_of(program, *words):
-    """What PROGRAM prints. `edit`, `view`, `shot` and `video` are programs of their own, which may not be built."""
+    """What PROGRAM prints. `edit`, `view`, `shot` and `video` have programs that cannot be built everywhere."""
     done = subprocess.run([program, *words], env={**os.environ, "COLUMNS": "100"}, capture_output=True, text=True, check=False)
     return done.stdout if done.returncode == 0 else f"./verp {' '.join(words)} prints this page: a program of its own, which was not built here."
 

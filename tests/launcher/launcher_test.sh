@@ -83,6 +83,7 @@ launch walk
 check 'the second time nothing is said' 7 'walk' ''
 [[ -z $errors ]] || { echo "FAILED: said: $errors" && failed=1; }
 
+grep -q verp_ "$scratch/built" && echo 'FAILED: a first walk built a program that it does not start' && failed=1
 grep -q 'host-release verp$' "$scratch/built" || { echo "FAILED: a first walk built: $(<"$scratch/built")" && failed=1; }
 fresh_project
 echo g++ >>"$scratch/installed"
@@ -101,6 +102,7 @@ check 'a board that is named gets its firmware built' 7 'walk --on=b1' 'missing:
 : >"$scratch/built"
 launch flash --board b1
 check 'flash builds the images of which it writes one' 7 'flash --board b1' ''
+grep -q 'host-release verp_robot$' "$scratch/built" || { echo "FAILED: flash built: $(<"$scratch/built")" && failed=1; }
 grep -q 'fw-b1 loops$' "$scratch/built" || { echo "FAILED: flash built: $(<"$scratch/built")" && failed=1; }
 : >"$scratch/built"
 launch deploy m --board b1

@@ -1,12 +1,23 @@
 #pragma once
+#include <string>
+#include <vector>
+
 #include "host/apps/cli/command.hpp"
+#include "host/apps/cli/shell_words.hpp"
 
 namespace verp::cli {
 
-/// Subcommands that run as programs of their own, so that `verp` does not need their libraries.
-/// Shot and video are in host/apps/pictures, edit in host/author/edit/words.
-Subcommand add_shot(CLI::App& root);
-Subcommand add_video(CLI::App& root);
-Subcommand add_edit(CLI::App& root);
+/// Commands in programs of their own, which `verp` starts: walking needs neither their code nor
+/// their libraries. Declares one of them with its description, in `verp` and in its own program.
+CLI::App* declare_other(CLI::App& root, const std::string& word);
+
+/// For `verp`: the command starts its program.
+Subcommand add_other(CLI::App& root, const std::string& word);
+
+/// Replaces this process by the command's program, with the same arguments. Throws ToolError.
+[[noreturn]] void start_other(const std::string& word);
+
+/// What these programs print with kShellWords. Those that are not built are left out.
+std::vector<ShellWords> words_of_others();
 
 }  // namespace verp::cli

@@ -13,6 +13,7 @@
 #include "host/apps/cli/help_text.hpp"
 #include "host/apps/cli/interrupt.hpp"
 #include "host/apps/cli/json.hpp"
+#include "host/apps/cli/shell_words.hpp"
 #include "host/apps/cli/suggest.hpp"
 #include "host/trace/record/trace.hpp"
 
@@ -127,6 +128,10 @@ int run(int argc, char** argv, AddCommands add_commands) {
   root.footer(
       "The launcher adds `./verp test`, which checks all promises, `./verp manual`, which builds "
       "the\nmanual, and `./verp python FILE`, which runs a Python program with libverp.");
+  if (argc == 2 && argv[1] == std::string_view(kShellWords)) {
+    answer(json_of(shell_words_of(root)).dump());
+    return kGood;
+  }
   try {
     root.parse(argc, argv);
     for (const Subcommand& command : commands) {

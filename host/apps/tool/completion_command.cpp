@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "host/apps/cli/console.hpp"
+#include "host/apps/cli/other_program.hpp"
 #include "host/apps/tool/commands.hpp"
 #include "host/boards/flash/recipe.hpp"
 #include "host/robot/model/find.hpp"
@@ -13,48 +14,19 @@
 namespace verp::tool {
 namespace {
 
-/// Words after one command ("bus read"; empty: the root).
-struct ShellWords {
-  std::string command;
-  std::vector<std::pair<std::string, std::string>> commands, options;  ///< with their descriptions
-  bool takes_robot = false;
-};
+using cli::ShellWords;
 
-std::string first_line_of(const std::string& text) {
-  return text.substr(0, text.find('\n'));
-}
-
-std::vector<std::string> names_of(const CLI::App& app) {
-  std::vector<std::string> names = app.get_aliases();
-  names.insert(names.begin(), app.get_name());
-  return names;
-}
-
-void gather(const CLI::App& app, const std::string& command, std::vector<ShellWords>& all) {
-  ShellWords words{.command = command, .commands = {}, .options = {}};
-  for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& name : option->get_lnames()) {
-      words.options.emplace_back("--" + name, first_line_of(option->get_description()));
-      words.takes_robot |= name == "robot";
-    }
-  }
-  const auto inner = app.get_subcommands([](const CLI::App*) { return true; });
-  for (const CLI::App* each : inner) {
-    for (const std::string& name : names_of(*each)) {
-      words.commands.emplace_back(name, first_line_of(each->get_description()));
-    }
-  }
-  all.push_back(words);
-  for (const CLI::App* each : inner) {
-    for (const std::string& name : names_of(*each)) {
-      gather(*each, command + (command.empty() ? "" : " ") + name, all);
-    }
-  }
+bool takes_robot(const ShellWords& words) {
+  return std::any_of(words.options.begin(), words.options.end(),
+                     [](const auto& option) { return option.first == "--robot"; });
 }
 
 std::vector<ShellWords> all_words(const CLI::App& root) {
-  std::vector<ShellWords> all;
-  gather(root, "", all);
+  std::vector<ShellWords> all = cli::shell_words_of(root);
+  for (ShellWords& other : cli::words_of_others()) {
+    std::erase_if(all, [&](const ShellWords& each) { return each.command == other.command; });
+    all.push_back(std::move(other));
+  }
   all.front().commands.emplace_back("test", "everything that is promised, checked");
   all.front().commands.emplace_back("python", "Debian's Python with libverp");
   all.push_back({.command = "python", .commands = {}, .options = {}});
@@ -82,7 +54,7 @@ std::string bash_words(const CLI::App& root) {
     for (const auto& list : {each.commands, each.options}) {
       for (const auto& [name, ignored] : list) words += (words.empty() ? "" : " ") + name;
     }
-    if (each.takes_robot) words += fmt::format(" {}", fmt::join(model::model_names(), " "));
+    if (takes_robot(each)) words += fmt::format(" {}", fmt::join(model::model_names(), " "));
     cases += fmt::format("    '{}') words='{}' ;;\n", each.command, words);
     if (!each.command.empty()) commands += fmt::format("|{}", each.command);
   }
@@ -131,7 +103,7 @@ std::string fish_words(const CLI::App& root) {
       out += fmt::format("complete -c verp -n '{}' -l {} -F -d {}\n", seen, name.substr(2),
                          in_quotes(does));
     }
-    if (each.takes_robot) {
+    if (takes_robot(each)) {
       out += fmt::format("complete -c verp -n '{}' -a '{}'\n", seen,
                          fmt::join(model::model_names(), " "));
     }

@@ -5,16 +5,36 @@
 namespace {
 
 namespace cli = verp::cli;
+using cli::add_other;
 using namespace verp::tool;
 
 std::vector<cli::Subcommand> all_commands(CLI::App& root) {
-  return {add_walk(root),      add_action(root),     add_demo(root),       add_view(root),
-          add_hil(root),       add_run(root),        add_shadow(root),     add_replay(root),
-          add_diff(root),      add_compare(root),    add_identify(root),   add_tune(root),
-          add_check(root),     add_export(root),     add_parameters(root), add_new(root),
-          cli::add_edit(root), add_completion(root), add_trace(root),      add_bench(root),
-          add_bus(root),       add_flash(root),      add_deploy(root),     add_debug(root),
-          cli::add_shot(root), cli::add_video(root)};
+  return {add_walk(root),
+          add_other(root, "action"),
+          add_other(root, "demo"),
+          add_view(root),
+          add_other(root, "hil"),
+          add_other(root, "run"),
+          add_other(root, "shadow"),
+          add_replay(root),
+          add_diff(root),
+          add_other(root, "compare"),
+          add_other(root, "identify"),
+          add_other(root, "tune"),
+          add_other(root, "check"),
+          add_other(root, "export"),
+          add_parameters(root),
+          add_other(root, "new"),
+          add_other(root, "edit"),
+          add_completion(root),
+          add_other(root, "trace"),
+          add_other(root, "bench"),
+          add_other(root, "bus"),
+          add_other(root, "flash"),
+          add_other(root, "deploy"),
+          add_other(root, "debug"),
+          add_other(root, "shot"),
+          add_other(root, "video")};
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ say() { echo "install: $*" && exit 1; }
 
 "$to/bin/verp" check generic21 >check.txt || say "verp check failed"
 grep -q "$to/share/verp/common/robots/generic21/robot.sdf" check.txt || say "verp does not read its own robots: $(head -3 check.txt)"
-"$to/bin/verp" check --help >/dev/null
+for command in check run tune; do "$to/bin/verp" $command --help >/dev/null || say "verp $command has no program"; done
 # Debian's multiarch folder is for /usr only.
 PC=$(dirname "$(find "$to" -name verp.pc)")
 LIB=$(dirname "$PC")

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "common/safety/machine.hpp"
-#include "host/apps/tool/run_operator.hpp"
+#include "host/apps/tool/robot/run_operator.hpp"
 
 // `verp run --take-orders`: the client decides.
 namespace verp::tool {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "host/apps/cli/exit_status.hpp"
-#include "host/apps/tool/camera_run.hpp"
-#include "host/apps/tool/trace_pictures.hpp"
+#include "host/apps/tool/robot/camera_run.hpp"
+#include "host/apps/tool/study/trace_pictures.hpp"
 #include "host/os/link/link_error.hpp"
 #include "host/trace/record/trace.hpp"
 #include "tests/support/video_device.hpp"

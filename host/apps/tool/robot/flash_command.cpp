@@ -1,0 +1,70 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+
+#include "host/apps/cli/console.hpp"
+#include "host/apps/cli/interrupt.hpp"
+#include "host/apps/cli/json.hpp"
+#include "host/apps/cli/other_program.hpp"
+#include "host/apps/tool/own_controller.hpp"
+#include "host/apps/tool/robot/commands.hpp"
+#include "host/apps/tool/robot/flash_run.hpp"
+
+namespace verp::tool {
+namespace {
+
+struct FlashWords {
+  FlashOptions flash;
+  std::string controller;  ///< empty: the core's
+  bool code = false, json = false;
+};
+
+int run_flash(FlashWords words) {
+  const bool data = !words.flash.params.empty() || !words.flash.actions.empty();
+  words.flash.code = words.code || !data || !words.controller.empty();
+  cli::Progress progress(!words.json);
+  if (!words.controller.empty()) {
+    const std::string images =
+        build_firmware_of(words.controller, words.flash.board, "loops", progress);
+    setenv("VERP_FIRMWARE_DIR", images.c_str(), 1);
+  }
+  const FlashAnswer result = flash_board(words.flash, progress, [&](const std::string& text) {
+    if (words.json) {
+      cli::complain(text);
+    } else {
+      cli::answer(text);
+      std::fflush(stdout);
+    }
+  });
+  cli::print_answer(words.json, result.json, result.text);
+  return cli::kGood;
+}
+
+}  // namespace
+
+cli::Subcommand add_flash(CLI::App& root) {
+  CLI::App* app = cli::declare_other(root, "flash");
+  auto words = std::make_shared<FlashWords>();
+  declare_target(*app, words->flash);
+  app->add_option("--params", words->flash.params,
+                  "write this robot instead of the firmware: a Params image (FILE.bin, see verp "
+                  "export), or, with its actions, a robot of common/robots or an SDF file");
+  app->add_option("--bus", words->flash.bus,
+                  "name of the robot's bus to use (default: its first), which decides which "
+                  "firmware: for serial servos, or for drives on CAN; without --params it is a bus "
+                  "of generic21");
+  app->add_option("--actions", words->flash.actions,
+                  "write these: a FILE.bin of verp action export, or what a run that failed has "
+                  "kept (it names the file). A robot that --params makes brings its own; none "
+                  "leaves those on the board as they are");
+  app->add_flag("--code", words->code, "with --params or --actions: the firmware as well");
+  declare_controller(*app, words->controller);
+  cli::add_json_flag(*app, words->json);
+  return {app, [words] {
+            cli::catch_interrupts();
+            return run_flash(*words);
+          }};
+}
+
+}  // namespace verp::tool

@@ -1,0 +1,87 @@
+#include "host/apps/tool/robot/run_operator.hpp"
+
+#include <utility>
+
+#include "host/run/session/fault_names.hpp"
+
+namespace verp::tool {
+
+using safety::Mode;
+
+RunOperator::RunOperator(const Params& params, const Command& velocity, double walk_s, Told told,
+                         int get_ups)
+    : walker_(params, velocity, walk_s, get_ups),
+      told_(std::move(told)),
+      period_s_(1e-6 * params.period_us),
+      most_s_(walk_s),
+      gets_up_(get_ups > 0),
+      story_(get_ups) {}
+
+app::OperatorOrder RunOperator::order(std::uint32_t tick) {
+  if (!sitting_ && !limp_) {
+    return orders_ ? orders_(tick) : player_ ? player_->order(tick) : walker_.order(tick);
+  }
+  app::OperatorOrder order;
+  relax_.request = Request::kRelax;
+  ++relax_.sequence;
+  order.command = relax_;
+  order.flags = kCommandFresh;
+  if (limp_) order.flags |= kEmergencyStop;
+  return order;
+}
+
+void RunOperator::fail(const std::string& why) {
+  if (failure_.empty()) failure_ = why;
+  sitting_ = true;
+}
+
+// Another source of orders may release torque: no failure.
+void RunOperator::observe_obeying(std::uint32_t faults) {
+  constexpr std::uint32_t kStopping = 0xFFFF;
+  obeyed_s_ += period_s_;
+  if (mode_ == Mode::kWalking) walked_s_ += period_s_;
+  if (mode_ == Mode::kRelaxed && risen_ && (faults & kStopping) != 0) {
+    fail("the robot let go by itself: " + session::fault_names(faults));
+  }
+  if (obeyed_s_ >= most_s_) sitting_ = true;
+}
+
+void RunOperator::observe_playing(const State& state, const Outputs& outputs) {
+  player_->observe(state, outputs);
+  if (player_->done()) fail(player_->failed());
+}
+
+// With get-ups, the walker counts the attempts.
+void RunOperator::observe_mode(Mode from, const State& state, const Outputs& outputs) {
+  const std::string story = story_.observe(state, outputs);
+  if (mode_ != from) told_(from, mode_, outputs.faults, story);
+  risen_ = risen_ || outputs.torque_enable != 0;
+  if (mode_ == Mode::kFallen && !gets_up_) fail("the robot fell");
+  if (mode_ == Mode::kStopped && !limp_) fail("stopped");
+  if (mode_ == Mode::kRelaxed && risen_ && !sitting_ && !orders_) {
+    fail("the robot let go by itself: " + session::fault_names(outputs.faults));
+  }
+}
+
+void RunOperator::observe(const State& state, const Outputs& outputs) {
+  const auto mode = static_cast<Mode>(outputs.mode);
+  observe_mode(std::exchange(mode_, mode), state, outputs);
+  // Automatic actions do not use up the operator's patience.
+  const bool by_itself = mode == Mode::kHolding || mode == Mode::kSitting ||
+                         (mode == Mode::kRising && walker_.walked_s() > 0);
+  if (orders_ && !sitting_) {
+    observe_obeying(outputs.faults);
+  } else if (!sitting_ && !by_itself && player_) {
+    observe_playing(state, outputs);
+  } else if (!sitting_ && !by_itself) {
+    walker_.observe(state, outputs);
+    if (walker_.done()) {
+      failure_ = walker_.failed();
+      sitting_ = true;
+    }
+  }
+  const bool ending = sitting_ || limp_;
+  quiet_ticks_ = ending && outputs.torque_enable == 0 ? quiet_ticks_ + 1 : 0;
+}
+
+}  // namespace verp::tool
