@@ -6,20 +6,20 @@ cd "$1" || exit 3
 table=tests/findings.md failed=0
 complain() { echo "$table:$1" && failed=1; }
 
+declare -A tests # "tests/unit/gait Suite.Name", or a name that CMake gives
+while read -r each; do tests[$each]=1; done < <(
+  grep -rozE --include='*_test.cpp' 'TEST(_F|_P)?\(\w+,\s*\w+\)' tests | tr -d '\n ' | tr '\0' '\n' |
+    sed -E 's,^(tests/(unit|host)/[^/]+|tests/[^/]+)/[^:]*:.*\((.*)\,(.*)\),\1 \3.\4,'
+  grep -rhoE --include=CMakeLists.txt --include='*.cmake' 'NAME ([a-z0-9_.]+|[a-z0-9_]+\.\$\{VERP_BOARD\})( |$)' tests boards | sed 's/NAME //; s/ $//')
 exists() { # name
-  local name=$1 folder suite
-  suite=${name%.*} suite=${suite##*.}
+  local name=$1 test
+  test=${name%.*} test=${test##*.}.${name##*.}
   case $name in
-  unit.*.*.*) folder=${name#unit.} folder=tests/unit/${folder%%.*} ;;
-  hil.* | scenario.* | contract.*) folder=tests/${name%%.*} ;;
-  host.*.*.*) folder=${name#host.} folder=tests/host/${folder%%.*} ;;
-  Bench.*) folder=tests/bench ;;
-  *) # a board's tests carry its name
-    grep -rqE --include=CMakeLists.txt --include='*.cmake' "NAME (${name//./\\.}|${name%%.*}\.\\$\{VERP_BOARD\})( |\$)" tests boards
-    return
-    ;;
+  unit.*.*.* | host.*.*.*) name="${name#*.}" name="tests/${1%%.*}/${name%%.*} $test" ;;
+  hil.* | scenario.* | contract.*) name="tests/${name%%.*} $test" ;;
+  Bench.*) name="tests/bench $test" ;;
   esac
-  grep -rqzE --include='*_test.cpp' "TEST(_F|_P)?\($suite,[[:space:]]*${name##*.}\)" "$folder" 2>/dev/null
+  [[ ${tests[$name]:-} || ${tests["${name%%.*}.\${VERP_BOARD}"]:-} ]] # a board's tests carry its name
 }
 
 number=0 line=0

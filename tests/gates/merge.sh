@@ -18,7 +18,7 @@ kept='replay.golden replay.matrix trace.mps2_an386 loop.mps2_an386 tour.mps2_an3
   gate.symbols gate.layers gate.format gate.merge launcher.promises contract.mps2_an386'
 merge=$(tests/run --plan) full=$(tests/run --plan --full)
 
-runs_board() { grep -q "^boards tests: .* $2 .* ctest " <<<"$1"; } # plan board
+runs_board() { [[ $1 =~ (^|$'\n')'boards tests: '[^$'\n']*\ $2\ .*\ ctest\  ]]; } # plan board
 boards=$(sed -nE 's/.*"name": "fw-([a-z0-9_]+)".*/\1/p' CMakePresets.json | sort -u)
 for board in $boards; do
   runs_board "$full" "$board" || missing "tests/run: not even --full runs the board $board"
@@ -42,24 +42,29 @@ grep -q '^host-asan-ubsan tests: ' <<<"$full" || missing 'tests/run: --full has 
 [[ ! $(sed -nE 's/^host-release tests: .* -E ([^ ]+).*/\1/p' <<<"$full") ]] || missing 'tests/run: --full leaves tests out'
 
 # Suite.Name for GoogleTest, the name for CMake.
-tests=$(grep -rhozE --include='*_test.cpp' 'TEST(_F|_P)?\(\w+,\s*\w+\)' tests | tr -d '\n ' | tr '\0' '\n' | sed -E 's/.*\((.*),(.*)\)/\1.\2/'
+declare -A tests of_boards
+while read -r each; do tests[$each]=1; done < <(
+  grep -rhozE --include='*_test.cpp' 'TEST(_F|_P)?\(\w+,\s*\w+\)' tests | tr -d '\n ' | tr '\0' '\n' | sed -E 's/.*\((.*),(.*)\)/\1.\2/'
   grep -rhoE --include=CMakeLists.txt --include='*.cmake' 'NAME [a-z0-9_.]+' tests | sed 's/.* //'
   grep -oE 'verp_can_(test|split)\([a-z.]+ [a-z_.]+' tests/can/CMakeLists.txt | sed 's/.* //; p; s/$/.more/')
-of_boards=$(grep -rhoE --include=CMakeLists.txt --include='*.cmake' '\w+\.\$\{VERP_BOARD|_test\(\w+ ' boards | sed -E 's/.*\(//; s/[. ].*//')
+while read -r each; do of_boards[$each]=1; done < <(
+  grep -rhoE --include=CMakeLists.txt --include='*.cmake' '\w+\.\$\{VERP_BOARD|_test\(\w+ ' boards | sed -E 's/.*\(//; s/[. ].*//')
 is_there() { # `*` is any part of a name
-  local board kind=${1%%.*}
+  local board kind=${1%%.*} name=$1
   for board in $boards; do
     [[ $1 != *."$board" && $1 != *."$board"[.*]* ]] && continue
-    [[ $kind == '*' ]] || grep -qxF "$kind" <<<"$of_boards"
+    [[ $kind == '*' || ${of_boards[$kind]:-} ]]
     return
   done
-  grep -qxF -e "$1" -e "$(sed -E 's,/[^/.]*$,,' <<<"$1" | awk -F'[./]' '{ print $(NF-1) "." $NF }')" <<<"$tests"
+  [[ ! $name =~ ^(.*)/[^/.]*$ ]] || name=${BASH_REMATCH[1]} # the value of a parameter
+  [[ ${tests[$1]:-} ]] || { [[ $name =~ ([^./]+)[./]([^./]+)$ ]] && [[ ${tests[${BASH_REMATCH[1]}.${BASH_REMATCH[2]}]:-} ]]; }
 }
 while IFS='|' read -r _ left kept _; do
-  for each in $(tr -d '\140' <<<"$left $kept"); do
+  kept=${kept//\`/}
+  for each in ${left//\`/} $kept; do
     is_there "$each" || missing "tests/full.md: no test '$each'"
   done
-  each=$(tr -d '\140 ' <<<"$kept")
+  each=${kept// /}
   [[ ! $each =~ $left_out ]] || missing "tests/full.md: '$each' is left out, too"
 done < <(grep '^| `' tests/full.md)
 
