@@ -9,8 +9,8 @@ missing() { echo "$1" && failed=1; }
 
 boards_of_full='mps2_an385 mps2_an500 mps3_an547 nucleo_f446re'
 # The core, and readers of foreign bytes.
-sanitized='unit math replay contract hil host.action host.bus host.can host.edit host.eds host.files host.link host.live host.model host.radio
-  host.record host.shadow'
+sanitized='unit math replay contract hil host.action host.bus host.can host.can_drivers host.edit host.eds host.files host.link host.live
+  host.model host.radio host.record host.shadow host.stm32_drivers'
 # Bits of every instruction set, loops over every bus, walks, faults, gates.
 kept='replay.golden replay.matrix trace.mps2_an386 loop.mps2_an386 tour.mps2_an386 bench.mps2_an386 unit.mps2_an386 hil.olimex_h405.walk
   budget.olimex_h405 budget.opencr trace.qemu_rv32 can.qemu_rv32 trace.zcu102_r5 can.zcu102_r5 can_loop.zcu102_r5
@@ -37,6 +37,10 @@ done
 names=$(option host-asan-ubsan R)
 for each in $sanitized; do
   [[ $names && $each.0 =~ $names ]] || missing "tests/run: the sanitizers of the merge gate leave out $each"
+done
+elsewhere=$(option host-release E)
+for each in unit math replay contract hil scenario gate $(cd tests && find host -mindepth 1 -maxdepth 1 -type d | tr / .); do
+  [[ ! $each.0 =~ $elsewhere || $each.0 =~ $names ]] || missing "tests/run: the merge gate runs $each nowhere"
 done
 grep -q '^host-asan-ubsan tests: ' <<<"$full" || missing 'tests/run: --full has no sanitizers'
 [[ ! $(sed -nE 's/^host-release tests: .* -E ([^ ]+).*/\1/p' <<<"$full") ]] || missing 'tests/run: --full leaves tests out'

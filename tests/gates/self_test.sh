@@ -183,6 +183,7 @@ test_merge() {
   merge_case 'a board that nobody runs' 'not even --full runs the board mps2_an385' tests/run 's/\[\[ ! \$full && " \$boards/[[ " $boards/'
   merge_case 'a folder of host without sanitizers' 'leave out host.model' tests/run 's/\|model\|/|/'
   merge_case 'the core without sanitizers' 'leave out replay' tests/run 's/\|replay\|/|/'
+  merge_case 'a folder that no stage runs' 'runs host.sim nowhere' tests/run "s/^only_sanitized='/&host\\\\.sim|/; s/^sanitized=.*/sanitized='(unit|host\\\\.(action|bus|can))\\\\.'/"
   merge_case 'a longer run' 'cold_budget_s is 3000, at most 2700' tests/run 's/cold_budget_s=2700/cold_budget_s=3000/'
   merge_case 'a run of any length' 'warm_budget_s is missing' tests/run 's/warm_budget_s=1500/warm_s=1500/'
   merge_case 'sanitizers, not even with --full' '--full has no sanitizers' tests/run 's/preset host-asan-ubsan 900/preset host-debug 900/'
