@@ -27,8 +27,8 @@ struct Patience {
   bool operator()() const { return true; }
 };
 
-using Log = verp::app::TickLog<>;
-using Node = verp::app::OperatorNode<verp::board::Can, Log>;
+using Log = verp::app::TickLog;
+using Node = verp::app::OperatorNode;
 
 struct Desk {
   // OperatorLink. Skips orders of skipped ticks.
@@ -62,7 +62,7 @@ int fail(const char* why) {
 
 int run(Desk& desk, const verp::app::CanLoopJob& job) {
   static Log log(verp::app::no_images);
-  static verp::app::OperatorRegisters<Log> registers(
+  static verp::app::OperatorRegisters registers(
       params, verp::app::OperatorSetup{.takes_orders = false}, log);
   static Node node(can, params, registers, log);
   desk.node = &node;

@@ -51,9 +51,9 @@ constexpr std::uint64_t kServingEnds_us = 2'000;
 constexpr std::uint64_t kLastWords_us = 40'000;
 
 using app::table::StartFault;
-using Ticks = app::TickLog<Kept::Images>;
-using Operator = app::OperatorDevice<OperatorPort, Ticks>;
-using Node = RobotNode<Port, Ticks>;
+using Ticks = app::TickLog;
+using Operator = app::OperatorDevice;
+using Node = RobotNode<Port>;
 
 struct Board {
   Board(const Start& start, const Params& params, const control::BootReport& boot_check)

@@ -1,5 +1,4 @@
 #pragma once
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 
@@ -7,6 +6,10 @@
 #include "common/protocol/controller_table.hpp"
 
 /// Images behind the registers window_..., block by block.
+namespace verp {
+struct State;
+struct TickRecord;
+}  // namespace verp
 namespace verp::app {
 
 enum class ImageKind : std::uint8_t {
@@ -37,32 +40,42 @@ enum class Taken : std::uint8_t {
 ///    Actions need torque off, because they are written to flash.
 ///  - commit(kind, crc): only with torque off. 0: the CRC-32 fits and the image is valid; the
 ///    controller starts with it next time. Otherwise the fault, and nothing changed.
-template <class Store>
-concept Images = requires(Store& store, const Store& seen, ImageKind kind, std::size_t offset,
-                          std::uint8_t* to, const std::uint8_t* from, std::size_t count,
-                          std::uint32_t crc) {
-  { seen.size(kind) } -> std::same_as<std::size_t>;
-  { seen.room(kind) } -> std::same_as<std::size_t>;
-  { seen.read(kind, offset, to, count) } -> std::same_as<void>;
-  { store.begin(kind) } -> std::same_as<void>;
-  { store.write(kind, offset, from, count) } -> std::same_as<Taken>;
-  { store.commit(kind, crc) } -> std::same_as<std::uint8_t>;
+///  - keeps_ticks(): it takes ticks (tick_log.hpp). keep(): the tick that ended. hold(): the value
+///  of
+///    register tick_hold.
+class Images {
+ public:
+  virtual std::size_t size(ImageKind kind) const = 0;
+  virtual std::size_t room(ImageKind kind) const = 0;
+  virtual void read(ImageKind kind, std::size_t offset, std::uint8_t* to,
+                    std::size_t count) const = 0;
+  virtual void begin(ImageKind kind) = 0;
+  virtual Taken write(ImageKind kind, std::size_t offset, const std::uint8_t* from,
+                      std::size_t count) = 0;
+  virtual std::uint8_t commit(ImageKind kind, std::uint32_t crc) = 0;
+  virtual bool keeps_ticks() const { return false; }
+  virtual void keep(const TickRecord&, const State&) {}
+  virtual void hold(std::uint8_t) {}
+
+ protected:
+  ~Images() = default;
 };
 
-struct NoImages {
-  static std::size_t size(ImageKind) { return 0; }
-  static std::size_t room(ImageKind) { return 0; }
-  static void read(ImageKind, std::size_t, std::uint8_t*, std::size_t) {}
-  static void begin(ImageKind) {}
-  static Taken write(ImageKind, std::size_t, const std::uint8_t*, std::size_t) {
+class NoImages final : public Images {
+ public:
+  std::size_t size(ImageKind) const override { return 0; }
+  std::size_t room(ImageKind) const override { return 0; }
+  void read(ImageKind, std::size_t, std::uint8_t*, std::size_t) const override {}
+  void begin(ImageKind) override {}
+  Taken write(ImageKind, std::size_t, const std::uint8_t*, std::size_t) override {
     return Taken::kNo;
   }
-  static std::uint8_t commit(ImageKind, std::uint32_t) { return kWrongWindowCrc; }
+  std::uint8_t commit(ImageKind, std::uint32_t) override { return kWrongWindowCrc; }
 };
 inline constinit NoImages no_images;
 
 /// The robot's Params image. A new one stays in RAM; the board stores it and starts with it.
-class ParamsImages {
+class ParamsImages final : public Images {
  public:
   explicit ParamsImages(const ParamsImage& in_force) : in_force_(in_force) {}
 
@@ -70,35 +83,17 @@ class ParamsImages {
   const ParamsImage* accepted() const { return accepted_ ? &staged_ : nullptr; }
 
   // Images
-  std::size_t size(ImageKind kind) const {
-    return kind == ImageKind::kParams ? sizeof(ParamsImage) : 0;
-  }
-  std::size_t room(ImageKind kind) const { return size(kind); }
-  void read(ImageKind, std::size_t offset, std::uint8_t* to, std::size_t count) const {
-    __builtin_memcpy(to, reinterpret_cast<const std::uint8_t*>(&in_force_) + offset, count);
-  }
-  void begin(ImageKind) {
-    accepted_ = false;
-    __builtin_memset(reinterpret_cast<std::uint8_t*>(&staged_), 0xFF, sizeof staged_);
-  }
-  Taken write(ImageKind, std::size_t offset, const std::uint8_t* from, std::size_t count) {
-    accepted_ = false;
-    __builtin_memcpy(reinterpret_cast<std::uint8_t*>(&staged_) + offset, from, count);
-    return Taken::kYes;
-  }
-  std::uint8_t commit(ImageKind, std::uint32_t crc) {
-    if (crc32(&staged_, sizeof staged_) != crc) return kWrongWindowCrc;
-    const ImageFault fault = check_image(&staged_, sizeof staged_);
-    accepted_ = fault == ImageFault::kNone;
-    return static_cast<std::uint8_t>(fault);
-  }
+  std::size_t size(ImageKind kind) const override;
+  std::size_t room(ImageKind kind) const override { return size(kind); }
+  void read(ImageKind, std::size_t offset, std::uint8_t* to, std::size_t count) const override;
+  void begin(ImageKind) override;
+  Taken write(ImageKind, std::size_t offset, const std::uint8_t* from, std::size_t count) override;
+  std::uint8_t commit(ImageKind, std::uint32_t crc) override;
 
  private:
   const ParamsImage& in_force_;
   ParamsImage staged_;
   bool accepted_ = false;
 };
-
-static_assert(Images<NoImages> && Images<ParamsImages>);
 
 }  // namespace verp::app

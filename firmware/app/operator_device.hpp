@@ -1,5 +1,4 @@
 #pragma once
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 
@@ -17,39 +16,18 @@ namespace verp::app {
 ///
 /// Answers Ping, Read, Write, Reg Write, Action, Sync, Bulk and fast reads, Sync and Bulk Write and
 /// Reboot; others give the Instruction Error. Orders expire: the core checks their age.
-template <std::derived_from<hal::ByteLink> Link, Images Store = NoImages>
 class OperatorDevice {
  public:
-  OperatorDevice(Link& link, const Params& params, const OperatorSetup& setup, Store& images)
+  OperatorDevice(hal::ByteLink& link, const Params& params, const OperatorSetup& setup,
+                 Images& images = no_images)
       : link_(link), registers_(params, setup, images) {}
-  OperatorDevice(Link& link, const Params& params,
-                 const OperatorSetup& setup) requires std::same_as<Store, NoImages>
-      : OperatorDevice(link, params, setup, no_images) {}
 
   /// Takes at most kSlice bytes from the link; nothing while part of a reply waits for room. True
   /// if there was anything to do.
-  bool poll() {
-    bool busy = push();
-    if (more_) serve(parser_.next());
-    if (sent_ < reply_size_) return busy;
-    if (taken_ == arrived_) {
-      taken_ = 0;
-      arrived_ = link_.read(inbox_, sizeof inbox_, 0);
-    }
-    while (taken_ < arrived_ && sent_ == reply_size_) {
-      busy = true;
-      serve(parser_.push(inbox_[taken_++]));
-    }
-    registers_.report().link(parser_.crc_errors(), link_.errors());
-    return busy;
-  }
+  bool poll();
 
   /// Shows the bring-up's result to the operator; drops earlier orders.
-  void brought_up(const BringUpReport& report) {
-    registers_.report().bring_up(report);
-    withdraw_orders();
-  }
-
+  void brought_up(const BringUpReport& report);
   void show(table::StartFault fault) { registers_.report().start_fault(fault); }
 
   void show(table::ServoPower power) { registers_.report().servo_power(power); }
@@ -60,37 +38,28 @@ class OperatorDevice {
   void servos_gone() { registers_.report().servos_gone(); }
 
   /// `count`: actions in the loop's library; `fault`: why stored ones are not available.
-  void offer_actions(int count, action::KeptFault fault = action::KeptFault::kNone) {
-    registers_.offer_actions(count, fault);
-  }
+  void offer_actions(int count, action::KeptFault fault = action::KeptFault::kNone);
 
   /// Call as often as the counters should refresh.
   void report(const LoopHealth& health) { registers_.report().health(health); }
 
-  OperatorRegisters<Store>& registers() { return registers_; }
+  OperatorRegisters& registers() { return registers_; }
 
   std::uint8_t id() const { return registers_.id(); }
   table::ImuSource imu_source() const { return registers_.imu_source(); }
   std::uint8_t torque_limit_percent() const { return registers_.torque_limit_percent(); }
   bool armed() const { return registers_.armed(); }
-  table::ImuCalibrationOrder take_calibration_order() {
-    return registers_.take_calibration_order();
-  }
+  table::ImuCalibrationOrder take_calibration_order();
   bool take_relax() { return registers_.take_relax(); }
   bool reply_waits() const { return sent_ < reply_size_; }
   /// The operator wants a restart; asked only with torque off.
   bool reboot_asked() const { return reboot_asked_ && sent_ == reply_size_; }
 
   // OperatorLink
-  OperatorOrder order(std::uint32_t tick) {
-    if (registers_.slept_until(tick)) withdraw_orders();
-    return registers_.order();
-  }
+  OperatorOrder order(std::uint32_t tick);
 
   // Recorder
-  void record(const TickRecord& record, const State& state, const Outputs& outputs) {
-    registers_.record(record, state, outputs);
-  }
+  void record(const TickRecord& record, const State& state, const Outputs& outputs);
 
  private:
   static constexpr std::size_t kSlice = 64;
@@ -98,165 +67,27 @@ class OperatorDevice {
   enum StatusLevel : std::uint8_t { kPingOnly = 0, kReads = 1, kAll = 2 };
 
   // Bytes still in the link were sent earlier: take them first.
-  void withdraw_orders() {
-    for (int slice = 0; slice < kMostSlices && poll(); ++slice) {
-    }
-    registers_.withdraw_orders();
-  }
-
-  bool push() {
-    if (sent_ == reply_size_) return false;
-    sent_ += link_.write(reply_ + sent_, reply_size_ - sent_, 0);
-    if (!link_.connected()) sent_ = reply_size_;  // the peer is gone
-    return true;
-  }
+  void withdraw_orders();
+  bool push();
 
   // One byte can complete several packets if a false header hid them.
-  void serve(bool found) {
-    for (; found; found = parser_.next()) {
-      const dxl::Packet& packet = parser_.packet();
-      if (packet.is_status()) {
-        overhear(packet.id);
-      } else {
-        before_us_ = dxl::kBroadcast;
-        handle(packet);
-      }
-      push();
-      more_ = sent_ < reply_size_;
-      if (more_) return;
-    }
-    more_ = false;
-  }
-
-  void handle(const dxl::Packet& packet) {
-    const std::uint8_t id = registers_.id();
-    if (packet.id != dxl::kBroadcast && packet.id != id) return;
-    registers_.report().heard();
-    switch (packet.instruction) {
-      case dxl::Instruction::kPing:
-        return ping(id);
-      case dxl::Instruction::kRead:
-        return read(packet);
-      case dxl::Instruction::kSyncRead:
-      case dxl::Instruction::kBulkRead:
-      case dxl::Instruction::kFastSyncRead:
-      case dxl::Instruction::kFastBulkRead:
-        return read_in_turn(packet, id);
-      case dxl::Instruction::kSyncWrite:
-      case dxl::Instruction::kBulkWrite:
-        return write_each(packet, id);
-      default:
-        return acknowledge(packet.id, execute(packet));
-    }
-  }
-
-  dxl::Error execute(const dxl::Packet& packet) {
-    constexpr std::size_t kAddressBytes = 2;
-    const std::uint8_t* data = packet.parameters + kAddressBytes;
-    const std::size_t size = packet.size < kAddressBytes ? 0 : packet.size - kAddressBytes;
-    switch (packet.instruction) {
-      case dxl::Instruction::kWrite:
-        return size == 0 ? dxl::Error::kDataLength
-                         : registers_.write(dxl::get_u16(packet.parameters), data, size);
-      case dxl::Instruction::kRegWrite:
-        return size == 0 ? dxl::Error::kDataLength
-                         : registers_.reg_write(dxl::get_u16(packet.parameters), data, size);
-      case dxl::Instruction::kAction:
-        return registers_.action();
-      case dxl::Instruction::kReboot:
-        if (registers_.armed()) return dxl::Error::kResultFail;
-        reboot_asked_ = true;
-        return dxl::Error::kNone;
-      default:
-        return dxl::Error::kInstruction;
-    }
-  }
-
-  void ping(std::uint8_t id) {
-    std::uint8_t identity[3];
-    dxl::put_u16(identity, table::kModel);
-    identity[2] = table::kTableVersion;
-    reply(id, dxl::Error::kNone, identity, sizeof identity);
-  }
-
-  void read(const dxl::Packet& packet) {
-    if (packet.id == dxl::kBroadcast || registers_.status_level() < kReads) return;
-    if (packet.size != 4) return reply(packet.id, dxl::Error::kDataLength, nullptr, 0);
-    show(packet.id, dxl::get_u16(packet.parameters), dxl::get_u16(packet.parameters + 2));
-  }
-
-  void show(std::uint8_t id, std::uint16_t address, std::uint16_t size) {
-    const std::uint8_t* data = registers_.read(address, size);
-    if (data == nullptr) return reply(id, dxl::Error::kAccess, nullptr, 0);
-    reply(id, dxl::Error::kNone, data, size);
-    // Stuffing can make a reply exceed the packet limit.
-    if (reply_size_ == 0) reply(id, dxl::Error::kDataLimit, nullptr, 0);
-  }
+  void serve(bool found);
+  void handle(const dxl::Packet& packet);
+  dxl::Error execute(const dxl::Packet& packet);
+  void ping(std::uint8_t id);
+  void read(const dxl::Packet& packet);
+  void show(std::uint8_t id, std::uint16_t address, std::uint16_t size);
 
   // Devices answer in list order, each after the one before it.
-  void read_in_turn(const dxl::Packet& packet, std::uint8_t id) {
-    if (registers_.status_level() < kReads) return;
-    std::uint8_t before = dxl::kBroadcast;
-    std::size_t all_bytes = 0;
-    dxl::ReadEntry own, each;
-    bool asked = false;
-    for (std::size_t i = 0; dxl::read_entry(packet, i, each); ++i) {
-      all_bytes += each.length + dxl::kFastBlockBytes;
-      if (each.id == id && !asked) {
-        own = each;
-        asked = true;
-      }
-      if (!asked) before = each.id;
-    }
-    if (!asked) return;
-    if (dxl::is_fast_read(packet.instruction)) {
-      // One packet of all devices: behind others our CRC would continue theirs.
-      if (before == dxl::kBroadcast) show_fast(own, all_bytes);
-    } else if (before == dxl::kBroadcast) {
-      show(id, own.address, own.length);
-    } else {
-      before_us_ = before;
-      waiting_ = own;
-    }
-  }
+  void read_in_turn(const dxl::Packet& packet, std::uint8_t id);
+  void overhear(std::uint8_t id);
+  void show_fast(const dxl::ReadEntry& own, std::size_t all_bytes);
+  void write_each(const dxl::Packet& packet, std::uint8_t id);
+  void acknowledge(std::uint8_t asked_as, dxl::Error error);
+  void reply(std::uint8_t id, dxl::Error error, const std::uint8_t* data, std::size_t size);
 
-  void overhear(std::uint8_t id) {
-    if (before_us_ == dxl::kBroadcast || id != before_us_) return;
-    before_us_ = dxl::kBroadcast;
-    show(waiting_.id, waiting_.address, waiting_.length);
-  }
-
-  void show_fast(const dxl::ReadEntry& own, std::size_t all_bytes) {
-    if (dxl::kFastHeaderBytes + dxl::kFastBlockBytes + own.length > sizeof reply_) return;
-    const std::uint8_t* data = registers_.read(own.address, own.length);
-    if (data == nullptr) return;
-    std::uint16_t crc = 0;
-    sent_ = 0;
-    reply_size_ = dxl::encode_fast_block(reply_, true, all_bytes, own.id,
-                                         dxl::error_field(dxl::Error::kNone, registers_.alert()),
-                                         data, own.length, crc);
-  }
-
-  void write_each(const dxl::Packet& packet, std::uint8_t id) {
-    dxl::WriteEntry entry;
-    for (std::size_t offset = 0; dxl::write_entry(packet, offset, entry);) {
-      if (entry.id == id) registers_.write(entry.address, entry.data, entry.size);
-    }
-  }
-
-  void acknowledge(std::uint8_t asked_as, dxl::Error error) {
-    if (asked_as == dxl::kBroadcast || registers_.status_level() < kAll) return;
-    reply(asked_as, error, nullptr, 0);
-  }
-
-  void reply(std::uint8_t id, dxl::Error error, const std::uint8_t* data, std::size_t size) {
-    sent_ = 0;
-    reply_size_ = dxl::encode_status(reply_, sizeof reply_, id,
-                                     dxl::error_field(error, registers_.alert()), data, size);
-  }
-
-  Link& link_;
-  OperatorRegisters<Store> registers_;
+  hal::ByteLink& link_;
+  OperatorRegisters registers_;
   dxl::Parser parser_;
   dxl::ReadEntry waiting_;  ///< sent once `before_us_` has answered
   std::uint8_t before_us_ = dxl::kBroadcast;

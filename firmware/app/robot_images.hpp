@@ -25,7 +25,7 @@ concept ActionPlace = requires(Place& place, const Place& seen, std::size_t offs
 /// Params image and actions. New actions must carry the active robot's own Params in front. The
 /// board stores both and starts with them.
 template <ActionPlace Place>
-class RobotImages {
+class RobotImages final : public Images {
  public:
   /// `actions`: the active ones, perhaps none, in a memory of `actions_bytes`.
   RobotImages(const ParamsImage& robot, const std::uint8_t* actions, std::size_t actions_bytes,
@@ -43,22 +43,24 @@ class RobotImages {
   std::size_t actions_bytes() const { return actions_bytes_; }
 
   // Images
-  std::size_t size(ImageKind kind) const {
+  std::size_t size(ImageKind kind) const override {
     return kind == ImageKind::kActions ? actions_bytes_ : robots_.size(kind);
   }
-  std::size_t room(ImageKind kind) const {
+  std::size_t room(ImageKind kind) const override {
     return kind == ImageKind::kActions ? place_.room() : robots_.room(kind);
   }
-  void read(ImageKind kind, std::size_t offset, std::uint8_t* to, std::size_t count) const {
+  void read(ImageKind kind, std::size_t offset, std::uint8_t* to,
+            std::size_t count) const override {
     if (kind != ImageKind::kActions) return robots_.read(kind, offset, to, count);
     __builtin_memcpy(to, actions_ + offset, count);
   }
-  void begin(ImageKind kind) {
+  void begin(ImageKind kind) override {
     if (kind != ImageKind::kActions) return robots_.begin(kind);
     accepted_bytes_ = written_ = 0;
     begun_ = false;
   }
-  Taken write(ImageKind kind, std::size_t offset, const std::uint8_t* from, std::size_t count) {
+  Taken write(ImageKind kind, std::size_t offset, const std::uint8_t* from,
+              std::size_t count) override {
     if (kind != ImageKind::kActions) return robots_.write(kind, offset, from, count);
     accepted_bytes_ = 0;
     if (!begun_) place_.begin();  // not earlier: reading causes no erase
@@ -68,7 +70,7 @@ class RobotImages {
     if (offset + count > written_) written_ = offset + count;
     return Taken::kYes;
   }
-  std::uint8_t commit(ImageKind kind, std::uint32_t crc) {
+  std::uint8_t commit(ImageKind kind, std::uint32_t crc) override {
     if (kind != ImageKind::kActions) return robots_.commit(kind, crc);
     if (written_ == 0 || crc32(place_.bytes(), written_) != crc) return kWrongWindowCrc;
     const action::KeptFault fault = check();

@@ -40,8 +40,8 @@ struct CanSocket : link::CanPort {
   }
   bool secretive = false;  ///< answers no question
 };
-using Log = app::TickLog<>;
-using Node = app::OperatorNode<CanSocket, Log>;
+using Log = app::TickLog;
+using Node = app::OperatorNode;
 
 Params generic21() {
   return model::make_params(model::load_robot(model::find_model("generic21"), "can"));
@@ -99,7 +99,7 @@ class LoneController {
   void run() {
     CanSocket port(endpoint_);
     Log log(app::no_images);
-    app::OperatorRegisters<Log> registers(params_, {}, log);
+    app::OperatorRegisters registers(params_, {}, log);
     Node node(port, params_, registers, log);
     Desk desk{&node};
     app::App<Node, Desk, Desk> loop(params_, node, desk, desk);
@@ -132,7 +132,7 @@ class WalkingController {
   }
 
  private:
-  using Device = app::OperatorDevice<verp::test::ControllerPort>;
+  using Device = app::OperatorDevice;
   struct Idle {
     bool operator()() const {
       if (device != nullptr) device->poll();
@@ -165,7 +165,7 @@ class WalkingController {
     verp::test::ControllerPort orders(orders_);
     Device device(orders, params_, {});
     Log log(app::no_images);
-    app::OperatorRegisters<Log> registers(params_, {}, log);
+    app::OperatorRegisters registers(params_, {}, log);
     Node node(port, params_, registers, log);
     using Bus = app::LockstepCan<Node, Idle>;
     Bus bus(node, Idle{orders_.empty() ? nullptr : &device, &over_});

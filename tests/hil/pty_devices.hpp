@@ -79,7 +79,7 @@ class PtyController {
   std::atomic<bool> reboot_asked = false;
 
  private:
-  using Device = app::OperatorDevice<link::Link>;
+  using Device = app::OperatorDevice;
   std::unique_ptr<Device> device_;
   PtyThread thread_;
 };

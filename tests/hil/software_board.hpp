@@ -35,7 +35,7 @@ class BusClock {
   std::uint64_t next_us_ = 0;
 };
 
-using Device = app::OperatorDevice<hal::MemoryLink>;
+using Device = app::OperatorDevice;
 
 /// From power-up to reset. `Line` is any servo bus with time_us() and wait_until().
 template <class Line>

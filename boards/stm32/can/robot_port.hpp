@@ -50,12 +50,12 @@ struct RobotWiring {
 };
 
 /// A node that publishes each tick; the loop uses it as its port.
-template <class Port, class Store>
+template <class Port>
 class RobotNode {
  public:
-  using LoopPort = app::OperatorNode<Port, Store>;
-  RobotNode(Port& port, const Params& params, app::OperatorRegisters<Store>& registers,
-            Store& images)
+  using LoopPort = app::OperatorNode;
+  RobotNode(Port& port, const Params& params, app::OperatorRegisters& registers,
+            app::Images& images)
       : node_(port, params, registers, images) {}
   LoopPort& port() { return node_; }
   void tell(const Inputs& inputs) { node_.tell(inputs); }

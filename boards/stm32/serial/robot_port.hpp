@@ -38,11 +38,11 @@ struct RobotWiring {
 };
 
 /// Ticks are published only at the operator's port.
-template <class Port, class Store>
+template <class Port>
 class RobotNode {
  public:
   using LoopPort = Port;
-  RobotNode(Port& port, const Params&, app::OperatorRegisters<Store>&, Store&) : port_(port) {}
+  RobotNode(Port& port, const Params&, app::OperatorRegisters&, app::Images&) : port_(port) {}
   Port& port() { return port_; }
   void tell(const Inputs&) {}
 

@@ -42,7 +42,7 @@ class OperatorConsole {
 
   Robot& robot_;
   Wire wire_;
-  app::OperatorDevice<Wire> device_;
+  app::OperatorDevice device_;
   bool relaxed_ = false;  ///< without it a new controller obeys no order
   bool stopped_ = false;  ///< emergency stop
 };

@@ -6,6 +6,7 @@
 #include "common/model/image.hpp"
 #include "common/protocol/canopen/robot_plan.hpp"
 #include "firmware/app/controller_objects.hpp"
+#include "firmware/app/tick_log.hpp"
 #include "host/run/shadow/identity.hpp"
 
 namespace verp::shadow {
@@ -84,7 +85,7 @@ void LiveCheck::begin_step(std::uint64_t now_us) {
     running_ = client_.upload(at, static_cast<std::uint8_t*>(to), static_cast<std::uint32_t>(size),
                               mode, now_us);
   };
-  const auto hold = [&](app::TickLog<>::Hold what) {
+  const auto hold = [&](app::TickLog::Hold what) {
     number_[0] = what;
     running_ = client_.download(app::object("tick_hold"), number_, 1, Client::Mode::kPlain, now_us);
   };
@@ -97,15 +98,15 @@ void LiveCheck::begin_step(std::uint64_t now_us) {
       return read(app::object("action_count"), number_, 2, Client::Mode::kPlain);
     case Step::kRelease:
     case Step::kReleaseLast:
-      return hold(app::TickLog<>::kNothing);
+      return hold(app::TickLog::kNothing);
     case Step::kHold:
-      return hold(state_ == State::kReading ? app::TickLog<>::kAll : app::TickLog<>::kStateOnly);
+      return hold(state_ == State::kReading ? app::TickLog::kAll : app::TickLog::kStateOnly);
     case Step::kState:
       bytes_.resize(sizeof(app::HeldTick));
       return read(image(app::ImageKind::kState), bytes_.data(), bytes_.size(),
                   Client::Mode::kBlock);
     case Step::kTicks:
-      bytes_.resize(app::TickLog<>::kTicks * sizeof(TickRecord));
+      bytes_.resize(app::TickLog::kTicks * sizeof(TickRecord));
       return read(image(app::ImageKind::kTicks), bytes_.data(), bytes_.size(),
                   Client::Mode::kBlock);
     case Step::kDone:

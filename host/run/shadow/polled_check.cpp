@@ -1,13 +1,14 @@
 #include "host/run/shadow/polled_check.hpp"
 
 #include "firmware/app/register_image.hpp"
+#include "firmware/app/tick_log.hpp"
 #include "host/run/shadow/identity.hpp"
 
 namespace verp::shadow {
 
 using app::reg;
 using Answer = TickPort::Answer;
-using Log = app::TickLog<>;
+using Log = app::TickLog;
 
 namespace {
 constexpr int kMostReads = 100;  // of the tick register
@@ -51,7 +52,7 @@ bool PolledCheck::begin() {
   return true;
 }
 
-bool PolledCheck::hold(app::TickLog<>::Hold what) {
+bool PolledCheck::hold(app::TickLog::Hold what) {
   const Answer held = port_.write(reg("tick_hold"), what);
   if (held == Answer::kRefused) {
     refuse(port_.error() == dxl::Error::kResultFail ? kKeepsNoTicks : kNoTickHold);

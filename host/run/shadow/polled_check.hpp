@@ -19,11 +19,11 @@ class PolledCheck final : public Check {
   bool turn(std::uint64_t now_us);
 
  private:
-  static constexpr std::size_t kTicks = app::TickLog<>::kTicks;
+  static constexpr std::size_t kTicks = app::TickLog::kTicks;
 
   bool good(TickPort::Answer answer);
   bool begin();
-  bool hold(app::TickLog<>::Hold what);
+  bool hold(app::TickLog::Hold what);
   bool read_state();
   bool read_ticks();
   bool follow();

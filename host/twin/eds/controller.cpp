@@ -61,9 +61,9 @@ struct Fresh {
   explicit Fresh(std::uint8_t node) : objects(application, app::controller_identity(), node) {
     app::publish_ticks(objects, node, true);
   }
-  using Application = app::ControllerObjects<app::NoImages>;
+  using Application = app::ControllerObjects;
   const Params params{};
-  app::OperatorRegisters<app::NoImages> registers{params, app::OperatorSetup{}, app::no_images};
+  app::OperatorRegisters registers{params, app::OperatorSetup{}, app::no_images};
   Application application{registers, app::no_images};
   canopen::CommunicationObjects<Application, app::kControllerSize> objects;
 };

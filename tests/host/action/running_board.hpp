@@ -26,7 +26,7 @@ class RunningBoard {
   using Log = store::FlashStore<Flash>;
   using Room = store::WaitingRoom<Flash, Flash, Log>;
   using Images = app::RobotImages<Room>;
-  using Device = app::OperatorDevice<ControllerPort, Images>;
+  using Device = app::OperatorDevice;
 
   RunningBoard(const Params& params, const std::vector<std::uint8_t>& actions,
                const std::string& endpoint, const std::function<void(RunningBoard&)>& prepare = {})

@@ -17,10 +17,9 @@ using app::test::FakeBoard;
 using app::test::SentActions;
 using verp::test::kRobot;
 
-template <class Images>
 class NodeBus : public can::ClientBus {
  public:
-  explicit NodeBus(Images& images)
+  explicit NodeBus(app::Images& images)
       : registers(kRobot, app::OperatorSetup{}, images), objects_(registers, images) {
     device_.start();
     device_.receive(canopen::nmt_frame(canopen::NmtCommand::kStart, kNode), 0);
@@ -37,11 +36,11 @@ class NodeBus : public can::ClientBus {
   bool connected() const override { return true; }
 
   static constexpr std::uint8_t kNode = canopen::plan::kControllerNode;
-  app::OperatorRegisters<Images> registers;
+  app::OperatorRegisters registers;
   std::function<void()> polled;
 
  private:
-  using Objects = app::ControllerObjects<Images>;
+  using Objects = app::ControllerObjects;
   Objects objects_;
   canopen::Device<Objects, app::kControllerSize> device_{objects_, app::controller_identity(),
                                                          kNode};
@@ -84,7 +83,7 @@ struct BoardOnCan {
 
   FakeBoard board;
   SentActions fresh{kRobot};
-  NodeBus<app::test::FakeImages> bus{board.images};
+  NodeBus bus{board.images};
   int place_is_made_after = 0;
   int last_words = 0, starts = 0;
 };
@@ -126,7 +125,7 @@ TEST(SendActionsOnCan, SaysWhyItTookNone) {
 }
 
 TEST(SendActionsOnCan, ToAControllerThatKeepsNoneIsRefused) {
-  const auto bus = std::make_unique<NodeBus<app::NoImages>>(app::no_images);
+  const auto bus = std::make_unique<NodeBus>(app::no_images);
   const SentActions actions(kRobot);
   const std::string told = sent(*bus, {actions.bytes(), actions.bytes() + sizeof actions});
   EXPECT_NE(told.find("takes no actions while it runs"), std::string::npos) << told;

@@ -53,7 +53,7 @@ class OperatorOnTheLoop : public ::testing::Test {
   FakePlant plant;
   bus::VirtualBus bus{params, plant};
   hal::MemoryWire wire;
-  app::OperatorDevice<hal::MemoryLink> device{wire.left(), params, {}};
+  app::OperatorDevice device{wire.left(), params, {}};
   app::App<bus::VirtualBus, decltype(device), decltype(device)> loop{params, bus, device, device};
   std::uint8_t frame[dxl::kMaxPacket];
 };

@@ -19,8 +19,8 @@
 namespace verp::can {
 namespace {
 
-using Log = app::TickLog<>;
-using Controller = app::OperatorNode<VirtualCan, Log>;
+using Log = app::TickLog;
+using Controller = app::OperatorNode;
 
 enum Effort : unsigned { kVelocity, kTorque, kEfforts };
 
@@ -160,7 +160,7 @@ TEST(Efforts, ReadFromAWalkingControllersNodeAreWhatEachJointDidInItsTurn) {
   Reader& reader = *owned;
   bus.plug_in(std::move(owned));
   Log log(app::no_images);
-  auto registers = std::make_unique<app::OperatorRegisters<Log>>(params, app::OperatorSetup{}, log);
+  auto registers = std::make_unique<app::OperatorRegisters>(params, app::OperatorSetup{}, log);
   Controller node(bus, params, *registers, log);
   Desk desk{node};
   auto loop = std::make_unique<app::App<Controller, Desk, Desk>>(params, node, desk, desk);

@@ -19,8 +19,8 @@
 namespace verp::can {
 namespace {
 
-using Log = app::TickLog<>;
-using Controller = app::OperatorNode<VirtualCan, Log>;
+using Log = app::TickLog;
+using Controller = app::OperatorNode;
 using safety::Mode;
 using Bytes = std::array<std::uint8_t, 8>;
 
@@ -102,8 +102,8 @@ class OrderedByItsNode : public ::testing::Test {
   VirtualCan bus{params, robot};
   Tool* tool = nullptr;
   Log log{app::no_images};
-  std::unique_ptr<app::OperatorRegisters<Log>> registers =
-      std::make_unique<app::OperatorRegisters<Log>>(params, app::OperatorSetup{}, log);
+  std::unique_ptr<app::OperatorRegisters> registers =
+      std::make_unique<app::OperatorRegisters>(params, app::OperatorSetup{}, log);
   Controller node{bus, params, *registers, log};
   Desk desk{node};
   std::unique_ptr<app::App<Controller, Desk, Desk>> loop =

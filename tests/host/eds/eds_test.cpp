@@ -11,6 +11,7 @@
 
 #include "common/protocol/canopen/device.hpp"
 #include "firmware/app/controller_objects.hpp"
+#include "firmware/app/tick_log.hpp"
 #include "host/twin/can/device_node.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 #include "tests/unit/images/actions_board.hpp"
@@ -222,14 +223,14 @@ TEST(Eds, TheControllersSheetIsWhatTheControllerAnswers) {
   const Sections sections = parse(to_text(controller()));
   expect_listed(sections);
   auto board = std::make_unique<app::test::FakeBoard>();
-  using Log = app::TickLog<app::test::FakeImages>;
+  using Log = app::TickLog;
   auto log = std::make_unique<Log>(board->images);
   log->keep({}, {});
   log->hold(Log::kAll);  // makes ticks readable
   auto registers =
-      std::make_unique<app::OperatorRegisters<Log>>(test::kRobot, app::OperatorSetup{}, *log);
-  app::ControllerObjects<Log> objects(*registers, *log);
-  using Node = canopen::Device<app::ControllerObjects<Log>, app::kControllerSize>;
+      std::make_unique<app::OperatorRegisters>(test::kRobot, app::OperatorSetup{}, *log);
+  app::ControllerObjects objects(*registers, *log);
+  using Node = canopen::Device<app::ControllerObjects, app::kControllerSize>;
   constexpr std::uint8_t kNode = 127;
   auto node = std::make_unique<Node>(objects, app::controller_identity(), kNode);
   expect_same(sections, node->objects());
@@ -271,9 +272,8 @@ TEST(Eds, AllThatIsSetUpOnTheBusHasADefaultAndNoneIsEmpty) {
 }
 
 TEST(Eds, AControllerWithoutImagesAnswersForThem) {
-  app::OperatorRegisters<app::NoImages> registers(test::kRobot, app::OperatorSetup{},
-                                                  app::no_images);
-  app::ControllerObjects<app::NoImages> objects(registers, app::no_images);
+  app::OperatorRegisters registers(test::kRobot, app::OperatorSetup{}, app::no_images);
+  app::ControllerObjects objects(registers, app::no_images);
   int domains = 0;
   for (const Object& each : controller().objects) {
     canopen::Entry entry;

@@ -7,6 +7,7 @@
 
 #include "common/protocol/canopen/sdo_client.hpp"
 #include "firmware/app/operator_device.hpp"
+#include "firmware/app/tick_log.hpp"
 #include "hal/fake/scripted_can.hpp"
 #include "tests/hil/operator_desk.hpp"
 #include "tests/unit/app/operator_bench.hpp"
@@ -14,8 +15,8 @@
 namespace verp::app::test {
 namespace {
 
-using Log = TickLog<>;
-using Node = OperatorNode<hal::ScriptedCan, Log>;
+using Log = TickLog;
+using Node = OperatorNode;
 
 Params quick_robot(std::uint32_t period_us) {
   Params params = kRobot;
@@ -40,7 +41,7 @@ struct Desk {
   hal::ScriptedCan bus;
   Params params;
   Log log{no_images};
-  OperatorRegisters<Log> registers{params, OperatorSetup{}, log};
+  OperatorRegisters registers{params, OperatorSetup{}, log};
   Node node;
   TickRecord record;
   State state;
@@ -168,7 +169,7 @@ TEST(OperatorNode, StandsBesideAnOperatorsPort) {
   hal::ScriptedCan bus;
   const Params params = quick_robot(10'000);
   Log log{no_images};
-  OperatorDevice<hal::MemoryLink, Log> device(port.controller_end(), params, {}, log);
+  OperatorDevice device(port.controller_end(), params, {}, log);
   port.serve = [&] {
     while (device.poll()) {
     }

@@ -9,13 +9,14 @@
 
 #include "common/control/step.hpp"
 #include "firmware/app/operator_device.hpp"
+#include "firmware/app/tick_log.hpp"
 #include "host/os/link/link.hpp"
 #include "tests/support/random_inputs.hpp"
 
 namespace verp::shadow::test {
 
-using Log = app::TickLog<>;
-using Device = app::OperatorDevice<link::Link, Log>;
+using Log = app::TickLog;
+using Device = app::OperatorDevice;
 
 /// Plausible inputs, no servos; only its reports matter.
 class Controller {

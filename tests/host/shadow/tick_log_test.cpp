@@ -7,7 +7,7 @@
 namespace verp::app::test {
 namespace {
 
-using Log = TickLog<>;
+using Log = TickLog;
 
 void keep(Log& log, std::uint32_t from, std::uint32_t to) {
   static State state;
@@ -98,7 +98,7 @@ TEST(TickLog, StateIsThereOnlyWhileItIsHeld) {
 
 TEST(TickLog, RegisterTickHoldHoldsAndAControllerWithoutALogRefusesIt) {
   Log& log = renewed<Log>(no_images);
-  auto& bench = renewed<Bench<Log>>(log);
+  auto& bench = renewed<Bench>(log);
   static const Outputs outputs;
   for (std::uint32_t tick = 0; tick < 3; ++tick) {
     TickRecord record;
@@ -107,7 +107,7 @@ TEST(TickLog, RegisterTickHoldHoldsAndAControllerWithoutALogRefusesIt) {
   }
   EXPECT_TRUE(bench.write(reg("tick_hold"), std::uint8_t{1}) == dxl::Error::kNone);
   EXPECT_EQ(log.size(ImageKind::kState), sizeof(HeldTick));
-  auto& without = renewed<Bench<NoImages>>(no_images);
+  auto& without = renewed<Bench>(no_images);
   EXPECT_TRUE(without.write(reg("tick_hold"), std::uint8_t{1}) == dxl::Error::kResultFail);
 }
 

@@ -122,7 +122,7 @@ struct Orders {
 template <class Chip = app::NoImu>
 class WatchedRobot {
  public:
-  using Node = app::OperatorNode<DeafBus, app::TickLog<>>;
+  using Node = app::OperatorNode;
   struct Desk {
     app::OperatorOrder order(std::uint32_t tick) const { return Orders{}.order(tick); }
     void record(const TickRecord& record, const State& state, const Outputs& outputs) {
@@ -135,8 +135,8 @@ class WatchedRobot {
         : registers(params, {}, log),
           node(bus, params, registers, log),
           loop(params, node, desk, desk, chip) {}
-    app::TickLog<> log{app::no_images};
-    app::OperatorRegisters<app::TickLog<>> registers;
+    app::TickLog log{app::no_images};
+    app::OperatorRegisters registers;
     Node node;
     Desk desk{&node};
     app::App<Node, Desk, Desk, Chip> loop;

@@ -115,8 +115,8 @@ TEST(CanPort, ItsTimeBeginsWhenItIsOpened) {
   Chip chip;
   chip.let_pass(50'000);
   const Params params;
-  app::OperatorRegisters<app::NoImages> registers(params, {}, app::no_images);
-  RobotNode<Wiring::Port, app::NoImages> node(chip.port, params, registers, app::no_images);
+  app::OperatorRegisters registers(params, {}, app::no_images);
+  RobotNode<Wiring::Port> node(chip.port, params, registers, app::no_images);
   ASSERT_TRUE(Wiring::open(chip.port, chip.clocks, kBaud));
   const std::uint64_t begun_us = node.port().now_us();
   EXPECT_LT(begun_us, 50'000u);
@@ -131,8 +131,8 @@ TEST(CanPort, TellsOfEachTickAndAnswersWhoAsksThere) {
   Params params;
   params.baud = kBaud;
   params.period_us = 10'000;
-  app::OperatorRegisters<app::NoImages> registers(params, {}, app::no_images);
-  RobotNode<Wiring::Port, app::NoImages> node(chip.port, params, registers, app::no_images);
+  app::OperatorRegisters registers(params, {}, app::no_images);
+  RobotNode<Wiring::Port> node(chip.port, params, registers, app::no_images);
   TickRecord record;
   const auto tick = [&] {
     registers.record(record, State{}, Outputs{});
@@ -153,15 +153,10 @@ TEST(CanPort, TellsOfEachTickAndAnswersWhoAsksThere) {
   ASSERT_EQ(chip.bus.sent().size(), before + 3);
   const auto* sent = &chip.bus.sent()[before];
   namespace published = canopen::published;
-  EXPECT_EQ(sent[0].frame.id,
-            canopen::tpdo_id(published::kDigestPdo,
-                             app::OperatorNode<Wiring::Port, app::NoImages>::kNode));
+  EXPECT_EQ(sent[0].frame.id, canopen::tpdo_id(published::kDigestPdo, app::OperatorNode::kNode));
   EXPECT_EQ(canopen::get_le(sent[0].frame.data, 8), record.digest.chain);
-  EXPECT_EQ(sent[1].frame.id,
-            canopen::tpdo_id(published::kRecordPdo,
-                             app::OperatorNode<Wiring::Port, app::NoImages>::kNode));
-  EXPECT_EQ(sent[2].frame.id,
-            canopen::sdo_response_id(app::OperatorNode<Wiring::Port, app::NoImages>::kNode));
+  EXPECT_EQ(sent[1].frame.id, canopen::tpdo_id(published::kRecordPdo, app::OperatorNode::kNode));
+  EXPECT_EQ(sent[2].frame.id, canopen::sdo_response_id(app::OperatorNode::kNode));
   client.receive(sent[2].frame, 0);
   EXPECT_EQ(canopen::get_le(crc, 4), params_crc(params));
 }

@@ -47,7 +47,7 @@ class BusCommand : public Program {
 
  private:
   link::Link link_{link::parse_endpoint("unix-listen:" + (folder_ / "port").string())};
-  app::OperatorDevice<link::Link> device_{link_, verp::test::kRobot, {}};
+  app::OperatorDevice device_{link_, verp::test::kRobot, {}};
   std::atomic<bool> stop_ = false;
   std::thread serving_;
 };

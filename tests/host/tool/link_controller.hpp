@@ -106,10 +106,10 @@ class ControllerOn {
         return !controller->over_;
       }
       ControllerOn* controller;
-      app::OperatorDevice<ControllerPort>* device;
+      app::OperatorDevice* device;
     };
     using Bus = Lockstep<Port, Idle>;
-    using Device = app::OperatorDevice<ControllerPort>;
+    using Device = app::OperatorDevice;
     Device device;
     Bus bus;
     app::App<Bus, Device, Device> loop;

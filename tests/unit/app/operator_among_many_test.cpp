@@ -11,7 +11,7 @@ namespace {
 using dxl::Instruction;
 
 TEST(OperatorAmongMany, TakesItsPartOfWritesToMany) {
-  Bench<>& bench = renewed<Bench<>>(no_images, OperatorSetup{});
+  Bench& bench = renewed<Bench>(no_images, OperatorSetup{});
   dxl::Encoder sync(bench.frame, sizeof bench.frame);
   dxl::begin_sync_write(sync, reg("walk_vx"), 2);
   for (const std::uint8_t id : {std::uint8_t{3}, bench.id}) {
@@ -32,7 +32,7 @@ TEST(OperatorAmongMany, TakesItsPartOfWritesToMany) {
 }
 
 TEST(OperatorAmongMany, WaitsForItsTurnInAReadOfMany) {
-  Bench<>& bench = renewed<Bench<>>(no_images, OperatorSetup{});
+  Bench& bench = renewed<Bench>(no_images, OperatorSetup{});
   const std::uint8_t first[] = {bench.id, 3};
   const std::uint8_t second[] = {3, bench.id};
   const auto ask = [&](const std::uint8_t* ids) {
@@ -57,7 +57,7 @@ TEST(OperatorAmongMany, WaitsForItsTurnInAReadOfMany) {
 }
 
 TEST(OperatorAmongMany, AnswersFastReads) {
-  Bench<>& bench = renewed<Bench<>>(no_images, OperatorSetup{});
+  Bench& bench = renewed<Bench>(no_images, OperatorSetup{});
   bench.inputs.tick = 0x12345678;
   bench.record();
   const std::size_t size = dxl::encode_sync_read(

@@ -30,10 +30,9 @@ struct Reply {
   std::uint8_t data[dxl::kMaxPacket] = {};
 };
 
-template <class Store = NoImages>
 class Bench {
  public:
-  explicit Bench(Store& store, const OperatorSetup& setup = {})
+  explicit Bench(Images& store, const OperatorSetup& setup = {})
       : device(wire.left(), kRobot, setup, store), id(setup.id) {
     state.tuning = kRobot.tuning;
   }
@@ -87,7 +86,7 @@ class Bench {
   }
 
   hal::MemoryWire wire;
-  OperatorDevice<hal::MemoryLink, Store> device;
+  OperatorDevice device;
   std::uint8_t id;
   Inputs inputs;
   State state;
@@ -114,11 +113,11 @@ class Bench {
   }
 };
 
-inline Bench<>& fresh_bench(const OperatorSetup& setup = {}) {
-  return renewed<Bench<>>(no_images, setup);
+inline Bench& fresh_bench(const OperatorSetup& setup = {}) {
+  return renewed<Bench>(no_images, setup);
 }
-inline Bench<>& relaxed_bench() {
-  Bench<>& bench = fresh_bench();
+inline Bench& relaxed_bench() {
+  Bench& bench = fresh_bench();
   bench.relax();
   bench.device.order(0);
   return bench;

@@ -17,12 +17,12 @@ using dxl::Error;
 using dxl::Instruction;
 
 template <std::size_t kSize>
-Reply send(Bench<>& bench, const std::uint8_t (&bytes)[kSize]) {
+Reply send(Bench& bench, const std::uint8_t (&bytes)[kSize]) {
   return bench.send(bytes, kSize);
 }
 
 template <std::size_t kSize>
-bool answered(const Bench<>& bench, const std::uint8_t (&bytes)[kSize]) {
+bool answered(const Bench& bench, const std::uint8_t (&bytes)[kSize]) {
   if (bench.raw_size != kSize) return false;
   for (std::size_t i = 0; i < kSize; ++i) {
     if (bench.raw[i] != bytes[i]) return false;
@@ -31,7 +31,7 @@ bool answered(const Bench<>& bench, const std::uint8_t (&bytes)[kSize]) {
 }
 
 TEST(OperatorDevice, NeverGivesTheRestOfAReplyToTheNextOperator) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   const std::size_t size = dxl::encode_read(bench.frame, sizeof bench.frame, bench.id, 256, 300);
   bench.wire.right().write(bench.frame, size, 0);
   while (bench.device.poll()) {
@@ -53,7 +53,7 @@ TEST(OperatorDevice, NeverGivesTheRestOfAReplyToTheNextOperator) {
 }
 
 TEST(OperatorDevice, TellsAtWhichDeviceTheBringUpEnded) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   EXPECT_EQ(bench.value<std::uint8_t>(reg("bring_up")), 0);
   bench.device.brought_up({.status = BringUpStatus::kNotVerified, .device_id = 14, .address = 84});
   EXPECT_EQ(bench.value<std::uint8_t>(reg("bring_up")), 5);
@@ -64,7 +64,7 @@ TEST(OperatorDevice, TellsAtWhichDeviceTheBringUpEnded) {
 }
 
 TEST(OperatorDevice, AnswersTheDocumentedPing) {
-  Bench<>& bench = fresh_bench({.id = 1});
+  Bench& bench = fresh_bench({.id = 1});
   const std::uint8_t ping[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x03, 0x00, 0x01, 0x19, 0x4E};
   const Reply reply = send(bench, ping);
   EXPECT_EQ(reply.packets, 1);
@@ -77,7 +77,7 @@ TEST(OperatorDevice, AnswersTheDocumentedPing) {
 }
 
 TEST(OperatorDevice, AnswersTheDocumentedRead) {
-  Bench<>& bench = fresh_bench({.id = 1});
+  Bench& bench = fresh_bench({.id = 1});
   // The example's register shows 166; at that address the controller has part of the digest.
   bench.state.digest.chain = std::uint64_t{0xA6} << 32;
   bench.record();
@@ -90,7 +90,7 @@ TEST(OperatorDevice, AnswersTheDocumentedRead) {
 }
 
 TEST(OperatorDevice, AcknowledgesAsDocumented) {
-  Bench<>& bench = fresh_bench({.id = 1});
+  Bench& bench = fresh_bench({.id = 1});
   const std::uint8_t reboot[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x03, 0x00, 0x08, 0x2F, 0x4E};
   EXPECT_FALSE(bench.device.reboot_asked());
   send(bench, reboot);
@@ -100,7 +100,7 @@ TEST(OperatorDevice, AcknowledgesAsDocumented) {
 }
 
 TEST(OperatorDevice, RefusesWithTheDocumentedErrors) {
-  Bench<>& bench = fresh_bench({.id = 1});
+  Bench& bench = fresh_bench({.id = 1});
   // Documented Write of 116, read-only here.
   const std::uint8_t write[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x09, 0x00, 0x03,
                                 0x74, 0x00, 0x00, 0x02, 0x00, 0x00, 0xCA, 0x89};
@@ -127,7 +127,7 @@ TEST(OperatorDevice, RefusesWithTheDocumentedErrors) {
 }
 
 TEST(OperatorDevice, EveryRegisterKeepsItsAccess) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   for (const bool armed : {false, true}) {
     bench.arm(armed);
     for (const table::Register& each : table::kTable) {
@@ -145,7 +145,7 @@ TEST(OperatorDevice, EveryRegisterKeepsItsAccess) {
 }
 
 TEST(OperatorDevice, ArmedItKeepsIdAndSourceAndDoesNotRestart) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   bench.arm(true);
   EXPECT_TRUE(bench.write(reg("id"), std::uint8_t{7}) == Error::kAccess);
   EXPECT_TRUE(bench.plain(Instruction::kReboot).error == Error::kResultFail);
@@ -164,7 +164,7 @@ TEST(OperatorDevice, ArmedItKeepsIdAndSourceAndDoesNotRestart) {
 
 // A twin that falls silent in mid-walk must not lock out the operator.
 TEST(OperatorDevice, WithoutServosItOpensWhatTorqueKeptUntilTheNextTick) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   bench.relax();
   bench.device.order(0);
   EXPECT_TRUE(bench.write(reg("request"), std::uint8_t{2}) == Error::kNone);
@@ -188,7 +188,7 @@ TEST(OperatorDevice, WithoutServosItOpensWhatTorqueKeptUntilTheNextTick) {
 
 TEST(OperatorDevice, CalibratesTheChipThatSteersAndNoOther) {
   using Order = table::ImuCalibrationOrder;
-  Bench<>& bench = fresh_bench({.imu_sources = 3});
+  Bench& bench = fresh_bench({.imu_sources = 3});
   EXPECT_TRUE(bench.write(reg("imu_calibrate"), std::uint8_t{1}) == Error::kResultFail);
   EXPECT_TRUE(bench.device.take_calibration_order() == Order::kNone);
   ASSERT_TRUE(bench.write(reg("imu_source"), std::uint8_t{0}) == Error::kNone);
@@ -205,7 +205,7 @@ TEST(OperatorDevice, CalibratesTheChipThatSteersAndNoOther) {
 }
 
 TEST(OperatorDevice, StatusReturnLevelIsKept) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   const std::uint8_t level_at[] = {0, 1, 2};
   for (const std::uint8_t level : level_at) {
     bench.write_bytes(reg("status_return_level"), &level, 1);
@@ -217,7 +217,7 @@ TEST(OperatorDevice, StatusReturnLevelIsKept) {
 }
 
 TEST(OperatorDevice, RegisteredWritesWaitForTheirAction) {
-  Bench<>& bench = relaxed_bench();
+  Bench& bench = relaxed_bench();
   const std::uint8_t stand = 1;
   EXPECT_TRUE(bench
                   .send(dxl::encode_reg_write(bench.frame, sizeof bench.frame, bench.id,
@@ -232,7 +232,7 @@ TEST(OperatorDevice, RegisteredWritesWaitForTheirAction) {
 
 // The link takes 256 bytes at a time.
 TEST(OperatorDevice, LongRepliesGoOutInPiecesWithoutWaiting) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   constexpr std::uint16_t kLength = 400;
   const Reply reply = bench.read(reg("device_kind"), kLength);
   EXPECT_EQ(reply.packets, 1);
@@ -242,7 +242,7 @@ TEST(OperatorDevice, LongRepliesGoOutInPiecesWithoutWaiting) {
 }
 
 TEST(OperatorDevice, ForeignAndBadPacketsGetNoAnswer) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   bench.send(dxl::encode_ping(bench.frame, sizeof bench.frame, 3));
   EXPECT_EQ(bench.raw_size, 0u);
   const std::size_t size = dxl::encode_ping(bench.frame, sizeof bench.frame, bench.id);
@@ -253,7 +253,7 @@ TEST(OperatorDevice, ForeignAndBadPacketsGetNoAnswer) {
 
 // A false header hides requests until its CRC fails.
 TEST(OperatorDevice, AnswersAllRequestsThatComeOutTogether) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   std::uint8_t bytes[64] = {0xFF, 0xFF, 0xFD, 0x00, bench.id, 20, 0x00};
   std::size_t size = 7;
   for (int i = 0; i < 2; ++i) {
@@ -262,7 +262,7 @@ TEST(OperatorDevice, AnswersAllRequestsThatComeOutTogether) {
   EXPECT_EQ(bench.send(bytes, size).packets, 2);
 }
 
-bool in_bounds(Bench<>& bench) {
+bool in_bounds(Bench& bench) {
   for (const table::Register& each : table::kTable) {
     if (!each.writable()) continue;
     const unsigned size = table::type_bytes(each.type);
@@ -286,7 +286,7 @@ TEST(OperatorDevice, NoBytesLeaveItsRegistersOutOfRange) {
       Instruction::kSyncWrite,    Instruction::kBulkRead,     Instruction::kBulkWrite,
       Instruction::kFastSyncRead, Instruction::kFastBulkRead, Instruction::kStatus,
       Instruction::kFactoryReset, Instruction::kClear};
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   for (int round = 0; round < 1500; ++round) {
     dxl::Encoder encoder(bench.frame, sizeof bench.frame);
     bench.id = bench.device.id();

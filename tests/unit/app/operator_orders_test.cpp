@@ -11,7 +11,7 @@ using dxl::Error;
 
 // Only a new write of 0 restores power.
 TEST(OperatorOrders, ToRelaxIsToldOnceForEachTimeItIsWritten) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   EXPECT_FALSE(bench.device.take_relax()) << "0 stands there from the start";
   for (int times = 0; times < 3; ++times) {
     bench.relax();
@@ -30,7 +30,7 @@ TEST(OperatorOrders, ToStandOrWalkAreRefusedAfterEachStartUntilOneToRelaxWasGive
   for (const Cause cause : {Cause::kUnknown, Cause::kPower, Cause::kPin, Cause::kSoftware,
                             Cause::kWatchdog, Cause::kLowPower, Cause::kFault}) {
     const OperatorSetup setup = {.reset_cause = cause};
-    Bench<>& bench = renewed<Bench<>>(no_images, setup);
+    Bench& bench = renewed<Bench>(no_images, setup);
     for (std::uint32_t tick = 0; tick < 20; ++tick) {
       const std::uint8_t order[] = {static_cast<std::uint8_t>(1 + tick % 2), 5, 0x2C, 0x01};
       EXPECT_TRUE(bench.write_bytes(reg("request"), order, sizeof order).error ==
@@ -51,7 +51,7 @@ TEST(OperatorOrders, ToStandOrWalkAreRefusedAfterEachStartUntilOneToRelaxWasGive
 }
 
 TEST(OperatorOrders, AKeptRequestToRelaxCountsFromItsActionOn) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   const std::uint8_t relax = 0;
   bench.send(
       dxl::encode_reg_write(bench.frame, sizeof bench.frame, bench.id, reg("request"), &relax, 1));
@@ -61,7 +61,7 @@ TEST(OperatorOrders, AKeptRequestToRelaxCountsFromItsActionOn) {
 }
 
 TEST(OperatorOrders, AreFreshInTheOneTickThatFollowsAWrite) {
-  Bench<>& bench = relaxed_bench();
+  Bench& bench = relaxed_bench();
   EXPECT_EQ(bench.device.order(0).flags, 0);
   const std::uint8_t order[] = {2, 5, 0x2C, 0x01, 0xCE, 0xFF, 0x64, 0};  // walk, 30, -5 mm/s, turn
   EXPECT_TRUE(bench.write_bytes(reg("request"), order, sizeof order).error == Error::kNone);
@@ -79,7 +79,7 @@ TEST(OperatorOrders, AreFreshInTheOneTickThatFollowsAWrite) {
 }
 
 TEST(OperatorOrders, TheSameOrderAgainIsFreshAgain) {
-  Bench<>& bench = relaxed_bench();
+  Bench& bench = relaxed_bench();
   for (int i = 0; i < 3; ++i) {
     EXPECT_TRUE(bench.write(reg("request"), std::uint8_t{1}) == Error::kNone);
     EXPECT_EQ(bench.device.order(0).flags, kCommandFresh);
@@ -93,7 +93,7 @@ TEST(OperatorOrders, DoNotOutliveALoopThatStoodStill) {
   for (const bool in_the_link : {false, true}) {
     const std::uint32_t gaps[] = {1, hold_ticks, hold_ticks + 1, 10 * hold_ticks, 2'000'000};
     for (const std::uint32_t gap : gaps) {
-      Bench<>& bench = relaxed_bench();
+      Bench& bench = relaxed_bench();
       bench.device.order(100);
       const std::uint8_t stand = 1;
       if (in_the_link) {
@@ -118,7 +118,7 @@ TEST(OperatorOrders, DoNotOutliveALoopThatStoodStill) {
 
 // A robot must not rise minutes later.
 TEST(OperatorOrders, DoNotWaitForABringUp) {
-  Bench<>& bench = relaxed_bench();
+  Bench& bench = relaxed_bench();
   bench.write(reg("request"), std::uint8_t{1});
   bench.device.brought_up({});
   const OperatorOrder order = bench.device.order(0);
@@ -128,7 +128,7 @@ TEST(OperatorOrders, DoNotWaitForABringUp) {
 
 // A late loop must not make a robot with torque sit down.
 TEST(OperatorOrders, OfARobotWithTorqueAndTheStopStandWhateverHappens) {
-  Bench<>& bench = relaxed_bench();
+  Bench& bench = relaxed_bench();
   bench.device.order(0);
   bench.write(reg("request"), std::uint8_t{2});
   bench.write(reg("emergency_stop"), std::uint8_t{1});
@@ -141,7 +141,7 @@ TEST(OperatorOrders, OfARobotWithTorqueAndTheStopStandWhateverHappens) {
 }
 
 TEST(OperatorOrders, ReadsTuningAndRefusedWritesAreNoOrders) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   bench.read(reg("request"), 20);
   bench.write(reg("request"), std::uint8_t{9});
   bench.write(reg("status_return_level"), std::uint8_t{2});
@@ -150,7 +150,7 @@ TEST(OperatorOrders, ReadsTuningAndRefusedWritesAreNoOrders) {
 }
 
 TEST(OperatorOrders, TheEmergencyStopStaysPressed) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   bench.write(reg("emergency_stop"), std::uint8_t{1});
   for (int i = 0; i < 3; ++i) EXPECT_TRUE((bench.device.order(0).flags & kEmergencyStop) != 0);
   bench.write(reg("emergency_stop"), std::uint8_t{0});
@@ -158,7 +158,7 @@ TEST(OperatorOrders, TheEmergencyStopStaysPressed) {
 }
 
 TEST(OperatorOrders, TheHeadTakesAnglesOrAPointWhileWalking) {
-  Bench<>& bench = relaxed_bench();
+  Bench& bench = relaxed_bench();
   bench.write(reg("request"), std::uint8_t{2});
   const std::int16_t angles[] = {250, -100, 1000, 1000, 110};
   std::uint8_t bytes[sizeof angles];

@@ -20,7 +20,7 @@ TEST(OperatorStart, IsToldInRegisters) {
       .clock_source = table::ClockSource::kInternalPll,
       .bad_field = {"joint[3].lower_rad"},
       .crash = {.pc = 0x0800'1234, .cause = 0x8200, .tick = 77, .count = 3}};
-  Bench<>& bench = renewed<Bench<>>(no_images, setup);
+  Bench& bench = renewed<Bench>(no_images, setup);
   EXPECT_EQ(bench.value<std::uint8_t>(reg("self_test")), 5);
   EXPECT_STREQ(bench.value<FieldName>(reg("image_field")).text, "joint[3].lower_rad");
   EXPECT_EQ(bench.value<std::uint8_t>(reg("reset_cause")), 6);
@@ -33,7 +33,7 @@ TEST(OperatorStart, IsToldInRegisters) {
 
 TEST(OperatorTorqueLimit, IsAPercentageThatChangesWithTorqueOffOnly) {
   const OperatorSetup kept = {.torque_limit_percent = 40};
-  Bench<>& bench = renewed<Bench<>>(no_images, kept);
+  Bench& bench = renewed<Bench>(no_images, kept);
   EXPECT_EQ(bench.value<std::uint8_t>(reg("torque_limit")), 40) << "as the board kept it";
   EXPECT_EQ(bench.device.torque_limit_percent(), 40);
   for (const int percent : {1, 30, 100}) {
@@ -57,7 +57,7 @@ struct Number {
   std::uint16_t id;
   float value;
 };
-Reply tune(Bench<>& bench, const Number& number) {
+Reply tune(Bench& bench, const Number& number) {
   std::uint8_t bytes[6];
   dxl::put_u16(bytes, number.id);
   __builtin_memcpy(bytes + 2, &number.value, 4);
@@ -65,7 +65,7 @@ Reply tune(Bench<>& bench, const Number& number) {
 }
 
 TEST(OperatorTuning, AWriteReachesExactlyOneTick) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   EXPECT_TRUE(tune(bench, {2, 0.02F}).error == Error::kNone);
   const OperatorOrder order = bench.device.order(0);
   EXPECT_EQ(order.flags, kParameterWrite);
@@ -77,7 +77,7 @@ TEST(OperatorTuning, AWriteReachesExactlyOneTick) {
 }
 
 TEST(OperatorTuning, ASecondWriteBeforeTheTickIsRefused) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   EXPECT_TRUE(tune(bench, {2, 0.02F}).error == Error::kNone);
   EXPECT_TRUE(tune(bench, {3, 0.03F}).error == Error::kResultFail);
   EXPECT_EQ(bench.device.order(0).parameter_id, 2);
@@ -85,7 +85,7 @@ TEST(OperatorTuning, ASecondWriteBeforeTheTickIsRefused) {
 }
 
 TEST(OperatorTuning, EveryNumberIsHeldToItsRange) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   for (std::uint16_t id = 0; id < kTuningCount; ++id) {
     const Range range = kTuningRanges[id];
     for (const float good : {range.low, range.high}) {
@@ -104,7 +104,7 @@ TEST(OperatorTuning, EveryNumberIsHeldToItsRange) {
 }
 
 TEST(OperatorTuning, ShowsTheValueInForce) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   bench.write(reg("parameter_id"), std::uint16_t{2});
   EXPECT_EQ(bench.value<float>(reg("parameter_value")), kRobot.tuning.gait.lift_m);
   bench.state.tuning.gait.lift_m = 0.03F;
@@ -113,7 +113,7 @@ TEST(OperatorTuning, ShowsTheValueInForce) {
 }
 
 TEST(OperatorReport, ShowsTheTick) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   bench.state.digest.chain = 0x0123456789ABCDEF;
   bench.inputs.tick = 77;
   bench.inputs.gyro_count[2] = -3;
@@ -143,7 +143,7 @@ TEST(OperatorReport, ShowsTheTick) {
 }
 
 TEST(OperatorReport, NamesTheJointThatKeepsTheRobotDown) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   EXPECT_EQ(bench.value<std::uint8_t>(reg("joint_beyond")), 255) << "before the first tick";
   for (int j = 0; j < kRobot.joint_count; ++j) {
     const JointParams& joint = kRobot.joint[j];
@@ -158,7 +158,7 @@ TEST(OperatorReport, NamesTheJointThatKeepsTheRobotDown) {
 }
 
 TEST(OperatorReport, NamesTheHottestServoAndTheLowestSupply) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   bench.inputs.flags = kSlowFresh;
   for (int j = 0; j < kRobot.joint_count; ++j) {
     bench.inputs.slow_joint = static_cast<std::uint8_t>(j);
@@ -175,7 +175,7 @@ TEST(OperatorReport, NamesTheHottestServoAndTheLowestSupply) {
 }
 
 TEST(OperatorReport, CountsWhatWentWrong) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   bench.device.report({.bus = {.refused = 1, .timeouts = 2, .strays = 3, .errors = 4},
                        .bus_crc_errors = 5,
                        .skipped_periods = 6,
@@ -198,7 +198,7 @@ TEST(OperatorReport, CountsWhatWentWrong) {
 }
 
 TEST(OperatorReport, ShowsHowJointsMoveAndPushIfTheirBusTells) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   JointEffort efforts[kMaxJoints];
   for (int j = 0; j < kMaxJoints; ++j) {
     efforts[j] = {-1000 * j, static_cast<std::int16_t>(-j)};
@@ -212,7 +212,7 @@ TEST(OperatorReport, ShowsHowJointsMoveAndPushIfTheirBusTells) {
 }
 
 TEST(OperatorDevices, HaveStateRateAgeAndErrors) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   constexpr int kSilent = 4;
   const auto state = [&](int row) {
     return bench.value<table::DeviceState>(element(reg("device_state"), row, 1));
@@ -249,7 +249,7 @@ TEST(OperatorDevices, HaveStateRateAgeAndErrors) {
 }
 
 TEST(OperatorDevices, ASkippedTickAgesThemTwice) {
-  Bench<>& bench = fresh_bench();
+  Bench& bench = fresh_bench();
   bench.inputs.fresh = 1;
   bench.record();
   bench.inputs.fresh = 0;
@@ -287,7 +287,7 @@ class Upload {
   ParamsImage in_force;
   ParamsImage new_image;
   ParamsImages store{in_force};
-  Bench<ParamsImages> bench;
+  Bench bench;
 };
 
 Upload& fresh_upload() {

@@ -24,7 +24,7 @@ struct Sender {
 
   FakeBoard board;
   SentActions fresh{kRobot};
-  Node<FakeImages> node;
+  Node node;
   SdoClient::Mode mode = SdoClient::Mode::kBlock;
 };
 

@@ -14,11 +14,11 @@ using canopen::Frame;
 using canopen::SdoClient;
 using table::Register;
 
-static_assert(canopen::Application<ControllerObjects<NoImages>>);
-static_assert(canopen::StreamingDictionary<ControllerObjects<ParamsImages>>);
+static_assert(canopen::Application<ControllerObjects>);
+static_assert(canopen::StreamingDictionary<ControllerObjects>);
 
 TEST(ControllerObjects, EveryRegisterIsTheObjectThatTheTableNames) {
-  auto& node = renewed<Node<NoImages>>(no_images);
+  auto& node = renewed<Node>(no_images);
   node.arm(false);
   Entry entry;
   for (const Register& each : table::row::kTable) {
@@ -47,7 +47,7 @@ TEST(ControllerObjects, EveryRegisterIsTheObjectThatTheTableNames) {
 }
 
 TEST(ControllerObjects, WhatIsNoRegisterIsNoObject) {
-  auto& node = renewed<Node<NoImages>>(no_images);
+  auto& node = renewed<Node>(no_images);
   Entry entry;
   unsigned found = 0;
   for (unsigned index = 0x2000; index <= 0xFFFF; ++index) {
@@ -61,11 +61,10 @@ TEST(ControllerObjects, WhatIsNoRegisterIsNoObject) {
 }
 
 TEST(ControllerObjects, WriteDoesWhatItDoesToTheRegister) {
-  auto& node = renewed<Node<NoImages>>(no_images);
-  alignas(
-      OperatorRegisters<NoImages>) static unsigned char place[sizeof(OperatorRegisters<NoImages>)];
-  auto& other = *new (static_cast<void*>(place))
-                    OperatorRegisters<NoImages>(kRobot, OperatorSetup{}, no_images);
+  auto& node = renewed<Node>(no_images);
+  alignas(OperatorRegisters) static unsigned char place[sizeof(OperatorRegisters)];
+  auto& other =
+      *new (static_cast<void*>(place)) OperatorRegisters(kRobot, OperatorSetup{}, no_images);
   for (const bool armed : {false, true}) {
     node.arm(armed);
     other.record({node.state.digest, node.inputs}, node.state, node.outputs);
@@ -90,7 +89,7 @@ TEST(ControllerObjects, WriteDoesWhatItDoesToTheRegister) {
 }
 
 TEST(ControllerObjects, RefusalsSayWhy) {
-  auto& node = renewed<Node<NoImages>>(no_images);
+  auto& node = renewed<Node>(no_images);
   node.arm(true);
   const std::uint8_t one = 1, four = 4;
   const auto index = [](const char* name) { return table::find(name)->object_index(); };
@@ -102,7 +101,7 @@ TEST(ControllerObjects, RefusalsSayWhy) {
 }
 
 TEST(ControllerObjects, CommandCanStandInARpdo) {
-  auto& node = renewed<Node<NoImages>>(no_images);
+  auto& node = renewed<Node>(no_images);
   constexpr std::uint16_t kVx = table::find("walk_vx")->object_index();
   constexpr std::uint16_t kGyro = table::find("gyro")->object_index();
   EXPECT_TRUE(node.objects.mappable({kVx, 0}, 16, true) == Abort::kNone);
@@ -124,7 +123,7 @@ TEST(ControllerObjects, CommandCanStandInARpdo) {
 }
 
 TEST(ControllerObjects, ALoopThatObeysSomebodyElseRefusesEveryOrder) {
-  auto& node = renewed<Node<NoImages>>(no_images, OperatorSetup{.takes_orders = false});
+  auto& node = renewed<Node>(no_images, OperatorSetup{.takes_orders = false});
   const std::uint8_t zeros[8] = {}, one = 1;
   for (const bool armed : {false, true}) {
     node.arm(armed);
@@ -158,7 +157,7 @@ struct Exchange {
   ParamsImage now;
   ParamsImage next;
   ParamsImages images{now};
-  Node<ParamsImages> node{images};
+  Node node{images};
   std::uint8_t got[sizeof(ParamsImage)];
 };
 

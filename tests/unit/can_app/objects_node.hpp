@@ -11,9 +11,8 @@ namespace verp::app::test {
 inline constexpr std::uint8_t kNode = 100;
 inline constexpr canopen::DeviceSize kSize = {1, 1, 8, 1};
 
-template <class Store>
 struct Node {
-  explicit Node(Store& images, const OperatorSetup& setup = {})
+  explicit Node(Images& images, const OperatorSetup& setup = {})
       : registers(kRobot, setup, images),
         objects(registers, images),
         device(objects, {0, "controller", 0, 0, 0, 0}, kNode) {
@@ -45,9 +44,9 @@ struct Node {
     return run();
   }
 
-  OperatorRegisters<Store> registers;
-  ControllerObjects<Store> objects;
-  canopen::Device<ControllerObjects<Store>, kSize> device;
+  OperatorRegisters registers;
+  ControllerObjects objects;
+  canopen::Device<ControllerObjects, kSize> device;
   canopen::SdoClient client{kNode};
   State state;
   Inputs inputs;

@@ -43,7 +43,7 @@ struct Session {
 
   FakeBoard board;
   SentActions fresh{kRobot};
-  Bench<FakeImages> bench;
+  Bench bench;
 };
 
 Session& fresh_session() {

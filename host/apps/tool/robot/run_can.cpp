@@ -40,10 +40,10 @@ class PatientCan final : public hal::CanBus {
 /// CiA 402 drives, with this PC's controller as a node beside them. It takes orders with
 /// `--take-orders`, else the program that started the run gives them.
 class CanRobot {
-  using Ticks = app::TickLog<>;
+  using Ticks = app::TickLog;
 
  public:
-  using Bus = app::OperatorNode<PatientCan, Ticks>;
+  using Bus = app::OperatorNode;
 
   CanRobot(link::CanPort& port, const RunPlan& plan)
       : port_(port),
@@ -98,7 +98,7 @@ class CanRobot {
   const RunPlan& plan_;
   PatientCan patient_;
   Ticks ticks_{app::no_images};
-  app::OperatorRegisters<Ticks> registers_;
+  app::OperatorRegisters registers_;
   Bus node_;
 };
 
