@@ -36,7 +36,8 @@ enum class Access : std::uint8_t {
 };
 inline constexpr const char* kAccessNames[] = {"R", "RW", "RW disarmed"};
 
-struct Register {
+// In the order of the table's columns; it is constant.
+struct Register {  // NOLINT(clang-analyzer-optin.performance.Padding)
   std::uint16_t address = 0;
   const char* name = "";
   Type type = Type::kU8;
