@@ -41,6 +41,7 @@ root=$(cd "$1" && pwd)
 objects='Chip chip; Wrapper wrapper(chip); Bus* volatile bus = &wrapper;'
 expect "$objects extern \"C\" int verp_main() { return bus->poll(1); }" '^4[0-9][0-9] .*Wrapper::poll .*Chip::poll .*use<400> '
 expect "$objects extern \"C\" int verp_main() { return bus->send(1); }" '^1[0-9][0-9] .*Chip::send .*use<96> '
+expect "$objects volatile int way; extern \"C\" int verp_main() { return way ? bus->send(1) : bus->poll(1); }" '^4[0-9][0-9] .*use<400> '
 expect 'int one(int value) { return value; } int (*volatile chosen)(int) = one;
   extern "C" int verp_main() { return chosen(1); }' 'calls through a register$'
 expect "$objects struct Told { int before; int (*call)(int); }; int one(int value) { return use<4>(value); }
