@@ -247,4 +247,14 @@ sed -i 's/^    preset "$each" 900 /    preset "$each" 0 /' "$scratch/tests/run"
 output=$(cd "$scratch" && PATH="$scratch/bin:/usr/bin:/bin" tests/run --filter x 2>&1)
 [[ $output == *$'\nlate: \'host-release build\'\n'* && $output =~ host-release\ build\ +late\ +0\ +0 ]] || { echo "FAILED: not called late: $output" && failed=1; }
 
+# For each command the launcher builds the program that `verp` starts.
+eval "$(sed -n '/^programs_of()/,/^}/p' "$root/verp")"
+table=$root/host/apps/cli/other_program.cpp rows=0
+while read -r word name; do
+  rows=$((rows + 1))
+  [[ $(programs_of "$word") == "$(grep -oE "$name = \{[^}]*\}" "$table" | grep -oE 'verp_[a-z]+')" ]] ||
+    { echo "FAILED: ./verp builds '$(programs_of "$word")' for $word; $table says $name" && failed=1; }
+done < <(grep -oE '\{"[a-z]+", k[A-Z][a-z]+' "$table" | tr -d '{",')
+((rows > 20)) || { echo "FAILED: $table has $rows commands" && failed=1; }
+
 exit "$failed"
