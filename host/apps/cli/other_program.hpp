@@ -17,7 +17,7 @@ Subcommand add_other(CLI::App& root, const std::string& word);
 /// Replaces this process by the command's program, with the same arguments. Throws ToolError.
 [[noreturn]] void start_other(const std::string& word);
 
-/// What these programs print with kShellWords. Those that are not built are left out.
+/// The words that these programs print with kShellWords; without programs that are not built.
 std::vector<ShellWords> words_of_others();
 
 }  // namespace verp::cli
