@@ -4,17 +4,112 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <deque>
+#include <numbers>
 #include <stdexcept>
 
 #include "host/apps/demos/crew.hpp"
-#include "host/apps/demos/eyes.hpp"
-#include "host/apps/demos/outlines.hpp"
+#include "host/robot/model/world.hpp"
 #include "host/run/scenario/expand.hpp"
+#include "host/run/session/session.hpp"
+#include "host/show/camera/painter.hpp"
 #include "host/twin/sim/scenery.hpp"
 
 namespace verp::demos {
 namespace {
+
+/// Pictures of the robots' cameras, drawn by another program at the time of exposure.
+class Eyes {
+ public:
+  /// Throws camera::CameraError if that program is not built or there is no OpenGL.
+  Eyes(const std::vector<const session::WalkPlan*>& plans, const sim::WorldOptions& world);
+
+  /// Picture of the robot's first camera; empty if another camera was exposed.
+  std::optional<camera::Picture> look(const sim::Exposure& exposure);
+
+ private:
+  camera::Stage stage_;
+  camera::Painter painter_;
+};
+
+std::string absolute(const std::string& file) {
+  return file.empty() ? "" : std::filesystem::absolute(file).string();
+}
+
+camera::Stage stage_of(const std::vector<const session::WalkPlan*>& plans,
+                       const sim::WorldOptions& world) {
+  camera::Stage stage;
+  for (const session::WalkPlan* plan : plans)
+    stage.robots.push_back({absolute(plan->entity.file), plan->twin.seed});
+  if (world.scenery != nullptr) stage.world_file = absolute(world.scenery->file);
+  return stage;
+}
+
+Eyes::Eyes(const std::vector<const session::WalkPlan*>& plans, const sim::WorldOptions& world)
+    : stage_(stage_of(plans, world)), painter_(camera::find_program(), stage_) {}
+
+std::optional<camera::Picture> Eyes::look(const sim::Exposure& exposure) {
+  if (std::find(exposure.cameras.begin(), exposure.cameras.end(), 0u) == exposure.cameras.end())
+    return std::nullopt;
+  camera::Moment moment;
+  moment.time_us = exposure.time_us;
+  moment.cameras = {0};
+  moment.link_world = exposure.link_world;
+  moment.body_world = exposure.body_world;
+  moment.robot = static_cast<std::uint32_t>(exposure.robot);
+  moment.raw = true;
+  for (camera::Picture& picture : painter_.look(moment)) {
+    if (picture.encoding == "rgb8") return std::move(picture);
+  }
+  return std::nullopt;
+}
+
+constexpr double kLow_m = 0.03;
+constexpr int kCorners = 16;  // of a round shape
+
+using Kind = model::Shape::Kind;
+
+double top_m(const model::Shape& shape) {
+  if (shape.kind == Kind::kBox || shape.kind == Kind::kCylinder) return shape.size_m.z() / 2;
+  return shape.kind == Kind::kSphere || shape.kind == Kind::kCapsule ? shape.size_m.x() : 0;
+}
+
+Outline outline_of(const model::Shape& shape, const model::Transform& pose) {
+  Outline out;
+  const auto add = [&](double x_m, double y_m) {
+    const model::Vec3 at = pose * model::Vec3(x_m, y_m, 0);
+    out.corners.push_back({at.x(), at.y()});
+  };
+  if (shape.kind == Kind::kBox) {
+    const double x_m = shape.size_m.x() / 2, y_m = shape.size_m.y() / 2;
+    add(x_m, y_m);
+    add(-x_m, y_m);
+    add(-x_m, -y_m);
+    add(x_m, -y_m);
+    return out;
+  }
+  for (int i = 0; i < kCorners; ++i) {
+    const double at_rad = 2 * std::numbers::pi * i / kCorners;
+    add(shape.size_m.x() * std::cos(at_rad), shape.size_m.x() * std::sin(at_rad));
+  }
+  return out;
+}
+
+/// Outlines, from above, of static objects that reach above 3 cm, a sole's thickness.
+std::vector<Outline> outlines_of(const model::World& world) {
+  std::vector<Outline> out;
+  for (const model::WorldObject& object : world.objects) {
+    if (object.kind != model::WorldObject::Kind::kStatic) continue;
+    for (const model::WorldCollision& each : object.collisions) {
+      const model::Transform pose = object.pose * each.pose;
+      const double half_m = top_m(each.shape);
+      if (half_m == 0 || pose.translation().z() + half_m < kLow_m) continue;
+      out.push_back(outline_of(each.shape, pose));
+    }
+  }
+  return out;
+}
 
 constexpr double kAfterFall_s = 0.5;  // shows the outcome in a picture
 constexpr double kAfterDone_s = 1.5;

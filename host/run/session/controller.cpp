@@ -2,17 +2,110 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "firmware/app/app.hpp"
+#include "firmware/app/operator_device.hpp"
 #include "host/boards/board/board_error.hpp"
 #include "host/boards/board/loop_on_target.hpp"
 #include "host/run/session/flow.hpp"
 #include "host/run/session/not_up.hpp"
-#include "host/run/session/operator_console.hpp"
+#include "host/twin/bus/order_packets.hpp"
+#include "host/twin/bus/order_sink.hpp"
 
 namespace verp::session {
 namespace {
+
+/// Source of orders for a controller in this process. As on a board, the controller is device 200
+/// and orders are register writes, so it rejects the same. Implements the loop's OperatorLink and
+/// Recorder.
+class OperatorConsole {
+ public:
+  explicit OperatorConsole(Robot& robot);
+
+  void brought_up(const app::BringUpReport& report) { device_.brought_up(report); }
+  /// Throws bus::SinkError if the controller rejects an order.
+  app::OperatorOrder order(std::uint32_t tick);
+  void record(const TickRecord& tick, const State& state, const Outputs& outputs);
+
+ private:
+  /// The controller's end; the buffers are the other.
+  struct Wire final : hal::ByteLink {
+    std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t) override {
+      told.insert(told.end(), data, data + size);
+      return size;
+    }
+    std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t) override {
+      const std::size_t count = std::min(capacity, asked.size());
+      std::copy_n(asked.begin(), count, buffer);
+      asked.erase(asked.begin(), asked.begin() + static_cast<std::ptrdiff_t>(count));
+      return count;
+    }
+    bool connected() const override { return true; }
+    hal::LinkErrors errors() const override { return {}; }
+    std::vector<std::uint8_t> asked, told;
+  };
+
+  void hand_over(std::size_t packets);
+
+  Robot& robot_;
+  Wire wire_;
+  app::OperatorDevice device_;
+  bool relaxed_ = false;  ///< without it a new controller obeys no order
+  bool stopped_ = false;  ///< emergency stop
+};
+
+OperatorConsole::OperatorConsole(Robot& robot)
+    : robot_(robot),
+      device_(wire_, robot.plan().params,
+              app::OperatorSetup{.self_test = app::table::SelfTest::kNotRun}) {
+  device_.offer_actions(robot.actions().count());
+}
+
+app::OperatorOrder OperatorConsole::order(std::uint32_t tick) {
+  const app::OperatorOrder wanted = robot_.order(tick);
+  const bool stop = (wanted.flags & kEmergencyStop) != 0;
+  const bool changed = std::exchange(stopped_, stop) != stop;
+  if (changed || (wanted.flags & (kCommandFresh | kParameterWrite)) != 0) {
+    std::size_t packets = 0;
+    // Sends the required first order, relax: no person stands beside a twin.
+    if (!std::exchange(relaxed_, true)) {
+      bus::append_write(wire_.asked, app::reg("request"),
+                        {static_cast<std::uint8_t>(Request::kRelax)});
+      ++packets;
+    }
+    hand_over(packets + bus::append_order(wire_.asked, wanted));
+  }
+  return device_.order(tick);
+}
+
+void OperatorConsole::hand_over(std::size_t packets) {
+  wire_.told.clear();
+  while (device_.poll()) {
+  }
+  std::size_t answers = 0;
+  dxl::Parser parser;
+  for (const std::uint8_t byte : wire_.told) {
+    for (bool found = parser.push(byte); found; found = parser.next()) {
+      const int error = parser.packet().error & ~dxl::kAlert;
+      if (error != 0) {
+        throw bus::SinkError("the controller refuses an order (error " + std::to_string(error) +
+                             "); see firmware/app/registers.md for what registers take");
+      }
+      ++answers;
+    }
+  }
+  if (answers != packets) throw bus::SinkError("the controller does not answer its operator");
+}
+
+void OperatorConsole::record(const TickRecord& tick, const State& state, const Outputs& outputs) {
+  device_.record(tick, state, outputs);
+  robot_.take(tick, state, outputs);
+}
 
 struct Law {
   Robot* robot = nullptr;

@@ -2,9 +2,79 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstring>
+#include <iterator>
+
 #include "common/control/step.hpp"
 
 namespace verp::shadow {
+namespace {
+
+State stepped(const Params& params, const action::Library& actions, State state,
+              const Inputs& inputs) {
+  Outputs outputs;
+  step(params, actions, state, inputs, outputs);
+  return state;
+}
+
+/// Diffs the State at the held tick: the differing one or slightly later.
+void name_fields(record::Divergence& divergence, const Params& params,
+                 const action::Library& actions, State state, const Testimony& testimony,
+                 std::size_t from) {
+  for (std::size_t i = from; i < testimony.ticks.size(); ++i) {
+    state = stepped(params, actions, state, testimony.ticks[i].inputs);
+  }
+  divergence.fields = record::diff_states(testimony.held.state, state);
+  divergence.fields_tick = testimony.held.record.inputs.tick;
+}
+
+}  // namespace
+
+std::vector<TickRecord> ticks_of(const std::uint8_t* image, std::size_t size,
+                                 const app::HeldTick& held) {
+  const std::uint32_t last = held.record.inputs.tick;
+  std::vector<TickRecord> ticks;
+  for (std::size_t at = 0; at + sizeof(TickRecord) <= size; at += sizeof(TickRecord)) {
+    TickRecord record;
+    std::memcpy(static_cast<void*>(&record), image + at, sizeof record);
+    const std::uint32_t age = last - record.inputs.tick;
+    if (record.digest.chain != 0 && age < size / sizeof record) ticks.push_back(record);
+  }
+  std::sort(ticks.begin(), ticks.end(),
+            [](const TickRecord& a, const TickRecord& b) { return a.inputs.tick < b.inputs.tick; });
+  return ticks;
+}
+
+Judgement judge(const Params& params, const action::Library& actions, const Suspicion& suspicion,
+                const Testimony& testimony) {
+  const auto found = std::find_if(
+      testimony.ticks.begin(), testimony.ticks.end(),
+      [&](const TickRecord& each) { return each.inputs.tick == suspicion.inputs.tick; });
+  Judgement judgement;
+  record::Divergence& divergence = judgement.divergence;
+  divergence.tick = divergence.fields_tick = suspicion.inputs.tick;
+  divergence.stage = "inputs";
+  if (found == testimony.ticks.end() || found == testimony.ticks.begin()) {
+    judgement.verdict = Verdict::kTooLate;
+    return judgement;
+  }
+  // The chains already differ before this tick: this PC missed one.
+  if (std::prev(found)->digest.chain != suspicion.before.digest.chain) return judgement;
+  const State here = stepped(params, actions, suspicion.before, found->inputs);
+  const auto differs = record::compare_digests(found->digest, here.digest);
+  if (!differs) {
+    divergence.fields = record::diff_fields(found->inputs, suspicion.inputs);
+    return judgement;
+  }
+  judgement.verdict = Verdict::kDifference;
+  divergence.stage = differs->stage;
+  divergence.left_digest = differs->left_digest;
+  divergence.right_digest = differs->right_digest;
+  name_fields(divergence, params, actions, here, testimony,
+              static_cast<std::size_t>(found - testimony.ticks.begin()) + 1);
+  return judgement;
+}
 
 bool Check::take_actions(int count) {
   actions_ = count == 0 ? action::Library{} : own_;

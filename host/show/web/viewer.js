@@ -6,7 +6,7 @@
   const run = JSON.parse(section.querySelector('script.run').textContent);
   const bytes = Uint8Array.from(atob(run.frames), (c) => c.charCodeAt(0));
   const data = new Float32Array(bytes.buffer);
-  const joints = run.joints.length, columns = 25 + joints + 7 * run.bodies;  // as add_frame in scene_json.cpp
+  const joints = run.joints.length, columns = 25 + joints + 7 * run.bodies;  // as add_frame in replay_page.cpp
   const kPhases = ['stands', 'starts', 'walks', 'ends'];
 
   let renderer;

@@ -2,14 +2,119 @@
 
 #include <fmt/format.h>
 
-#include "host/study/compare/draw.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
 #include "host/study/compare/words.hpp"
 #include "host/study/report/document.hpp"
 #include "host/study/report/files.hpp"
 #include "host/study/report/maybe.hpp"
+#include "host/study/report/palette.hpp"
+#include "host/study/report/plots.hpp"
+#include "host/study/report/script.hpp"
 
 namespace verp::compare {
 namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kShownCycles = 4, kShown_s = 4;
+constexpr int kColumns = 3, kPanel_px = 170;
+
+/// An interval in the middle, where both motions are steady.
+std::pair<std::size_t, std::size_t> shown(const Comparison& c, const Pair& pair) {
+  const double length_s = c.gait_hz ? kShownCycles / *c.gait_hz : kShown_s;
+  const double middle_s = (c.from_s + c.to_s) / 2;
+  const auto at = [&](double time_s) {
+    return static_cast<std::size_t>(
+        std::lower_bound(pair.time_s.begin(), pair.time_s.end(), time_s) - pair.time_s.begin());
+  };
+  return {at(middle_s - length_s / 2), at(middle_s + length_s / 2)};
+}
+
+/// Joints that move, the largest motion first; others show nothing.
+std::vector<std::size_t> moving(const Comparison& c) {
+  std::vector<std::size_t> joints;
+  for (std::size_t j = 0; j < c.joints.size(); ++j) {
+    if (c.joints[j].delay_s || c.joints[j].error_rms_rad > c.error_rms_rad) joints.push_back(j);
+  }
+  return joints;
+}
+
+/// Both angles of each joint over some cycles.
+report::Plot angles_plot(const Comparison& c, const Pair& pair) {
+  const auto [first, last] = shown(c, pair);
+  const std::vector<std::size_t> joints = moving(c);
+  report::Data data("angles");
+  for (std::size_t i = first; i < last; ++i) {
+    data.cell(pair.time_s[i] - c.from_s);
+    for (const std::size_t j : joints) {
+      data.cell(kDegrees * pair.a[j][i]).cell(kDegrees * pair.b[j][i]);
+    }
+    data.end_row();
+  }
+  const int count = std::max(static_cast<int>(joints.size()), 1);
+  const int columns = std::min(kColumns, count), rows = (count + columns - 1) / columns;
+  std::string script = report::preamble() + data.text();
+  script += fmt::format(
+      "set multiplot layout {},{}\nset tmargin 2.2\nset bmargin 2.2\n"
+      "set lmargin 7\nset rmargin 1\n",
+      rows, columns);
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    const JointResult& joint = c.joints[joints[k]];
+    const std::string delay =
+        joint.delay_s ? fmt::format(", {:+.1f} ms", 1e3 * *joint.delay_s) : std::string();
+    script += fmt::format(
+        "set title '{}{}' noenhanced offset 0,-0.6\nset xrange [{:.6g}:{:.6g}]\n"
+        "{}\nplot $angles using 1:{} with lines linetype 1 title 'A', "
+        "$angles using 1:{} with lines linetype 2 title 'B'\n",
+        report::plain(joint.name), delay, pair.time_s[first] - c.from_s,
+        pair.time_s[last - 1] - c.from_s,
+        k == 0 ? "set key at screen 0.99,0.015 right bottom horizontal" : "unset key", 2 * k + 2,
+        2 * k + 3);
+  }
+  return {"angles",
+          "Joint angles, laid over each other",
+          "Measured angles in degrees over seconds since the command, a few cycles of them; with "
+          "each joint the time by which B comes later.",
+          920,
+          40 + kPanel_px * rows,
+          script + "unset multiplot\n"};
+}
+
+report::Plot joints_plot(const Comparison& c) {
+  report::Data data("joints");
+  for (std::size_t j = 0; j < c.joints.size(); ++j) {
+    const JointResult& joint = c.joints[j];
+    data.cell(static_cast<double>(j)).label(report::plain(joint.name));
+    data.row(kDegrees * joint.error_rms_rad, joint.left_rad ? kDegrees * *joint.left_rad : kNone,
+             kDegrees * joint.offset_rad, joint.delay_s ? 1e3 * *joint.delay_s : kNone);
+  }
+  std::string script = report::preamble() + data.text();
+  script += fmt::format(
+      "set multiplot layout 3,1\nset style fill solid 0.75 noborder\nset xrange [-0.7:{}.7]\n"
+      "set lmargin 9\nset rmargin 9\nset xtics scale 0 noenhanced\nset format x ''\n"
+      "set key outside top center horizontal\nset ylabel 'rms, degrees'\nset yrange [0:*]\n"
+      "plot $joints using ($1-0.2):3:(0.36) with boxes linetype 1 title 'error', "
+      "$joints using ($1+0.2):4:(0.36) with boxes linetype 3 title 'left without delay and "
+      "offset'\n"
+      "unset key\nset yrange [*<0:0<*]\nset ylabel 'offset, degrees'\n"
+      "plot $joints using 1:5:(0.6) with boxes linetype 4\n"
+      "set ylabel 'delay, ms'\nset format x '%s'\nset bmargin 6\n"
+      "plot $joints using 1:6:(0.6):xtic(2) with boxes linetype 2\nunset multiplot\n",
+      c.joints.size() - 1);
+  const std::string rotate = "set xtics rotate by -40 left\n";
+  script.insert(script.rfind("plot $joints"), rotate);
+  return {
+      "joints",
+      "Error, offset and delay of each joint",
+      "B against A, laid together by their command. No bar of delay: the joint hardly moves, or "
+      "the two move differently.",
+      920,
+      620,
+      script};
+}
 
 std::vector<report::Fact> facts_of(const Comparison& c) {
   const std::string delay = c.delay_s ? fmt::format("{:.1f} ms", 1e3 * *c.delay_s) : "-";

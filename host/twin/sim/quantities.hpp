@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "host/twin/sim/quantity.hpp"
 #include "host/twin/sim/robot.hpp"
 #include "host/twin/sim/scenery.hpp"
 #include "host/twin/sim/world.hpp"
@@ -12,6 +11,19 @@
 /// Named access to a running world's physics, and external pushes. Reading changes nothing; a new
 /// value acts from the next step on.
 namespace verp::sim {
+
+/// A named number of the physics: `body.mass_kg`, `world.gravity_m_s2`. Only the world's thread may
+/// read or set it, between steps.
+struct Quantity {
+  std::string name;
+  std::string unit;          ///< "": a pure number
+  std::string what;          ///< the same for all of its kind
+  double low = 0, high = 0;  ///< range of settable values
+  std::function<double()> read;
+  std::function<void(double)> set;  ///< empty: read only
+
+  bool settable() const { return static_cast<bool>(set); }
+};
 
 /// A robot's link or an object.
 struct Thing {

@@ -10,6 +10,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "common/control/state.hpp"
 #include "host/apps/cli/console.hpp"
@@ -17,7 +19,6 @@
 #include "host/apps/cli/json.hpp"
 #include "host/apps/cli/other_program.hpp"
 #include "host/apps/cli/progress.hpp"
-#include "host/apps/tool/study/bench_languages.hpp"
 #include "host/apps/tool/study/bench_report.hpp"
 #include "host/apps/tool/study/commands.hpp"
 #include "host/boards/board/cost_promise.hpp"
@@ -31,6 +32,37 @@
 /// Runs the programs of tests/bench and compares with the promised limits.
 namespace verp::tool {
 namespace {
+
+/// Adds the row of one line of language_bench, with its promise.
+void add_language_row(const cli::Json& line, std::vector<BenchRow>& rows) {
+  struct Language {
+    const char* what;
+    double at_least;  ///< ticks per second; 0: no limit
+  };
+  static const std::map<std::string, Language> kLanguages = {
+      {"cpp", {"C++, libverp in the process", 0}},
+      {"csharp", {"C#, mono", 0}},
+      {"python", {"Python", 5000}},
+      {"octave", {"Octave", 2000}},
+      {"external", {"another process, over a Unix socket", 2000}}};
+  const std::string name = line.at("language");
+  const Language& language = kLanguages.at(name);
+  BenchRow row{.name = name + "_ticks_per_s",
+               .where = "languages",
+               .what = language.what,
+               .unit = "ticks/s",
+               .bar = language.at_least > 0 ? Bar::kAtLeast : Bar::kNone,
+               .limit = language.at_least};
+  row.missing = line.value("missing", "");
+  row.failed = line.value("failed", "");
+  if (row.measured()) {
+    const std::vector<double> values = line.at("ticks_per_s");
+    row.value = median(values);
+    row.least = *std::min_element(values.begin(), values.end());
+    row.most = *std::max_element(values.begin(), values.end());
+  }
+  rows.push_back(std::move(row));
+}
 
 constexpr double kMostTick_us = 3;
 constexpr double kLeastTimesFasterThanKdl = 100;
