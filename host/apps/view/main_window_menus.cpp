@@ -141,7 +141,7 @@ void MainWindow::make_run_menu() {
 
 /// Buttons for urgent actions, always visible.
 void MainWindow::make_corner() {
-  const auto button = [this](const char* text, const char* name) {
+  const auto button = [](const char* text, const char* name) {
     auto* made = new QPushButton(text);
     made->setObjectName(name);
     made->setFocusPolicy(Qt::NoFocus);
