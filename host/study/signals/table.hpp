@@ -11,9 +11,8 @@
 #include "host/trace/record/decisions.hpp"
 #include "host/trace/record/joint_speeds.hpp"
 
-namespace verp::signals {
-
 /// A row per tick, a column per signal.
+namespace verp::signals {
 
 enum class Format : std::uint8_t {
   kWhole,

@@ -1,83 +1,13 @@
 #include "host/twin/bus/virtual_bus.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "host/twin/bus/sensor_device.hpp"
 #include "host/twin/bus/servo_device.hpp"
 
 namespace verp::bus {
 namespace {
-
-/// A sensor on the servo bus with the twelve-byte sensor block (common/protocol/control_table.hpp).
-class SensorDevice : public Device {
- protected:
-  SensorDevice(std::uint8_t id, std::uint16_t model, std::uint32_t baud, sim::Plant& plant);
-  void written(std::uint16_t, std::uint16_t) override {}
-  void put(int word, std::uint16_t value);
-  sim::Plant& plant_;
-};
-
-class ImuDevice final : public SensorDevice {
- public:
-  ImuDevice(std::uint8_t id, std::uint32_t baud, sim::Plant& plant)
-      : SensorDevice(id, dxl::kModelImu, baud, plant) {}
-  void refresh(std::uint16_t address, std::uint16_t length) override;
-};
-
-class FootDevice final : public SensorDevice {
- public:
-  FootDevice(std::uint8_t id, std::uint32_t baud, sim::Plant& plant, int foot)
-      : SensorDevice(id, dxl::kModelFoot, baud, plant), foot_(foot) {}
-  void refresh(std::uint16_t address, std::uint16_t length) override;
-
- private:
-  int foot_;
-};
-
-namespace at = dxl::address;
-
-std::vector<Register> sensor_registers(std::uint8_t id, std::uint16_t model, std::uint32_t baud) {
-  std::vector<Register> registers = {
-      {at::kModelNumber, 2, false, model},
-      {at::kModelInformation, 4, false, 0},
-      {at::kFirmwareVersion, 1, false, 1},
-      {at::kId, 1, true, id, 0, dxl::kMaxId},
-      {at::kBaudRate, 1, true, dxl::baud_rate_code(baud), 0, 7},
-      {at::kReturnDelay, 1, true, 250, 0, 254},
-      {at::kLed, 1, true, 0, 0, 1},
-  };
-  for (std::uint16_t word = 0; word < dxl::sensor_block::kBytes / 2; ++word) {
-    const int address = dxl::sensor_block::kAddress + 2 * word;
-    registers.push_back({static_cast<std::uint16_t>(address), 2, false, 0});
-  }
-  return registers;
-}
-
-bool reads_block(std::uint16_t address, std::uint16_t length) {
-  return address + length > dxl::sensor_block::kAddress;
-}
-
-SensorDevice::SensorDevice(std::uint8_t id, std::uint16_t model, std::uint32_t baud,
-                           sim::Plant& plant)
-    : Device(sensor_registers(id, model, baud)), plant_(plant) {}
-
-void SensorDevice::put(int word, std::uint16_t value) {
-  table_.set(static_cast<std::uint16_t>(dxl::sensor_block::kAddress + 2 * word), value);
-}
-
-void ImuDevice::refresh(std::uint16_t address, std::uint16_t length) {
-  if (!reads_block(address, length)) return;
-  const sim::ImuMeasurement measured = plant_.imu();
-  for (unsigned axis = 0; axis < 3; ++axis) {
-    put(static_cast<int>(axis), static_cast<std::uint16_t>(measured.gyro_count[axis]));
-    put(static_cast<int>(axis) + 3, static_cast<std::uint16_t>(measured.accel_count[axis]));
-  }
-}
-
-void FootDevice::refresh(std::uint16_t address, std::uint16_t length) {
-  if (!reads_block(address, length)) return;
-  const std::array<std::uint16_t, 4> counts = plant_.foot_counts(foot_);
-  for (unsigned i = 0; i < counts.size(); ++i) put(static_cast<int>(i), counts[i]);
-}
 
 constexpr std::uint64_t kBitsPerByte = 10;
 
