@@ -92,6 +92,8 @@ void fall() {
   constexpr std::int16_t kOne = 8172, kKnock = 2830;
   FallingLoop loop;
   follow(loop, 300);
+  --loop.inputs.tick;  // one tick twice
+  follow(loop, 1);
   loop.topple(safety::Mode::kFalling);
   count(loop.outputs);
   loop.command.request = Request::kGetUp;

@@ -28,6 +28,11 @@ TEST(RandomRobots, NineteenOfTwentyWalk) {
   EXPECT_GE(number(seeds, "survived"), 19);
 }
 
+TEST(RandomRobots, SixOfSixWalk) {
+  const Walk seeds = walk("generic21 --vary --for 10 --physics-step 2 --seeds 1-6");
+  EXPECT_EQ(number(seeds, "survived"), 6);
+}
+
 TEST(RandomRobots, WalksSayWhatWasDrawnAndWhoSurvived) {
   const Walk seeds = walk("generic21 --vary --for 3 --physics-step 2 --seeds 1-6");
   const json walks = seeds.result.value("walks", json::array());

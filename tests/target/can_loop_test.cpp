@@ -28,7 +28,7 @@ std::string setting(const char* name) {
 
 using test::CanTwin;
 
-constexpr double kStanding_s = 9;     ///< to get up, and to stand at the end (twin_run.cpp)
+constexpr double kStanding_s = 5.5;   ///< before and after the walk (twin_run.cpp)
 constexpr double kLeast_m_s = 0.089;  ///< half of the order
 
 std::vector<TickRecord> walk_here(std::uint32_t ticks) {

@@ -18,8 +18,8 @@
 namespace verp::test {
 namespace {
 
-constexpr std::uint32_t kStandUs = 6'000'000;
-constexpr std::uint32_t kStopUs = 3'000'000;
+constexpr std::uint32_t kStandUs = 4'000'000;
+constexpr std::uint32_t kStopUs = 1'500'000;
 constexpr std::uint32_t kLegUs = 3'000'000;
 
 struct Walk {

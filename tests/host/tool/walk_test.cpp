@@ -53,13 +53,13 @@ TEST_F(Walk, JsonTraceReplayAndDiffAgree) {
 
 TEST_F(Walk, WhatWasChangedStandsInSummaryReportJsonAndTrace) {
   const std::string options = "walk --for 3 --set gait.lift_m=0.02 --step 0.04 --report out";
-  const Outcome walk = verp(options);
+  const Outcome walk = as_typed(options);
   EXPECT_NE(walk.out.find("changed           --set gait.lift_m=0.02\n"), std::string::npos);
   EXPECT_EQ(walk.out.find("--step"), std::string::npos) << "as by default";
   EXPECT_NE(slurp(folder_ / "out/index.html").find("gait.lift_m=0.02"), std::string::npos);
   const std::string info = verp("trace info out/run.mcap").out;
   EXPECT_NE(info.find("changed: --for 3 --set gait.lift_m=0.02"), std::string::npos) << info;
-  const json changed = json::parse(verp("walk --for 3 --json --set gait.lift_m=0.02").out);
+  const json changed = json::parse(as_typed("walk --for 3 --json --set gait.lift_m=0.02").out);
   EXPECT_EQ(changed.at("changed"), json::parse(R"([["--for","3"],["--set","gait.lift_m=0.02"]])"));
 }
 
