@@ -217,7 +217,7 @@ TEST_F(Pictures, TheEyeDistancesAndAFilmstripAreAsSomebodyLookedAtThem) {
 }
 
 TEST_F(Pictures, OfAWalkAndOfItsTraceShowTheSameInstantAndTheWalkKeepsItsBits) {
-  const Outcome walk = verp("walk generic21 --for 3 --record a.mcap --json");
+  const Outcome walk = as_typed("walk generic21 --for 3 --record a.mcap --json");
   ASSERT_EQ(walk.status, 0) << walk.err;
   ASSERT_EQ(verp("shot a.mcap --at 4 -o trace.png --size 320x240").status, 0);
   ASSERT_EQ(verp("shot generic21 --for 3 --at 4 -o twin.png --size 320x240").status, 0);

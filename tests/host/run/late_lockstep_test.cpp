@@ -17,7 +17,7 @@ class LateLockstep : public Program {
  protected:
   /// PC and cable stop `stalls` times.
   void walk(std::uint64_t latency_us, int stalls) {
-    const Outcome here = verp("walk --json --for 3", "walk");
+    const Outcome here = as_typed("walk --json --for 3", "walk");
     const std::string bus = (folder_ / "bus").string(), orders = (folder_ / "orders").string();
     Process twin(folder_, "twin",
                  {"hil", "generic21", "--lockstep", "--for", "3", "--json", "--link",
