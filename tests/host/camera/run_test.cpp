@@ -20,8 +20,10 @@ namespace {
 using CameraRun = Program;
 
 TEST_F(CameraRun, KeepsEachPictureAndChangesNoBitOfTheRun) {
-  const Outcome with = as_typed("walk generic21 --for 3 --cameras --record with.mcap --json", "with");
-  const Outcome without = as_typed("walk generic21 --for 3 --record without.mcap --json", "without");
+  const Outcome with =
+      as_typed("walk generic21 --for 3 --cameras --record with.mcap --json", "with");
+  const Outcome without =
+      as_typed("walk generic21 --for 3 --record without.mcap --json", "without");
   ASSERT_EQ(with.status, 0) << with.err;
   ASSERT_EQ(without.status, 0) << without.err;
   const auto seen = nlohmann::json::parse(with.out), blind = nlohmann::json::parse(without.out);
