@@ -3,6 +3,7 @@
 #include <map>
 #include <mutex>
 
+#include "common/control/guard.hpp"
 #include "common/control/step.hpp"
 #include "host/apps/libverp/failure.hpp"
 
@@ -29,7 +30,12 @@ std::uint64_t next_token() {
 }  // namespace
 
 Moment::Moment(const Params& params, State& state, const Inputs& inputs, Outputs& outputs)
-    : params_(params), state_(state), inputs_(inputs), outputs_(outputs), token_(next_token()) {
+    : params_(params),
+      state_(state),
+      inputs_(inputs),
+      outputs_(outputs),
+      sent_(outputs),
+      token_(next_token()) {
   const std::lock_guard lock(moments().mutex);
   moments().running.emplace(token_, this);
 }
@@ -57,7 +63,13 @@ int Moment::run(verp_controller controller, void* user, std::uint32_t robot) {
 void Moment::decide() {
   if (decided_) throw Failure(VERP_BAD_ARGUMENT, "it has decided this moment already");
   step(params_, state_, inputs_, outputs_);
+  core_ = outputs_;
   decided_ = true;
+}
+
+void Moment::judge() {
+  if (!decided_) step(params_, state_, inputs_, core_);
+  control::guard(params_, inputs_, sent_, core_, outputs_);
 }
 
 }  // namespace verp::abi

@@ -19,6 +19,8 @@ class Moment {
   /// Returns the controller's status. Throws Failure if the controller throws.
   int run(verp_controller controller, void* user, std::uint32_t robot);
   void decide();
+  /// After run(): the core decides if it has not, and the outputs become what the robot gets.
+  void judge();
   bool decided() const { return decided_; }
   std::thread::id thread() const { return thread_; }
 
@@ -27,6 +29,8 @@ class Moment {
   State& state_;
   const Inputs& inputs_;
   Outputs& outputs_;
+  const Outputs sent_;  ///< in the previous tick
+  Outputs core_;        ///< what the core decided in this one
   const std::uint64_t token_;
   const std::thread::id thread_ = std::this_thread::get_id();
   bool decided_ = false;

@@ -174,10 +174,10 @@ void RobotInstance::decide(const Params& params, State& state, const Inputs& inp
                                                     index_, answer, inputs.tick));
   }
   deciding_.reset();
+  moment.judge();
   if (moment.decided()) return;
-  // The core did not run, so its digest does not cover this tick.
+  // The core's digest covers what it decided, not what was sent.
   record::Digest32 digest(0);
-  digest.add_struct(inputs);
   digest.add_struct(outputs);
   state.digest.chain = record::chain(state.digest.chain, digest.value());
 }

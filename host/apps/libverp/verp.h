@@ -277,8 +277,10 @@ int verp_session_set(verp_session session, const char* quantity, double value);
 int verp_session_push(verp_session session, const char* thing, double fx_n, double fy_n,
                       double fz_n, double for_s);
 
-/* One tick, passed to a controller. `outputs` holds those of the previous tick; what the controller
- * leaves there is sent. */
+/* One tick, passed to a controller. `outputs` holds those of the previous tick. What the controller
+ * leaves there passes the robot's own safety table: its goals count while the robot stands or
+ * walks, no faster than the joints may move, and it may only take torque away. A goal outside its
+ * joint's range is not sent: the joint keeps the goal before. */
 typedef struct verp_moment {
   uint32_t size;
   uint32_t robot;
@@ -291,7 +293,7 @@ typedef struct verp_moment {
 typedef int (*verp_controller)(const verp_moment* moment, void* user);
 /* Replaces the robot's own controller from the next tick on; null restores it. If the callback
  * calls verp_decide(), the tick's digest is the own controller's, even if the goals were changed.
- * Otherwise the digest covers inputs and outputs. */
+ * Otherwise the digest also covers the outputs that were sent. */
 int verp_session_control(verp_session session, uint32_t robot, verp_controller controller,
                          void* user);
 /* Runs the robot's own controller for this moment, once; the callback may then change the outputs.

@@ -46,7 +46,7 @@ void declare_live(CLI::App& app, LiveOptions& options) {
 void declare_controller(CLI::App& app, std::string& folder) {
   app.add_option("--controller", folder,
                  "folder of a controller of your own (verp new controller): it is built, and "
-                 "decides in the core's place");
+                 "moves the joints while the robot stands or walks");
 }
 
 void declare(CLI::App& app, MapOptions& options) {

@@ -112,6 +112,28 @@ TEST(Libverp, OwnControllerThatDecidesLikeTheRobotsIsTheSameRun) {
   EXPECT_EQ(digest_with([](const verp_lib::Moment& moment) { moment.decide(); }), digest_with({}));
 }
 
+int hold_on(const verp_moment* moment, void*) {
+  verp_decide(moment->token);
+  moment->outputs->torque_enable = ~0U;
+  for (std::int32_t& goal : moment->outputs->goal_count) goal = 100'000;
+  return 0;
+}
+
+TEST(Libverp, NoControllerKeepsTorqueThroughAnEmergencyStopOrOrdersWhatNoJointReaches) {
+  Opened opened;
+  opened.add();
+  verp_tick seen = {};
+  seen.size = sizeof seen;
+  ASSERT_EQ(verp_session_view(opened.session, 0, &seen), VERP_OK);
+  ASSERT_EQ(verp_session_control(opened.session, 0, hold_on, nullptr), VERP_OK);
+  ASSERT_EQ(verp_session_tick(opened.session, 500, nullptr, nullptr), VERP_OK);
+  EXPECT_NE(seen.outputs.torque_enable, 0U) << "it stands";
+  for (const std::int32_t goal : seen.outputs.goal_count) EXPECT_LT(goal, 4096);
+  ASSERT_EQ(verp_session_emergency_stop(opened.session, 0, 1), VERP_OK);
+  ASSERT_EQ(verp_session_tick(opened.session, 1, nullptr, nullptr), VERP_OK);
+  EXPECT_EQ(seen.outputs.torque_enable, 0U);
+}
+
 /// With walk_s 0 only orders move the robot.
 TEST(Libverp, DrivesARobotByOrders) {
   Opened opened;

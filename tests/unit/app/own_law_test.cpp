@@ -4,74 +4,90 @@
 
 #include <limits>
 
-#include "tests/unit/support/test_robot.hpp"
+#include "tests/unit/control/loop.hpp"
 
 namespace verp::app {
 namespace {
 
-struct Given {
+using safety::Mode;
+
+/// Wants torque always, and one joint at `goal_rad`.
+struct Stubborn {
+  static constexpr int kJoint = verp::test::kLeftArm;
   static inline float goal_rad = 0;
-  static inline bool torque = false;
-  void operator()(const Params& params, State&, const Inputs&, Outputs& outputs) {
-    outputs.torque_enable = torque ? 1 : 0;
-    outputs.goal_count[0] = goal_of(params.joint[0], goal_rad);
+  void operator()(const Params& params, const State&, const Inputs&, Outputs& outputs) {
+    outputs.torque_enable = ~0U;
+    outputs.goal_count[kJoint] = goal_of(params.joint[kJoint], goal_rad);
   }
 };
 
-struct Rig {
-  Rig() { Given::goal_rad = 0, Given::torque = false; }
-  void tick(float goal_rad, bool torque) {
-    Given::goal_rad = goal_rad;
-    Given::torque = torque;
-    law(params, state, inputs, outputs);
+struct Rig : control::test::Loop {
+  Rig() { Stubborn::goal_rad = 0; }
+  void tick() {
+    hear();
+    law(verp::test::kRobot, state, inputs, outputs);
+    follow();
   }
-  float goal_rad() const { return model::angle_of(params.joint[0], outputs.goal_count[0]); }
+  bool stands() {
+    command.request = Request::kStand;
+    for (int i = 0; i < 1000 && !is_in(Mode::kStanding); ++i) tick();
+    return is_in(Mode::kStanding);
+  }
+  std::int32_t goal() const { return outputs.goal_count[Stubborn::kJoint]; }
 
-  const Params& params = test::kRobot;
-  State state;
-  Inputs inputs;
-  Outputs outputs;
-  OwnLaw<Given> law;
+  OwnLaw<Stubborn> law;
 };
 
-const float kNoNumber = std::numeric_limits<float>::quiet_NaN();
-
-TEST(OwnLaw, SendsWhatIsWithinAJointsRange) {
+TEST(OwnLaw, HasNoTorqueBeforeTheOperatorAsksForAStand) {
   Rig rig;
-  rig.tick(0.2F, true);
-  EXPECT_EQ(rig.law.refused(), OwnLaw<Given>::kNone);
-  EXPECT_NEAR(rig.goal_rad(), 0.2F, 2e-3F);
-}
-
-TEST(OwnLaw, KeepsTheGoalBeforeOneThatIsNoneOrOutOfRange) {
-  Rig rig;
-  rig.tick(0.2F, true);
-  for (const float goal_rad : {kNoNumber, rig.params.joint[0].upper_rad + 0.5F, -50.0F}) {
-    rig.tick(goal_rad, true);
-    EXPECT_EQ(rig.law.refused(), 0);
-    EXPECT_EQ(rig.outputs.torque_enable, 1U);
-    EXPECT_NEAR(rig.goal_rad(), 0.2F, 2e-3F);
+  for (int i = 0; i < 300; ++i) {
+    rig.tick();
+    ASSERT_EQ(rig.outputs.torque_enable, 0U);
   }
 }
 
-// With torque, the joint would snap to its last goal.
-TEST(OwnLaw, LeavesALimpJointLimpWhoseFirstGoalIsNone) {
+TEST(OwnLaw, MovesAStandingRobot) {
   Rig rig;
-  rig.tick(0, false);
-  rig.tick(kNoNumber, true);
-  EXPECT_EQ(rig.law.refused(), 0);
-  EXPECT_EQ(rig.outputs.torque_enable, 0U);
-  rig.tick(0.2F, true);
-  EXPECT_EQ(rig.outputs.torque_enable, 1U);
-  EXPECT_NEAR(rig.goal_rad(), 0.2F, 2e-3F);
+  ASSERT_TRUE(rig.stands());
+  Stubborn::goal_rad = 0.2F;
+  for (int i = 0; i < 100; ++i) rig.tick();
+  EXPECT_EQ(rig.law.refused(), OwnLaw<Stubborn>::kNone);
+  EXPECT_EQ(rig.goal(), goal_of(verp::test::kRobot.joint[Stubborn::kJoint], 0.2F));
+}
+
+TEST(OwnLaw, LosesItsTorqueInTheTickOfAnEmergencyStop) {
+  Rig rig;
+  ASSERT_TRUE(rig.stands());
+  EXPECT_NE(rig.outputs.torque_enable, 0U);
+  rig.inputs.flags |= kEmergencyStop;
+  for (int i = 0; i < 100; ++i) {
+    rig.tick();
+    ASSERT_TRUE(rig.is_in(Mode::kStopped));
+    ASSERT_EQ(rig.outputs.torque_enable, 0U);
+  }
+}
+
+TEST(OwnLaw, KeepsTheGoalBeforeOneThatIsNoNumber) {
+  Rig rig;
+  ASSERT_TRUE(rig.stands());
+  const std::int32_t before = rig.goal();
+  Stubborn::goal_rad = std::numeric_limits<float>::quiet_NaN();
+  rig.tick();
+  EXPECT_EQ(rig.law.refused(), Stubborn::kJoint);
+  EXPECT_EQ(rig.law.refused_count(), std::numeric_limits<std::int32_t>::min());
+  EXPECT_EQ(rig.goal(), before);
 }
 
 TEST(OwnLaw, DigestsWhatIsSent) {
   Rig one, other;
-  one.tick(0.2F, true);
-  other.tick(0.3F, true);
+  ASSERT_TRUE(one.stands() && other.stands());
+  for (int i = 0; i < 100; ++i) one.tick(), other.tick();  // the arm arrives
+  ASSERT_EQ(one.state.digest.chain, other.state.digest.chain);
+  Stubborn::goal_rad = 0.05F;
+  one.tick();
+  Stubborn::goal_rad = -0.05F;
+  other.tick();
   EXPECT_NE(one.state.digest.chain, other.state.digest.chain);
-  EXPECT_NE(one.state.digest.chain, State().digest.chain);
 }
 
 }  // namespace

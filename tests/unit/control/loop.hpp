@@ -20,8 +20,12 @@ struct Loop {
     }
   }
   void tick() {
-    inputs.command = command;
+    hear();
     step(kRobot, actions, state, inputs, outputs);
+    follow();
+  }
+  void hear() { inputs.command = command; }
+  void follow() {
     ++inputs.tick;
     if (noise) inputs.accel_count[2] = static_cast<std::int16_t>(inputs.accel_count[2] ^ 1);
     ++command.sequence;

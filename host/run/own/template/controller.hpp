@@ -4,8 +4,10 @@
 /// NAME: the robot's own controller, plus a wave of the right arm. Called once per control tick, on
 /// the PC and on a board: no heap, no exceptions, no files, and no clock but `in.tick`.
 struct Controller {
-  /// On entry, `out` holds the previous tick's outputs; on return, the outputs to send.
-  void operator()(const verp::Params& params, verp::State& state, const verp::Inputs& in,
+  /// On entry, `out` is what the robot's own controller decided; on return, what you want. While
+  /// the robot stands or walks your goals count, within the joints' ranges and speeds. Torque you
+  /// may only take away: the safety table stays in force.
+  void operator()(const verp::Params& params, const verp::State& state, const verp::Inputs& in,
                   verp::Outputs& out);
 
   float up = 0;         ///< arm: 0 as the robot has it, 1 fully raised

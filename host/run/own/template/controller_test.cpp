@@ -11,7 +11,10 @@ int main() {
   verp::Inputs in;
   verp::Outputs out;
   Controller controller;
-  for (in.tick = 0; in.tick < 100; ++in.tick) controller(params, state, in, out);
+  for (in.tick = 0; in.tick < 100; ++in.tick) {
+    verp::step(params, state, in, out);
+    controller(params, state, in, out);
+  }
   if (out.torque_enable != 0) return std::puts("nobody asked it to stand, and it has torque"), 1;
   if (controller.up != 0) return std::puts("its arm is up, and it does not stand"), 1;
   std::puts("good");
