@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
+#include "common/math/scalar.hpp"
 #include "common/model/counts.hpp"
 #include "common/safety/machine.hpp"
 #include "tests/unit/support/test_robot.hpp"
@@ -98,8 +97,10 @@ TEST(Guard, MovesNoJointFasterThanItMay) {
     rig.tick(random.below(2) == 0 ? Mode::kWalking : Mode::kSitting);
     for (int j = 0; j < kJointCount; ++j) {
       const float most = kRobot.joint[j].velocity_limit_rad_s * period_s;
-      const float counts = std::abs(kRobot.joint[j].counts_per_rad) * most + 1;
-      ASSERT_LE(std::abs(rig.sent.goal_count[j] - before.goal_count[j]), counts) << "joint " << j;
+      const auto counts =
+          static_cast<std::int32_t>(math::abs(kRobot.joint[j].counts_per_rad) * most) + 1;
+      const std::int32_t way = rig.sent.goal_count[j] - before.goal_count[j];
+      ASSERT_LE(way < 0 ? -way : way, counts) << "joint " << j;
     }
   }
 }
@@ -133,7 +134,8 @@ TEST(Guard, HoldsWhatWasSentWhileADeviceIsSilent) {
 
 TEST(Guard, RefusesAGoalOutOfRangeAndKeepsTheOneBefore) {
   const float beyond_rad = kRobot.joint[kJoint].upper_rad + 0.5F;
-  for (const std::int32_t goal : {INT32_MIN, 100'000, Rig::count(kJoint, beyond_rad)}) {
+  for (const std::int32_t goal :
+       {std::int32_t{INT32_MIN}, std::int32_t{100'000}, Rig::count(kJoint, beyond_rad)}) {
     Rig rig;
     const std::int32_t before = rig.sent.goal_count[kJoint];
     rig.asked.goal_count[kJoint] = goal;
