@@ -9,11 +9,10 @@
 
 namespace verp::app {
 
-/// A user's controller, on a board as on the PC. In each tick the core's step() decides first, and
-/// `outputs` holds its answer. `Controller` is called with Params, the core's State, Inputs and
-/// these outputs, and changes goals; its other memory is its own. control::guard() then makes of
-/// them what is sent: no controller keeps torque through an emergency stop. The digest covers what
-/// is sent.
+/// A user's controller, on a board as on the PC. In each tick the core's step() decides first. Then
+/// `Controller` is called with Params, the core's State, Inputs and the core's Outputs, and changes
+/// the goals. Its other memory is its own. Last, control::guard() decides what is sent, so no
+/// controller keeps torque through an emergency stop. The digest covers what is sent.
 template <class Controller>
 class OwnLaw {
  public:

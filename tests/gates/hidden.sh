@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# hidden.sh ROOT [one_by_one]: configures ROOT with its tests while all optional packages are hidden, or once for each package, with
-# that one hidden. cmake has to succeed, everything in `all` to have a rule, and left_out.txt to name what is hidden.
+# hidden.sh ROOT [one_by_one]: configures ROOT with its tests while all optional packages are hidden. With `one_by_one`, once for each
+# package. cmake has to succeed, everything in `all` to have a rule, and left_out.txt to name what is hidden.
 set -uo pipefail
 cd "$1" || exit 3
 scratch=$(mktemp -d)
