@@ -52,9 +52,7 @@ cat >"$scratch/command" <<'END'
 printf '%s|' "$@" "$GIVEN" "$PWD"
 ip link show up dev vcan0 >/dev/null && echo 'vcan0 is up'
 candump -n 1 vcan0 | tr -s ' ' &
-sleep 0.5
-cansend vcan0 123#0102
-wait
+while [ "$(jobs -r)" ]; do cansend vcan0 123#0102; sleep 0.1; done
 [ "$(ls -A "$TMPDIR" | wc -l)" = 0 ] && echo x >"$TMPDIR/mine" && echo 'its own TMPDIR'
 echo kept >"$KEPT/file"
 touch "$LOST" 2>/dev/null || echo 'the rest is read-only'
