@@ -30,7 +30,7 @@ int ending(const std::string& command, const std::string& reason, const WalkFile
 int finish_walk(const WalkPlan& plan, const WalkOptions& options, const scenario::Orders& orders,
                 WalkFiles& files, const WalkResult& result, const Sweep& swept,
                 const cli::Json& more, const std::string& more_text) {
-  files.finish(result, to_report(plan, options, orders, result, swept));
+  files.finish(result, to_report(plan, options, orders, result, swept), &plan.entity);
   if (options.json) {
     cli::Json json = to_json(plan, options, result, swept);
     json.update(more);

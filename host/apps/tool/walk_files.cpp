@@ -103,11 +103,11 @@ bool WalkFiles::trace_is_in_folder() const {
   return beside.parent_path() == fs::weakly_canonical(fs::absolute(folder_ / ".", error), error);
 }
 
-void WalkFiles::finish(const WalkResult& result, report::Run run) {
+void WalkFiles::finish(const WalkResult& result, report::Run run, const model::Entity* robot) {
   std::optional<files::FolderLock> lock;
   if (wants_report()) lock.emplace(folder_);
   if (trace_) close_trace(result);
-  if (wants_report()) write_report(std::move(run));
+  if (wants_report()) write_report(std::move(run), robot);
 }
 
 void WalkFiles::close_trace(const WalkResult& result) {
@@ -136,18 +136,18 @@ void WalkFiles::lose_trace(const std::string& why) {
   trace_path_.clear();
 }
 
-void WalkFiles::add_replay(report::Run& run) {
+void WalkFiles::add_replay(report::Run& run, const model::Entity* robot) {
   if (trace_path_.empty()) return;
   try {
-    web::Replay replay = web::replay_of(trace_path_);
+    web::Replay replay = web::replay_of(trace_path_, robot);
     run.replay_html = std::move(replay.html);
     if (!replay.note.empty()) cli::complain(replay.note);
   } catch (const record::TraceError&) {  // a walk without ticks
   }
 }
 
-void WalkFiles::write_report(report::Run run) {
-  add_replay(run);
+void WalkFiles::write_report(report::Run run, const model::Entity* robot) {
+  add_replay(run, robot);
   std::error_code ignored;
   if (!trace_path_.empty() && trace_is_in_folder()) {
     run.trace_file = trace_path_.filename().string();

@@ -31,8 +31,8 @@ class WalkFiles {
   void lose(const std::string& why) { lost_.push_back(why); }
 
   /// Ends the trace and writes the report, if the user wants them. Locks the folder: two runs must
-  /// not mix files.
-  void finish(const WalkResult& result, report::Run run);
+  /// not mix files. `robot`: for the replay; null: it is read from its file.
+  void finish(const WalkResult& result, report::Run run, const model::Entity* robot = nullptr);
 
   /// Empty until the trace is complete.
   const std::filesystem::path& trace_path() const { return trace_path_; }
@@ -47,8 +47,8 @@ class WalkFiles {
                   const record::mcap::StringMap& metadata, record::mcap::Listener* listener);
   void close_trace(const WalkResult& result);
   void lose_trace(const std::string& why);
-  void add_replay(report::Run& run);
-  void write_report(report::Run run);
+  void add_replay(report::Run& run, const model::Entity* robot);
+  void write_report(report::Run run, const model::Entity* robot);
   bool trace_is_in_folder() const;
 
   std::filesystem::path folder_, trace_path_;

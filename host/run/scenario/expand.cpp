@@ -65,12 +65,23 @@ std::string path_of(int robot, const std::string& where) {
   return fmt::format("robots[{}].{}", robot, where);
 }
 
+/// Reads a file once for all its robots.
+WalkPlan plan_after(const std::vector<WalkPlan>& plans, const Scenario& scenario) {
+  const Robot& robot = scenario.robots[plans.size()];
+  for (const WalkPlan& plan : plans) {
+    const Robot& other = scenario.robots[static_cast<std::size_t>(plan.number)];
+    if (other.model == robot.model && other.bus == robot.bus)
+      return plan_of(robot, scenario.length_s, plan.entity);
+  }
+  return plan_of(robot, scenario.length_s);
+}
+
 std::vector<WalkPlan> plans_of(const Scenario& scenario) {
   std::vector<WalkPlan> plans;
   for (const Robot& robot : scenario.robots) {
     const int number = static_cast<int>(plans.size());
     try {
-      plans.push_back(plan_of(robot, scenario.length_s));
+      plans.push_back(plan_after(plans, scenario));
       require_stance(robot, plans.back());
     } catch (const ScenarioError& error) {
       throw ScenarioError(path_of(number, error.where), error.what(), error.known);

@@ -157,8 +157,12 @@ struct TracePlayer::Film {
   std::optional<model::World> world;
   std::optional<ObjectTrack> objects;
 
-  explicit Film(const std::filesystem::path& file) : trace(record::read_trace(file)) {
-    find_entity();
+  Film(const std::filesystem::path& file, const Entity* robot) : trace(record::read_trace(file)) {
+    if (robot != nullptr) {
+      entity = *robot;
+    } else {
+      find_entity();
+    }
     find_world();
     const TickPoses poses(entity, trace.params);
     BodyTrack track(trace, poses);
@@ -208,7 +212,8 @@ struct TracePlayer::Film {
   }
 };
 
-TracePlayer::TracePlayer(const std::filesystem::path& file) : film_(std::make_unique<Film>(file)) {
+TracePlayer::TracePlayer(const std::filesystem::path& file, const Entity* robot)
+    : film_(std::make_unique<Film>(file, robot)) {
   if (film_->trace.ticks.empty()) {
     throw record::TraceError(file, "holds no tick", "give the trace of a longer run");
   }

@@ -12,9 +12,9 @@ namespace verp::scene {
 /// recorded State.
 class TracePlayer {
  public:
-  /// Throws TraceError. Without a fitting robot file it shows one from the trace's Params, and
-  /// note() says so.
-  explicit TracePlayer(const std::filesystem::path& file);
+  /// Throws TraceError. Null: it reads the robot's file. Without a fitting one it shows a robot
+  /// from the trace's Params, and note() says so.
+  explicit TracePlayer(const std::filesystem::path& file, const Entity* robot = nullptr);
   ~TracePlayer();
 
   const record::Trace& trace() const;

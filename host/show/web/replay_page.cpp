@@ -221,13 +221,13 @@ std::vector<scene::Snapshot> frames_of(const scene::TracePlayer& player) {
 
 }  // namespace
 
-Replay replay_of(const std::filesystem::path& trace) {
+Replay replay_of(const std::filesystem::path& trace, const model::Entity* robot) {
   const std::string three = files::read(kThreeJs).value_or("");
   if (three.empty()) {
     return {"",
             "no 3D replay in the page: three.js is not installed (apt-get install libjs-three)"};
   }
-  const scene::TracePlayer player(trace);
+  const scene::TracePlayer player(trace, robot);
   scene::Scene scene = scene::surroundings(player.world());
   scene::add_robot(scene, player.entity(), scene::Meshes::kNone);
   std::string html =

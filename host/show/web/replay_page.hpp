@@ -2,6 +2,8 @@
 #include <filesystem>
 #include <string>
 
+#include "host/robot/model/entity.hpp"
+
 /// A replay for any browser, without a server.
 namespace verp::web {
 
@@ -10,8 +12,8 @@ struct Replay {
   std::string note;  ///< missing parts; may be empty
 };
 
-/// Throws TraceError. A note: three.js is missing.
-Replay replay_of(const std::filesystem::path& trace);
+/// Throws TraceError. A note: three.js is missing. Null: the robot of the trace.
+Replay replay_of(const std::filesystem::path& trace, const model::Entity* robot = nullptr);
 
 std::string page_of(const std::string& title, const std::string& html);
 
