@@ -20,6 +20,7 @@
 #include "host/apps/pictures/picture_options.hpp"
 #include "host/apps/pictures/studio.hpp"
 #include "host/os/files/temporary_directory.hpp"
+#include "host/os/files/whole.hpp"
 #include "host/os/process/child.hpp"
 #include "host/show/render/renderer.hpp"
 #include "host/show/scene/camera.hpp"
@@ -61,7 +62,8 @@ class Encoder {
  private:
   [[noreturn]] void fail();
 
-  const std::string file_, part_;
+  const std::string file_;
+  files::NewFile made_;
   files::TemporaryDirectory folder_;
   int pipe_ = -1;
   std::unique_ptr<process::Child> ffmpeg_;
@@ -109,12 +111,14 @@ std::vector<std::string> words(const std::string& file, const std::string& part,
 }
 
 Encoder::Encoder(const std::string& file, render::Size size, int frames_per_s)
-    : file_(file), part_(file + ".part") {
+    : file_(file), made_(file) {
+  if (made_.trouble().any())
+    throw ToolError(cli::kBadInput, file + ": " + made_.trouble().text() + " with -o");
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0)
     throw std::system_error(errno, std::generic_category(), "pipe");
   pipe_ = ends[1];
-  process::Command command{.words = words(file, part_, size, frames_per_s),
+  process::Command command{.words = words(file, made_.part().string(), size, frames_per_s),
                            .input = {.descriptor = ends[0]},
                            .output = {.file = folder_.path() / "said"}};
   try {
@@ -133,8 +137,6 @@ Encoder::~Encoder() {
   if (pipe_ < 0) return;
   ::close(pipe_);
   ffmpeg_.reset();
-  std::error_code error;
-  fs::remove(part_, error);
 }
 
 void Encoder::add(const render::Image& image) {
@@ -152,14 +154,9 @@ void Encoder::add(const render::Image& image) {
 void Encoder::finish() {
   ::close(pipe_);
   pipe_ = -1;
-  std::error_code error;
   if (ffmpeg_->wait() != 0) fail();
-  fs::rename(part_, file_, error);
-  if (error) {
-    throw ToolError(cli::kBadInput, fmt::format("{}: cannot be written ({}); choose another place "
-                                                "with -o",
-                                                file_, error.message()));
-  }
+  const files::Trouble trouble = made_.keep();
+  if (trouble.any()) throw ToolError(cli::kBadInput, file_ + ": " + trouble.text() + " with -o");
 }
 
 void Encoder::fail() {
@@ -168,8 +165,6 @@ void Encoder::fail() {
   for (std::ifstream said(folder_.path() / "said"); std::getline(said, line);) {
     if (!line.empty()) last = line;
   }
-  std::error_code error;
-  fs::remove(part_, error);
   throw ToolError(cli::kRunFailed, fmt::format("{}: ffmpeg failed: {}", file_,
                                                last.empty() ? "it says nothing" : last));
 }

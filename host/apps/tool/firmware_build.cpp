@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-
 #include "host/apps/cli/exit_status.hpp"
 #include "host/apps/cli/interrupt.hpp"
 #include "host/boards/flash/tool_run.hpp"
 #include "host/os/files/places.hpp"
+#include "host/os/files/whole.hpp"
 #include "host/os/process/child.hpp"
 
 namespace verp::tool {
@@ -23,14 +22,16 @@ void run_build(const std::vector<std::string>& command, const std::filesystem::p
   progress.clear();
   if (run.interrupted) throw cli::ToolError(cli::kRunFailed, "interrupted");
   if (run.status == 0) return;
-  std::ofstream(log) << run.output;
+  const files::Trouble lost = files::replace(log, run.output);
   const std::size_t error = run.output.find("rror: ");
   std::string words = process::last_line(run.output);
   if (error != std::string::npos) {
     const std::size_t begin = run.output.rfind('\n', error) + 1;
     words = run.output.substr(begin, run.output.find('\n', error) - begin);
   }
-  throw cli::ToolError(cli::kRunFailed, fmt::format("{}; all of it: {}", words, log.string()));
+  throw cli::ToolError(cli::kRunFailed,
+                       fmt::format("{}; {}{}", words,
+                                   lost.any() ? "its log is lost: " : "all of it: ", log.string()));
 }
 
 void build_firmware(const FirmwareBuild& build, cli::Progress& progress) {

@@ -21,9 +21,9 @@ class Beside {
   Beside(const std::filesystem::path& file, const std::string& text)
       : path_(file.parent_path() /
               ("." + file.filename().string() + "." + std::to_string(::getpid()) + ".sdf")) {
-    if (!files::write(path_, text))
-      throw std::runtime_error(
-          file.string() + ": its folder cannot be written, and the run is made from a file there");
+    const files::Trouble trouble = files::create(path_, text);
+    if (trouble.any())
+      throw std::runtime_error(path_.string() + ", which the run is made from: " + trouble.text());
   }
   ~Beside() {
     std::error_code ignored;

@@ -17,6 +17,7 @@
 #include "host/apps/view/safety_panel.hpp"
 #include "host/apps/view/theme.hpp"
 #include "host/apps/view/transport.hpp"
+#include "host/os/files/whole.hpp"
 #include "host/trace/record/trace.hpp"
 
 namespace verp::view {
@@ -75,8 +76,12 @@ void MainWindow::make_menus() {
     const QString chosen =
         QFileDialog::getSaveFileName(this, "Save the picture", "picture.png", "Pictures (*.png)");
     if (chosen.isEmpty()) return;
-    say(scene_->grabFramebuffer().save(chosen) ? "Saved " + chosen
-                                               : chosen + ": it cannot be written there");
+    files::NewFile made(chosen.toStdString());
+    const bool whole =
+        !made.trouble().any() &&
+        scene_->grabFramebuffer().save(QString::fromStdString(made.part().string()), "PNG") &&
+        !made.keep().any();
+    say(whole ? "Saved " + chosen : chosen + ": it cannot be written there");
   });
   file->addSeparator();
   file->addAction("&Quit", QKeySequence::Quit, this, &QWidget::close);

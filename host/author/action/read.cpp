@@ -220,6 +220,7 @@ class Reader {
   static JointGoal goal(Words& words) {
     JointGoal goal;
     goal.line = words.line();
+    words.take("joint");
     goal.joint = words.word("a joint");
     std::string value = words.word("the joint's angle, degrees, or stand");
     goal.from_stand = value.starts_with("stand");

@@ -8,6 +8,12 @@
 
 namespace verp::action {
 
+/// Words that begin a line; a joint of such a name is written with `joint` before it.
+inline constexpr const char* kLineWords[] = {
+    "action",     "note",    "robotis", "mirror", "link", "frame", "smooth",
+    "cubic",      "balance", "stance",  "over",   "body", "joint", "left_foot",
+    "right_foot", "stiff",   "exit",    "repeat", "wait"};
+
 /// A line, word by word; errors name file and line.
 class Words {
  public:

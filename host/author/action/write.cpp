@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numbers>
 
 #include "host/author/action/robotis.hpp"
+#include "host/author/action/words.hpp"
 
 namespace verp::action {
 namespace {
@@ -47,7 +49,9 @@ std::string text_of(const FrameText& frame) {
                               : goal.angle_rad == 0.0 ? "stand"
                               : goal.angle_rad > 0.0  ? "stand+" + angle
                                                       : "stand" + angle;
-    line(goal.joint + " " + value);
+    const bool quoted =
+        std::find(std::begin(kLineWords), std::end(kLineWords), goal.joint) != std::end(kLineWords);
+    line((quoted ? "joint " : "") + goal.joint + " " + value);
   }
   for (const Stiffness& stiff : frame.stiffness) {
     std::string words = fmt::format("stiff {}", stiff.percent);

@@ -3,8 +3,6 @@
 
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
 
 #include "host/author/edit/document.hpp"
 #include "host/os/files/whole.hpp"
@@ -14,19 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns empty or the reason; then no file remains.
-std::string write(const fs::path& file, const std::string& text) {
-  errno = 0;
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out << text;
-  out.close();
-  if (out) return "";
-  const std::string why = errno != 0 ? std::strerror(errno) : "it cannot be written";
-  std::error_code ignored;
-  fs::remove(file, ignored);
-  return why;
-}
-
 /// Writes into a new file and says which.
 std::string keep(const fs::path& file, const std::string& text) {
   const char* temporary = std::getenv("TMPDIR");
@@ -34,10 +19,9 @@ std::string keep(const fs::path& file, const std::string& text) {
     for (int number = 1; number < 100; ++number) {
       const std::string end = number == 1 ? ".unsaved" : ".unsaved" + std::to_string(number);
       const fs::path place = folder / (file.filename().string() + end);
-      std::error_code error;
-      if (fs::exists(place, error)) continue;
-      if (write(place, text).empty()) return "what was edited is in " + place.string();
-      break;
+      const files::Trouble trouble = files::create(place, text);
+      if (!trouble.any()) return "what was edited is in " + place.string();
+      if (trouble.error() != EEXIST) break;
     }
   }
   return "what was edited could not be put anywhere: it is in the editor only";
@@ -62,7 +46,7 @@ std::string Document::put_aside() const {
 
 void Document::save() {
   std::error_code error;
-  const fs::path link = fs::weakly_canonical(file_, error);  // a symbolic link stays one
+  const fs::path link = fs::weakly_canonical(file_, error);
   const fs::path file = error ? file_ : link;
   const bool exists = fs::exists(file, error);
   if (exists) {
@@ -76,15 +60,8 @@ void Document::save() {
   }
   if (exists && is_read_only(file)) refuse(file_, text_, "the file is read-only");
   fs::create_directories(file.parent_path(), error);
-  const fs::path part = file.string() + "." + std::to_string(::getpid()) + ".part";
-  if (const std::string why = write(part, text_); !why.empty()) refuse(file_, text_, why);
-  if (exists) fs::permissions(part, fs::status(file, error).permissions(), error);
-  fs::rename(part, file, error);
-  if (error) {
-    const std::string why = error.message();
-    fs::remove(part, error);
-    refuse(file_, text_, why);
-  }
+  const files::Trouble trouble = files::replace(file_, text_);
+  if (trouble.any()) refuse(file_, text_, trouble.what());
   on_disk_ = text_;
 }
 

@@ -96,8 +96,11 @@ std::string keep(const Step& step) {
     if (offset >= sector.size()) continue;
     const std::string bytes = sector.substr(offset, piece.region.bytes);
     if (bytes.find_first_not_of('\xFF') == bytes.npos) continue;
-    if (!std::filesystem::exists(piece.file)) files::write(piece.file, bytes);
-    told += fmt::format(", and with it --{} {}", piece.what, piece.file.string());
+    const bool kept =
+        std::filesystem::exists(piece.file) || !files::create(piece.file, bytes).any();
+    told += fmt::format(
+        kept ? ", and with it --{} {}" : ", and with --{}, which was lost: {} cannot be written",
+        piece.what, piece.file.string());
   }
   return told;
 }

@@ -73,7 +73,13 @@ Endpoint serial(const std::string& text, std::string_view rest, const Scheme& sc
 }
 
 Endpoint tcp(const std::string& text, std::string_view rest, const Scheme& scheme) {
+  constexpr std::string_view kToken = ",token=";
   Endpoint endpoint{.kind = scheme.kind, .place = kLocalHost};
+  if (const std::size_t at = rest.find(kToken); at != std::string_view::npos) {
+    endpoint.token_file = std::string(rest.substr(at + kToken.size()));
+    if (endpoint.token_file.empty()) refuse(text, "it names no file after token=", scheme);
+    rest = rest.substr(0, at);
+  }
   const std::size_t colon = rest.rfind(':');
   if (colon != std::string_view::npos) {
     std::string_view host = rest.substr(0, colon);
@@ -170,7 +176,8 @@ std::string to_text(const Endpoint& endpoint) {
     case Endpoint::Kind::kTcp:
     case Endpoint::Kind::kTcpListen:
       return head + (bracket ? "[" + endpoint.place + "]" : endpoint.place) + ":" +
-             std::to_string(endpoint.port);
+             std::to_string(endpoint.port) +
+             (endpoint.token_file.empty() ? "" : ",token=" + endpoint.token_file);
     case Endpoint::Kind::kPty:
     case Endpoint::Kind::kUnix:
     case Endpoint::Kind::kUnixListen:

@@ -11,15 +11,18 @@ namespace verp::link {
 ///     pty:  pty:PATH                makes a pseudo-terminal; PATH becomes a symbolic link to it
 ///     tcp:HOST:PORT                 connects; HOST is a name, an IPv4 address or [an IPv6 address]
 ///     tcp-listen:PORT               waits for one peer of this PC; PORT 0 takes a free one
-///     tcp-listen:HOST:PORT          ... on one address; 0.0.0.0 lets the whole network in
+///     tcp-listen:HOST:PORT,token=FILE   ... on an address of the network: a peer says the secret
+///     in
+///                                   FILE first, as tcp:HOST:PORT,token=FILE does
 ///     unix:PATH  unix-listen:PATH   a socket in the file system
 ///     can:can0                      a CAN interface of this PC, as `ip link` names it
 struct Endpoint {
   enum class Kind : std::uint8_t { kSerial, kPty, kTcp, kTcpListen, kUnix, kUnixListen, kCan };
   Kind kind = Kind::kPty;
-  std::string place;       ///< device, host, path, interface; pty: may be empty
-  std::uint32_t baud = 0;  ///< kSerial
-  std::uint16_t port = 0;  ///< kTcp, kTcpListen
+  std::string place;            ///< device, host, path, interface; pty: may be empty
+  std::uint32_t baud = 0;       ///< kSerial
+  std::uint16_t port = 0;       ///< kTcp, kTcpListen
+  std::string token_file = {};  ///< kTcp, kTcpListen; may be empty
   bool operator==(const Endpoint&) const = default;
 };
 

@@ -50,8 +50,8 @@ std::string bad_number(const Params& params) {
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {
-  if (!files::write(path, bytes))
-    throw LoadError(path.string(), 0, "cannot write this file", "check the folder's permissions");
+  const files::Trouble trouble = files::replace(path, bytes);
+  if (trouble.any()) throw LoadError(path.string(), 0, trouble.what(), trouble.fix());
 }
 
 }  // namespace

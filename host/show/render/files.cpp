@@ -9,6 +9,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "host/os/files/whole.hpp"
+
 namespace verp::render {
 namespace {
 
@@ -75,18 +77,14 @@ void write(const std::string& file, Size size, std::uint32_t format, const void*
   png.image.width = static_cast<png_uint_32>(size.width);
   png.image.height = static_cast<png_uint_32>(size.height);
   png.image.format = format;
-  const std::string part = file + ".part";
-  std::error_code error;
-  if (png_image_write_to_file(&png.image, part.c_str(), 0, pixels, 0, nullptr) == 0) {
-    fs::remove(part, error);
+  files::NewFile made(file);
+  if (!made.trouble().any() &&
+      png_image_write_to_file(&png.image, made.part().c_str(), 0, pixels, 0, nullptr) == 0) {
     refuse(file, std::string("cannot be written (") + png.image.message + ")",
-           "choose another place with -o");
+           "free space, or choose another place with -o");
   }
-  fs::rename(part, file, error);
-  if (!error) return;
-  const std::string why = error.message();
-  fs::remove(part, error);
-  refuse(file, "cannot be written (" + why + ")", "choose another place with -o");
+  const files::Trouble trouble = made.keep();
+  if (trouble.any()) refuse(file, trouble.what(), trouble.fix() + " with -o");
 }
 
 }  // namespace

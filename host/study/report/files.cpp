@@ -14,9 +14,8 @@ void make_folder(const std::filesystem::path& folder, const char* option) {
 }
 
 void write_file(const std::filesystem::path& file, std::string_view content) {
-  if (files::replace(file, content)) return;
-  throw ReportError(file.string() +
-                    ": cannot be written; choose a folder that exists and is yours, or free space");
+  const files::Trouble trouble = files::replace(file, content);
+  if (trouble.any()) throw ReportError(file.string() + ": " + trouble.text());
 }
 
 }  // namespace verp::report

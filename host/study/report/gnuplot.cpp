@@ -67,10 +67,8 @@ std::string for_page(std::string svg) {
 std::optional<std::string> output_of(const std::string& script, std::string& error) {
   const files::TemporaryDirectory scratch;
   const fs::path file = scratch.path() / "plot.gp";
-  if (!files::write(file, script)) {
-    throw files::FileError(file.string() +
-                           ": cannot be written; free space there, or point TMPDIR elsewhere");
-  }
+  const files::Trouble trouble = files::create(file, script);
+  if (trouble.any()) throw files::FileError(file.string() + ": " + trouble.text() + " with TMPDIR");
   const fs::path out = scratch.path() / "plot", problems = scratch.path() / "stderr";
   const std::string failure = run_gnuplot(file.string(), out.string(), problems.string());
   // On a full disk gnuplot may exit with 0.

@@ -197,7 +197,7 @@ void Server::accept_all() {
       if (errno == ECONNABORTED || errno == EINTR) continue;
       return;
     }
-    if (viewers_.size() >= kMostViewers) {
+    if (viewers_.size() >= kMostViewers && !make_room()) {
       ::send(socket, kFull.data(), kFull.size(), MSG_NOSIGNAL);
       ::close(socket);
       continue;
@@ -207,6 +207,27 @@ void Server::accept_all() {
     const std::lock_guard guard(lock_);
     viewers_.push_back(std::make_unique<Viewer>(*this, socket));
   }
+}
+
+/// Nobody is kept out by viewers that watch nothing or read nothing. False: all of them watch.
+bool Server::make_room() {
+  const auto now = Clock::now();
+  const std::lock_guard guard(lock_);
+  const auto is_idle = [&](const Viewer& viewer) {
+    const bool stuck =
+        viewer.connection.backlog() > 0 && now - viewer.connection.moved() > options_.patience;
+    return viewer.connection.stage() != Connection::Stage::kGone &&
+           (stuck || !viewer.subscriber.wants_something());
+  };
+  Viewer* longest = nullptr;
+  for (const auto& viewer : viewers_) {
+    if (!is_idle(*viewer)) continue;
+    if (longest == nullptr || viewer->connection.moved() < longest->connection.moved())
+      longest = viewer.get();
+  }
+  if (longest == nullptr) return false;
+  longest->connection.cut();
+  return true;
 }
 
 void Server::hear(Viewer& viewer, bool is_text, std::string_view message) {

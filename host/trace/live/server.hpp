@@ -24,7 +24,7 @@ struct ServerOptions {
   std::string name = "VERP";
   std::vector<std::string> origins = {};           ///< further Origins whose pages may connect
   std::size_t most_bytes = 16 * 1024 * 1024;       ///< of one viewer's queue
-  std::chrono::milliseconds patience{2000};        ///< at the end, for a silent viewer
+  std::chrono::milliseconds patience{2000};        ///< for a viewer that reads nothing
   std::chrono::milliseconds patience_all{10'000};  ///< for all viewers
 };
 
@@ -81,6 +81,7 @@ class Server {
   void serve();
   void wait(std::chrono::milliseconds most);
   void accept_all();
+  bool make_room();
   void hear(Viewer& viewer, bool is_text, std::string_view message);
   bool pump(Viewer& viewer);
   void greet(Viewer& viewer);

@@ -9,26 +9,21 @@
 #include <charconv>
 #include <cstring>
 #include <fstream>
+#include <utility>
 
+#include "host/os/files/whole.hpp"
 #include "host/trace/record/compression.hpp"
 #include "host/trace/record/trace_error.hpp"
 
 namespace verp::record::mcap {
 
 namespace {
-/// Opens a new file of a unique name: process id, and a counter within the process.
-std::FILE* open_part(const std::filesystem::path& path, std::filesystem::path& part) {
-  for (int attempt = 0; attempt < 1000; ++attempt) {
-    part = path;
-    part += "." + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".part";
-    const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor < 0 && errno != EEXIST) return nullptr;
-    if (descriptor < 0) continue;
-    // For writer_of(); the lock ends with the process.
-    ::flock(descriptor, LOCK_EX | LOCK_NB);
-    return ::fdopen(descriptor, "wb");
-  }
-  return nullptr;
+/// Locked for writer_of(); the lock ends with the process.
+std::FILE* open_locked(const std::filesystem::path& path, std::filesystem::path& part) {
+  const int descriptor = files::open_part(path, part);
+  if (descriptor < 0) return nullptr;
+  ::flock(descriptor, LOCK_EX | LOCK_NB);
+  return ::fdopen(descriptor, "wb");
 }
 
 /// True if the file is no trace but, for example, a robot's file.
@@ -79,10 +74,12 @@ Writer::Writer(std::filesystem::path path, std::string_view profile, std::string
     throw TraceError(path_, 0, "is no trace, and would be replaced by one",
                      "name another file, such as run.mcap, or move this one away");
   }
-  file_ = open_part(path_, part_);
+  const auto target = files::target_of(path_);
+  if (target) path_ = *target;
+  if (target) file_ = open_locked(path_, part_);
   if (file_ == nullptr) {
-    throw TraceError(path_, std::string("cannot be written: ") + std::strerror(errno),
-                     "choose a folder that exists and is yours");
+    const files::Trouble trouble(errno);
+    throw TraceError(path_, trouble.what(), trouble.fix());
   }
   put(kMagic);
   put(Bytes().record(Opcode::kHeader, Bytes().text(profile).text(library).data).data);
@@ -274,19 +271,14 @@ void Writer::close() {
   put(Bytes().record(Opcode::kDataEnd, Bytes().u32(data_crc_).data).data);
   write_summary();
   put(kMagic);
-  const int closed = std::fclose(file_);
-  file_ = nullptr;
-  if (closed != 0) {
-    throw TraceError(part_, position_, std::string("write failed: ") + std::strerror(errno),
-                     "free space on the disk, or record elsewhere");
-  }
+  flush();
   whole_ = true;
-  std::error_code error;
-  std::filesystem::rename(part_, path_, error);
-  if (error) {
-    throw TraceError(path_, "cannot take its name: " + error.message(),
-                     "the whole trace is in " + part_.string());
-  }
+  const bool named = files::take_name(::fileno(file_), part_, path_);
+  const std::string why = named ? "" : std::strerror(errno);
+  std::fclose(std::exchange(file_, nullptr));
+  if (named) return;
+  throw TraceError(path_, "cannot take its name: " + why,
+                   "the whole trace is in " + part_.string());
 }
 
 void Writer::discard() {

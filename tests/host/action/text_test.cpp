@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "host/author/action/words.hpp"
 #include "tests/host/action/robots.hpp"
 #include "tests/unit/support/coupled_robot.hpp"
 
@@ -26,6 +27,20 @@ TEST(ActionText, IsWrittenAsItIsRead) {
        {"hold 0.1", "stance left", "over left 0.8", "yaw 10", "stand-10", "stiff 60 head_yaw",
         "wait upright 2 else stand", "repeat 2 from b", "link all2", "exit b", "cubic"}) {
     EXPECT_NE(text.find(word), std::string::npos) << word;
+  }
+}
+
+// `frame 1` would begin a frame.
+TEST(ActionText, AJointNamedLikeAWordOfTheTextIsNoSuchWord) {
+  Document document = parse_document("all.action", kAll);
+  const std::size_t frames = document.frames.size();
+  for (const char* word : kLineWords) {
+    document.frames[0].goals = {{word, 0.5, false, 1}};
+    const Document again = parse_document("all.action", text_of(document));
+    ASSERT_EQ(again.frames.size(), frames) << word;
+    ASSERT_EQ(again.frames[0].goals.size(), 1U) << word;
+    EXPECT_EQ(again.frames[0].goals[0].joint, word);
+    EXPECT_NEAR(again.frames[0].goals[0].angle_rad, 0.5, 1e-6) << word;
   }
 }
 

@@ -45,6 +45,16 @@ TEST_F(Save, AFileThatAnotherProgramChangedStaysAndNothingIsLost) {
   EXPECT_NE(refusal().find(".unsaved2"), std::string::npos) << "and the first stays";
 }
 
+// In a shared folder somebody could have put a link there.
+TEST_F(Save, WhatIsPutAsideFollowsNoLink) {
+  const std::string elsewhere = (folder_.path() / "elsewhere").string();
+  fs::create_symlink(elsewhere, file_ + ".unsaved");
+  write(file_, before_ + "\n<!-- somebody else -->\n");
+  EXPECT_NE(refusal().find(".unsaved2"), std::string::npos);
+  EXPECT_FALSE(fs::exists(elsewhere));
+  EXPECT_EQ(read(file_ + ".unsaved2"), document_->text());
+}
+
 TEST_F(Save, AReadOnlyFileStaysAndNothingIsLost) {
   fs::permissions(file_, fs::perms::owner_read);
   EXPECT_NE(refusal().find("read-only"), std::string::npos);

@@ -42,7 +42,8 @@ TEST(Endpoint, ReadsWhatTheManualSays) {
 TEST(Endpoint, IsWrittenAsItIsRead) {
   for (const char* text :
        {"serial:/dev/ttyUSB0@2000000", "pty:", "pty:/tmp/robot", "tcp:host:6000", "tcp:[fe80::1]:1",
-        "tcp-listen:127.0.0.1:0", "unix:/run/a", "unix-listen:b", "can:can0"}) {
+        "tcp-listen:127.0.0.1:0", "tcp:host:6000,token=/a,b", "tcp-listen:0.0.0.0:1,token=t",
+        "unix:/run/a", "unix-listen:b", "can:can0"}) {
     EXPECT_EQ(to_text(parse_endpoint(text)), text);
   }
 }
@@ -80,6 +81,7 @@ TEST(Endpoint, RefusesWithARemedy) {
       {"tcp:::1:6000", "brackets"},
       {"tcp-listen:", "port"},
       {"tcp-listen:abc", "port"},
+      {"tcp:host:6000,token=", "names no file"},
       {"unix:", "names no path"},
       {"unix-listen:", "names no path"},
       {"can:", "names no interface"},

@@ -72,6 +72,41 @@ TEST(Open, NamesASecondListener) {
   EXPECT_EQ(failure("tcp-listen" + tcp.place().substr(3)).kind(), Kind::kBusy);
 }
 
+// "Another program listens there" would send the user to look for one.
+TEST(Open, SaysThatAPathIsNoSocket) {
+  const test::Folder folder;
+  std::ofstream(folder.link()) << "mine";
+  const LinkError error = failure("unix-listen:" + folder.link());
+  EXPECT_EQ(error.kind(), Kind::kUnsuitable);
+  EXPECT_NE(std::string(error.what()).find("no socket"), std::string::npos) << error.what();
+}
+
+TEST(Open, LetsNobodyOfTheNetworkInWithoutTheSecret) {
+  for (const char* open : {"tcp-listen:0.0.0.0:0", "tcp-listen:[::]:0"})
+    EXPECT_THROW(Link(parse_endpoint(open)), EndpointError) << open;
+  const test::Folder folder;
+  const std::string token = ",token=" + folder.link();
+  std::ofstream(folder.link()) << "too short\n";
+  EXPECT_THROW(Link(parse_endpoint("tcp-listen:0.0.0.0:0" + token)), EndpointError);
+  std::ofstream(folder.link()) << "0123456789abcdef0123456789abcdef\n";
+  Link listener(parse_endpoint("tcp-listen:0.0.0.0:0" + token));
+  const std::string place = listener.place(),
+                    with = "tcp:127.0.0.1" + place.substr(place.rfind(':'));
+  const std::string without = with.substr(0, with.find(','));
+  const Link silent(parse_endpoint(without));
+  EXPECT_FALSE(listener.wait_connected(100'000));
+  Link guessing(parse_endpoint(without));
+  const std::string guess = "0123456789abcdef0123456789abcdeg\n";
+  guessing.write(reinterpret_cast<const std::uint8_t*>(guess.data()), guess.size(), 1000);
+  Link peer(parse_endpoint(with));
+  EXPECT_TRUE(listener.wait_connected(5'000'000)) << "the silent peer is sent away";
+  const std::uint8_t sent[] = {1, 2, 3};
+  EXPECT_EQ(peer.write(sent, 3, 1000), 3u);
+  std::uint8_t got[4] = {};
+  EXPECT_EQ(listener.read(got, 4, 1'000'000), 3u) << "of the peer with the secret, without it";
+  EXPECT_EQ(got[0], 1);
+}
+
 // Root may open anything, so the test drops its rights.
 TEST(Open, NamesAMissingPermission) {
   const Link terminal(parse_endpoint("pty:"));

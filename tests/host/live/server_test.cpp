@@ -214,6 +214,34 @@ TEST(Live, RubbishIsAnsweredOrEndsOneConnectionAndTakesNothingFromOthers) {
   EXPECT_EQ(server.counts().dropped, 0u);
 }
 
+// Connected without a word, greeted without a wish, or subscribed and read nothing.
+TEST(Live, SilentViewersKeepNobodyOut) {
+  ServerOptions options;
+  options.patience = std::chrono::milliseconds(50);
+  Server server(0, options);
+  const std::uint32_t a = server.add_channel(channel("/a"));
+  std::vector<std::unique_ptr<Viewer>> silent;
+  for (int i = 0; i < 16; ++i) {
+    silent.push_back(std::make_unique<Viewer>(server.port(), 4096));
+    if (i % 3 == 0) continue;
+    silent.back()->greet();
+    silent.back()->next_text("advertise");
+    if (i % 3 == 1) silent.back()->subscribe(7, a);
+  }
+  const std::string picture(1 << 20, 'x');
+  for (std::uint64_t i = 0; i < 12; ++i) server.send(a, i, picture);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  std::vector<std::unique_ptr<Viewer>> watching;
+  for (int i = 0; i < 16; ++i) {
+    watching.push_back(std::make_unique<Viewer>(server.port()));
+    ASSERT_TRUE(watching.back()->greet().starts_with("HTTP/1.1 101")) << i;
+    watching.back()->next_text("advertise");
+    watching.back()->subscribe(1, a);
+    EXPECT_TRUE(next_data(*watching.back())) << i;
+  }
+  EXPECT_TRUE(Viewer(server.port()).greet().starts_with("HTTP/1.1 503")) << "all of them watch";
+}
+
 // Any page may contact this port; browsers report its origin.
 TEST(Live, APageOfAStrangerMayNotWatch) {
   ServerOptions options = patient();

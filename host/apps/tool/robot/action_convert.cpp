@@ -1,7 +1,10 @@
 #include "host/apps/tool/robot/action_convert.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
+
+#include <cerrno>
 
 #include "host/apps/cli/exit_status.hpp"
 #include "host/author/action/csv.hpp"
@@ -21,9 +24,10 @@ namespace fs = std::filesystem;
 constexpr const char* kCommand = "verp action convert";
 
 void write_file(const char* command, const fs::path& file, const std::string& bytes) {
-  if (files::replace(file, bytes)) return;
-  throw cli::ToolError(cli::kBadInput, fmt::format("{}: {} cannot be written; give another place",
-                                                   command, file.string()));
+  const files::Trouble trouble = files::replace(file, bytes);
+  if (!trouble.any()) return;
+  throw cli::ToolError(cli::kBadInput,
+                       fmt::format("{}: {}: {}", command, file.string(), trouble.text()));
 }
 
 std::string read_text(const fs::path& file) {
@@ -37,7 +41,7 @@ std::string read_text(const fs::path& file) {
 class NewFolder {
  public:
   explicit NewFolder(fs::path path)
-      : path_(std::move(path)), part_(path_.string() + fmt::format(".{}", getpid())) {
+      : path_(std::move(path)), part_(path_.string() + fmt::format(".{}.part", getpid())) {
     std::error_code error;
     if (fs::exists(path_, error) && !fs::is_empty(path_, error)) {
       throw cli::ToolError(cli::kBadInput,
@@ -45,7 +49,8 @@ class NewFolder {
                                        "another folder",
                                        kCommand, path_.string()));
     }
-    fs::create_directories(part_, error);
+    fs::create_directories(fs::absolute(path_).parent_path(), error);
+    if (!fs::create_directory(part_, error)) fail();
   }
   ~NewFolder() {
     std::error_code error;
@@ -56,14 +61,18 @@ class NewFolder {
 
   const fs::path& part() const { return part_; }
   void keep() const {
-    std::error_code error;
-    fs::rename(part_, path_, error);
-    if (!error) return;
-    throw cli::ToolError(cli::kBadInput, fmt::format("{}: {} cannot be written; give another place",
-                                                     kCommand, path_.string()));
+    const int folder = ::open(part_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const bool kept = files::take_name(folder, part_, path_);
+    ::close(folder);
+    if (!kept) fail();
   }
 
  private:
+  [[noreturn]] void fail() const {
+    throw cli::ToolError(cli::kBadInput, fmt::format("{}: {}: {}", kCommand, path_.string(),
+                                                     files::Trouble(errno).text()));
+  }
+
   fs::path path_, part_;
 };
 
@@ -166,12 +175,8 @@ std::string export_actions(const ActionWords& words, const std::string& file) {
                     robot.entity.name, action::folder_of(robot.entity.file).string()));
   }
   const std::vector<std::uint8_t> image = action::kept_image(robot.made, robot.params);
-  if (!files::replace(file, {reinterpret_cast<const char*>(image.data()), image.size()})) {
-    throw cli::ToolError(cli::kBadInput,
-                         fmt::format("verp action export: {} cannot be written; give another "
-                                     "place with -o",
-                                     file));
-  }
+  write_file("verp action export", file,
+             {reinterpret_cast<const char*>(image.data()), image.size()});
   return fmt::format("{}: {} actions of {}, {} bytes\n", file, robot.made.documents.size(),
                      robot.entity.name, image.size());
 }

@@ -30,9 +30,10 @@ namespace fs = std::filesystem;
 constexpr const char* kUsualRobot = "generic21";
 
 void write_piece(const fs::path& file, const void* bytes, std::size_t size) {
-  if (files::write(file, {static_cast<const char*>(bytes), size})) return;
+  const files::Trouble trouble = files::replace(file, {static_cast<const char*>(bytes), size});
+  if (!trouble.any()) return;
   throw flash::FlashError(flash::FlashError::Kind::kBadFile,
-                          file.string() + ": cannot be written; free space, or set VERP_FLASH_DIR");
+                          file.string() + ": " + trouble.text() + " with VERP_FLASH_DIR");
 }
 
 /// Value of --actions that leaves the actions in the board's flash unchanged.

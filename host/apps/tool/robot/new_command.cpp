@@ -81,10 +81,11 @@ int new_controller(const NewControllerWords& words) {
                                      folder.lexically_normal().string(), error.message()));
   }
   for (const char* file : kFiles) {
-    if (files::write(folder / file, filled_in(template_of(file), words.name))) continue;
-    throw cli::ToolError(cli::kBadInput,
-                         fmt::format("{}: cannot be written; choose another place with --in",
-                                     (folder / file).lexically_normal().string()));
+    const auto trouble = files::create(folder / file, filled_in(template_of(file), words.name));
+    if (!trouble.any()) continue;
+    throw cli::ToolError(
+        cli::kBadInput, fmt::format("{}: {} with --in", (folder / file).lexically_normal().string(),
+                                    trouble.text()));
   }
   const std::string place = (fs::path(words.in) / words.name).lexically_normal().string();
   cli::answer(fmt::format("{}: laid out; {}/README.md says what is where\n", place, place));
@@ -113,10 +114,8 @@ struct NewRobotWords {
 };
 
 void write_text(const fs::path& file, const std::string& text) {
-  if (!files::write(file, text)) {
-    throw cli::ToolError(cli::kBadInput,
-                         file.string() + ": cannot be written; choose another place with --in");
-  }
+  const files::Trouble trouble = files::create(file, text);
+  if (trouble.any()) throw cli::ToolError(cli::kBadInput, file.string() + ": " + trouble.text());
 }
 
 void check_robot_name(const std::string& name) {

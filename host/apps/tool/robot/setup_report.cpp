@@ -12,6 +12,7 @@
 
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/exit_status.hpp"
+#include "host/os/files/whole.hpp"
 
 namespace verp::tool {
 namespace {
@@ -40,44 +41,18 @@ std::string wrong_in(const cli::Json& entry) {
 constexpr std::size_t kMost = 1 << 20;      // longer than any report
 constexpr std::size_t kRoomOfEntry = 2048;  // more than a joint needs
 
-std::string part_of(const std::string& file) {
-  return file + ".part";
-}
-
-/// Writes all of it or leaves no file; returns errno.
-int write_part(const std::string& file, const std::string& text) {
-  const std::string part = part_of(file);
-  errno = 0;
-  std::ofstream out(part, std::ios::binary);
-  const bool opened = out.is_open();
-  out << text;
-  out.close();
-  if (out) return 0;
-  const int error = errno;
-  if (opened) ::unlink(part.c_str());
-  return error == 0 ? EIO : error;
-}
-
-/// Replaces the file atomically; returns errno.
-int write_file(const std::string& file, const std::string& text) {
-  if (const int error = write_part(file, text); error != 0) return error;
-  if (std::rename(part_of(file).c_str(), file.c_str()) == 0) return 0;
-  const int error = errno;
-  ::unlink(part_of(file).c_str());
-  return error;
-}
-
-[[noreturn]] void refuse_place(const std::string& file, int error) {
-  refuse(file, std::string("cannot be written: ") + std::strerror(error));
+[[noreturn]] void refuse_place(const std::string& file, const files::Trouble& trouble) {
+  refuse(file, trouble.what());
 }
 
 /// Checked before a servo changes: its entry would be lost. `now`: present content; `room`: bytes
 /// to add.
 void check_place(const std::string& file, const std::string& now, std::size_t room) {
-  int error = write_part(file, now + std::string(room, ' '));
-  if (error == 0) ::unlink(part_of(file).c_str());
-  if (error == 0 && !now.empty()) error = write_file(file, now);
-  if (error != 0) refuse_place(file, error);
+  const std::string trial = file + "." + std::to_string(::getpid()) + ".trial";
+  files::Trouble trouble = files::create(trial, now + std::string(room, ' '));
+  if (!trouble.any()) ::unlink(trial.c_str());
+  if (!trouble.any() && !now.empty()) trouble = files::replace(file, now);
+  if (trouble.any()) refuse_place(file, trouble);
 }
 
 std::string contents(const std::string& file) {
@@ -150,9 +125,10 @@ cli::Json SetupReport::of(const std::string& joint) const {
 void SetupReport::keep(const std::string& joint, const cli::Json& entry) {
   json_["joints"][joint] = entry;
   if (!writes_) return;
-  if (const int error = write_file(file_, json_.dump(2) + '\n'); error != 0) {
+  const files::Trouble trouble = files::replace(file_, json_.dump(2) + '\n');
+  if (trouble.any()) {
     cli::complain("  not in the report: " + cli::Json{{joint, entry}}.dump());
-    refuse_place(file_, error);
+    refuse_place(file_, trouble);
   }
   written_ = true;
 }

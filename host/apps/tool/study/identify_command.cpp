@@ -54,8 +54,8 @@ int make_motion(const IdentifyWords& words) {
       model::load_robot(model::find_model(words.robot.empty() ? kRobotOfMotion : words.robot));
   action::Document document = identify::motion_of(entity, {.length_s = words.motion_s, .seed = 1});
   document.name = std::filesystem::path(words.motion).stem().string();
-  if (!files::write(words.motion, action::text_of(document)))
-    throw cli::ToolError(cli::kBadInput, words.motion + ": cannot be written; choose another file");
+  const files::Trouble trouble = files::replace(words.motion, action::text_of(document));
+  if (trouble.any()) throw cli::ToolError(cli::kBadInput, words.motion + ": " + trouble.text());
   cli::print_answer(
       words.json, {{"motion", words.motion}, {"model", entity.name}},
       fmt::format("{}: a motion of {:.0f} s for {} in a stand; in the twin:\n"

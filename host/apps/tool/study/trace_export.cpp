@@ -1,11 +1,10 @@
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 
 #include "host/apps/cli/exit_status.hpp"
 #include "host/apps/tool/study/trace_words.hpp"
+#include "host/os/files/whole.hpp"
 #include "host/study/signals/csv.hpp"
 
 namespace verp::tool {
@@ -13,22 +12,13 @@ namespace {
 
 /// Writes files completely or not at all; streams to devices and pipes.
 void write_whole(signals::Table& table, const std::filesystem::path& file) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  const bool direct = fs::exists(file, error) && !fs::is_regular_file(file, error);
-  fs::path part = file;
-  if (!direct) part += "." + std::to_string(::getpid()) + ".part";
-  std::ofstream out(part);
-  if (!out) {
-    throw cli::ToolError(
-        cli::kBadInput,
-        file.string() + ": cannot be written; choose a folder that exists and is yours");
-  }
+  files::NewFile made(file);
+  if (made.trouble().any())
+    throw cli::ToolError(cli::kBadInput, file.string() + ": " + made.trouble().text());
+  std::ofstream out(made.part());
   signals::write_csv(table, out);
   out.close();
-  if (out && !direct) fs::rename(part, file, error);
-  if (out && (direct || !error)) return;
-  if (!direct) fs::remove(part, error);
+  if (out && !made.keep().any()) return;
   throw cli::ToolError(
       cli::kRunFailed,
       file.string() + ": cannot be written to its end; free space, or write elsewhere");

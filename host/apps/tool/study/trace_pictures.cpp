@@ -45,10 +45,8 @@ std::pair<std::string, std::string> as_file(const record::ros::Picture& picture)
 }
 
 void write_file(const fs::path& file, const std::string& bytes) {
-  if (files::write(file, bytes)) return;
-  throw cli::ToolError(
-      cli::kRunFailed,
-      file.string() + ": cannot be written; free space, or name another folder with -o");
+  const files::Trouble trouble = files::replace(file, bytes);
+  if (trouble.any()) throw cli::ToolError(cli::kRunFailed, file.string() + ": " + trouble.text());
 }
 
 }  // namespace

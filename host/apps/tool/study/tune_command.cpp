@@ -87,8 +87,8 @@ void require_place(const std::string& file, const std::filesystem::path& robot_f
   std::error_code error;
   if (std::filesystem::exists(file, error))
     throw cli::ToolError(cli::kBadInput, file + ": is there already; choose another name");
-  if (!files::write(file, files::read(robot_file).value_or("")))
-    throw cli::ToolError(cli::kBadInput, file + ": cannot be written; choose another folder");
+  const files::Trouble trouble = files::create(file, files::read(robot_file).value_or(""));
+  if (trouble.any()) throw cli::ToolError(cli::kBadInput, file + ": " + trouble.text());
   try {
     model::load_robot_on_any_bus(file, "");
   } catch (const model::LoadError& refused) {
