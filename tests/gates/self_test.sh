@@ -93,6 +93,21 @@ test_seeds() {
   seeds_case 'sets that overlap' 'in common' a.md '' 'gate 1 100\ntuning 100 2000\nreport 2001 9999\n'
 }
 
+files_case() { # what reason path text
+  rm -rf "$scratch/tree"
+  mkdir -p "$scratch/tree/$(dirname "$3")"
+  printf '%s\n' "$4" >"$scratch/tree/$3"
+  expect "$1" "$2" "$here/files.sh" "$scratch/tree"
+}
+
+test_files() {
+  files_case 'a file through the helper' '' host/a.cpp 'files::replace(file, bytes);'
+  files_case 'a file in place' 'past host/os/files' host/a.cpp 'std::ofstream out(file);'
+  files_case 'a file of C' 'past host/os/files' host/a.cpp 'FILE* f = std::fopen(file, "wb");'
+  files_case 'a name without a sync' 'past host/os/files' host/a.cpp 'fs::rename(part, file);'
+  files_case 'the helper itself' '' host/os/files/whole.cpp '::rename(from, to);'
+}
+
 symbols_case() { # what reason flags text
   local flags=()
   read -ra flags <<<"$3"
@@ -267,6 +282,7 @@ tests) test_tests ;;
 findings) test_findings ;;
 links) test_links ;;
 seeds) test_seeds ;;
+files) test_files ;;
 *) echo "no gate '$gate'" && exit 2 ;;
 esac
 echo "$gate gate: $planted cases"

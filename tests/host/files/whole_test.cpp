@@ -93,9 +93,10 @@ class PlantedLink : public ::testing::Test {
 };
 
 TEST_F(PlantedLink, IsRefusedByReplaceAndOwnLinksAreFollowed) {
-  if (!can_plant_) GTEST_SKIP() << "only the superuser gives files away";
-  EXPECT_NE(replace(link_, "evil").text().find("another user's link"), std::string::npos);
-  EXPECT_EQ(read(victim_), "precious");
+  if (can_plant_) {  // only the superuser gives files away
+    EXPECT_NE(replace(link_, "evil").text().find("another user's link"), std::string::npos);
+    EXPECT_EQ(read(victim_), "precious");
+  }
   fs::permissions(shared_, fs::perms::owner_all);
   EXPECT_FALSE(replace(link_, "in a folder of mine").any());
   EXPECT_EQ(read(victim_), "in a folder of mine");
