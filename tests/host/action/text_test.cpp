@@ -35,7 +35,7 @@ TEST(ActionText, AJointNamedLikeAWordOfTheTextIsNoSuchWord) {
   Document document = parse_document("all.action", kAll);
   const std::size_t frames = document.frames.size();
   for (const char* word : kLineWords) {
-    document.frames[0].goals = {{word, 0.5, false, 1}};
+    document.frames[0].goals = {{.joint = word, .from_stand = false, .angle_rad = 0.5, .line = 1}};
     const Document again = parse_document("all.action", text_of(document));
     ASSERT_EQ(again.frames.size(), frames) << word;
     ASSERT_EQ(again.frames[0].goals.size(), 1U) << word;
