@@ -38,7 +38,7 @@ class HilOnCan : public Program {
 
 // The PC knows a tick's end when the next one begins, so the walk's numbers are nearly the same.
 TEST_F(HilOnCan, WalksWithTheBitsOfSoftwareInTheLoop) {
-  const Outcome walk = as_typed("walk --bus can --json --for 3", "walk");
+  const Outcome walk = verp("walk --bus can --json --for 3", "walk");
   ASSERT_EQ(walk.status, 0) << walk.err;
   const json expected = json::parse(walk.out);
   CanController controller(params(), "can:vcan0", "unix:" + place("orders"));

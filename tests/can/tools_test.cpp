@@ -272,7 +272,7 @@ TEST_F(CanTools, TsharkReadsAWalkAsWeSayItIs) {
 }
 
 TEST_F(CanTools, RandomTrafficBesideAWalkChangesNothing) {
-  const Outcome walk = as_typed("walk --bus can --json --for 3", "walk");
+  const Outcome walk = verp("walk --bus can --json --for 3", "walk");
   ASSERT_EQ(walk.status, 0) << walk.err;
   const process::Child extended(
       {.words = {"cangen", "vcan0", "-e", "-g", "4", "-i"}, .input = {}, .output = {}});

@@ -13,7 +13,7 @@ sanitized='unit math replay contract hil host.action host.bus host.can host.can_
   host.model host.radio host.record host.shadow host.stm32_drivers'
 # Bits of every instruction set, loops over every bus, walks, faults, gates.
 kept='replay.golden replay.matrix trace.mps2_an386 loop.mps2_an386 tour.mps2_an386 bench.mps2_an386 unit.mps2_an386 hil.olimex_h405.walk
-  budget.olimex_h405 budget.opencr trace.qemu_rv32 can.qemu_rv32 trace.zcu102_r5 can.zcu102_r5 can_loop.zcu102_r5
+  budget.olimex_h405 budget.opencr trace.qemu_rv32 can.qemu_rv32 trace.zcu102_r5 can_loop.zcu102_r5
   hil.Serial/Campaign.StaysSafeAndTells/noise hil.Can/CanCampaign.StaysSafeAndTells/doubled scenario.Generic21.WalksSideways
   gate.symbols gate.layers gate.format gate.merge launcher.promises contract.mps2_an386'
 merge=$(tests/run --plan) full=$(tests/run --plan --full)

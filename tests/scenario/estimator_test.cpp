@@ -17,7 +17,7 @@ struct Errors {
 // Roll and pitch over all walks. Most of the error is the accelerometer's offset: 5 mg one sigma,
 // 0.3 degrees about each axis, of which a floor reveals a quarter. Another 0.15 degrees come and go
 // with the steps.
-Errors errors_of(const std::string& options) {
+Errors errors_of(int least_walks, const std::string& options) {
   const Walk seeds = walk("generic21 --velocity 0.25,0,0 --physics-step 2 " + options);
   Errors errors;
   double roll_deg2 = 0, pitch_deg2 = 0, walks = 0;
@@ -33,14 +33,14 @@ Errors errors_of(const std::string& options) {
         std::max(errors.odometry_share,
                  told.at("odometry_off_m").get<double>() / told.at("odometry_way_m").get<double>());
   }
-  EXPECT_GE(walks, 7) << "of ten";
+  EXPECT_GE(walks, least_walks);
   errors.roll_deg = std::sqrt(roll_deg2 / walks);
   errors.pitch_deg = std::sqrt(pitch_deg2 / walks);
   return errors;
 }
 
 TEST(Estimator, KnowsTiltAndVelocityOfAWalk) {
-  const Errors errors = errors_of("--for 12 --seeds 1-10");
+  const Errors errors = errors_of(4, "--for 12 --seeds 1-5");
   expect_between(0.1, errors.roll_deg, kMostAttitude_deg, "roll, degrees rms");
   expect_between(0.1, errors.pitch_deg, kMostAttitude_deg, "pitch, degrees rms");
   expect_between(0.1, std::hypot(errors.roll_deg, errors.pitch_deg), kMostAttitude_deg,
@@ -50,7 +50,7 @@ TEST(Estimator, KnowsTiltAndVelocityOfAWalk) {
 }
 
 TEST(Estimator, KnowsTiltAndVelocityOfRobotsDrawnAtRandom) {
-  const Errors errors = errors_of("--vary --for 12 --seeds 1-10");
+  const Errors errors = errors_of(7, "--vary --for 12 --seeds 1-10");
   expect_between(0.1, errors.roll_deg, kMostAttitude_deg, "roll, degrees rms");
   expect_between(0.1, errors.pitch_deg, kMostAttitude_deg, "pitch, degrees rms");
   expect_between(0.005, errors.worst_velocity_m_s, kMostVelocity_m_s, "CoM velocity, m/s rms");

@@ -31,15 +31,15 @@ TEST(GettingUp, FromEitherSideItTipsOntoItsBackAndGetsUp) {
   }
 }
 
-// The promise: 97 of a hundred; of a few, all but one.
+// The promise: 97 of a hundred; of four and more, all but one.
 void expect_up(const std::string& robot, const std::string& side, int robots) {
   const Walk seeds = walk(robot + " --vary --for 3 --physics-step 2 --seeds 1-" +
                           std::to_string(robots) + " --start lying:" + side);
-  EXPECT_GE(number(seeds, "survived"), robots - 1) << side;
+  EXPECT_GE(number(seeds, "survived"), robots < 4 ? robots : robots - 1) << side;
 }
 
-TEST(GettingUp, FourRandomOnesDoItToo) {
-  for (const char* side : {"back", "front"}) expect_up("generic21", side, 4);
+TEST(GettingUp, TwoRandomOnesDoItToo) {
+  for (const char* side : {"back", "front"}) expect_up("generic21", side, 2);
 }
 TEST(GettingUp, EightRandomOnesDoItToo) {
   for (const char* side : {"back", "front"}) expect_up("generic21", side, 8);

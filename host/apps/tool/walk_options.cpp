@@ -116,7 +116,11 @@ void declare_basics(CLI::App& app, WalkOptions& options) {
   cli::add_json_flag(app, options.json);
 }
 
-void declare_falls(CLI::App& app, WalkOptions& options) {
+void declare_twin(CLI::App& app, WalkOptions& options) {
+  app.add_option("--physics-step", options.physics_step_ms,
+                 "of the twin, ms: 0.25, 0.5, 1, or 2, which is twice as fast and within 1 %")
+      ->check(CLI::IsMember({0.25, 0.5, 1.0, 2.0}))
+      ->capture_default_str();
   app.add_flag(
       "--get-up", options.get_up,
       "falls end no walk: it falls softly, gets up by its actions fall_safe and get_up_..., "
@@ -193,7 +197,7 @@ void declare(CLI::App& app, WalkOptions& options) {
       "--vary", options.vary,
       "another robot of this kind, drawn from the seed: masses, friction, delay, backlash, "
       "strength, gears, gyro bias, floor, supply; the controller does not know");
-  declare_falls(app, options);
+  declare_twin(app, options);
   app.add_option("--seeds", options.seeds_text,
                  "A-B: one walk for each of these seeds, as many at a time as there are cores; "
                  "1-100 are for gates, 1001 and up for tuning, 2001 and up for reports")
@@ -201,10 +205,6 @@ void declare(CLI::App& app, WalkOptions& options) {
       ->excludes("--seed")
       ->excludes("--record")
       ->excludes("--report");
-  app.add_option("--physics-step", options.physics_step_ms,
-                 "of the twin, ms: 0.25, 0.5, 1, or 2, which is twice as fast and within 1 %")
-      ->check(CLI::IsMember({0.25, 0.5, 1.0, 2.0}))
-      ->capture_default_str();
   app.add_flag("--cameras", options.cameras,
                "keep what the robot's cameras see in the trace; `verp trace pictures` takes it out")
       ->excludes("--seeds");

@@ -78,7 +78,8 @@ void declare_tuning(CLI::App& app, WalkOptions& options);
 /// declare_gait(), and the options for seed, trace, report, JSON.
 void declare_basics(CLI::App& app, WalkOptions& options);
 
-void declare_falls(CLI::App& app, WalkOptions& options);
+/// Physics step, start pose, falls.
+void declare_twin(CLI::App& app, WalkOptions& options);
 
 void require_serial(const std::string& command, const model::Entity& entity);
 /// Both or neither must be CAN. Throws ToolError.

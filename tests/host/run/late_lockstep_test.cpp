@@ -17,11 +17,11 @@ class LateLockstep : public Program {
  protected:
   /// PC and cable stop `stalls` times.
   void walk(std::uint64_t latency_us, int stalls) {
-    const Outcome here = as_typed("walk --json --for 3", "walk");
+    const Outcome here = verp("walk --json --for 3", "walk");
     const std::string bus = (folder_ / "bus").string(), orders = (folder_ / "orders").string();
     Process twin(folder_, "twin",
-                 {"hil", "generic21", "--lockstep", "--for", "3", "--json", "--link",
-                  "unix-listen:" + bus, "--operator", "unix-listen:" + orders});
+                 {"hil", "generic21", "--lockstep", "--physics-step", "2", "--for", "3", "--json",
+                  "--link", "unix-listen:" + bus, "--operator", "unix-listen:" + orders});
     ASSERT_TRUE(twin.says("waits for a controller"));
     DelayingLink cable("unix-listen:" + bus + "-far", "unix:" + bus, {latency_us, latency_us});
     const Params params = model::make_params(model::load_robot(model::find_model("generic21")));

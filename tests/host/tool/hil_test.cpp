@@ -34,7 +34,7 @@ class Hil : public Program {
   Outcome hil(const std::string& arguments) const { return verp("hil " + arguments, "hil"); }
 
   json here(const std::string& arguments) const {
-    const Outcome walk = as_typed("walk --json " + arguments, "walk");
+    const Outcome walk = verp("walk --json " + arguments, "walk");
     EXPECT_EQ(walk.status, 0) << walk.err;
     return json::parse(walk.out);
   }

@@ -42,13 +42,16 @@ class Program : public ::testing::Test {
   }
   ~Program() override { fs::remove_all(folder_); }
 
-  /// As in a shell; `name` separates parallel outputs. A walk whose step nothing states has a
-  /// physics step of 2 ms: it takes half the time.
+  /// As in a shell; `name` separates parallel outputs. The twin has a physics step of 2 ms where
+  /// nothing states it: it takes half the time.
   Outcome verp(const std::string& arguments, const std::string& name = "run") const {
     const auto says = [&](const char* word) { return arguments.find(word) != std::string::npos; };
-    const bool faster =
-        arguments.starts_with("walk ") && !says("--physics-step") && !says("--scenario");
-    return as_typed(faster ? "walk --physics-step 2" + arguments.substr(4) : arguments, name);
+    const std::string command = arguments.substr(0, arguments.find(' '));
+    const bool faster = (command == "walk" || command == "hil") && command != arguments &&
+                        !says("--physics-step") && !says("--scenario");
+    return as_typed(
+        faster ? command + " --physics-step 2" + arguments.substr(command.size()) : arguments,
+        name);
   }
   Outcome as_typed(const std::string& arguments, const std::string& name = "run") const {
     return shell(std::string(VERP_PROGRAM) + " " + arguments, name);

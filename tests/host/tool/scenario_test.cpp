@@ -11,10 +11,9 @@ using Scenarios = Program;
 
 TEST_F(Scenarios, WalkAsTheCommandLinesThatPrintedThem) {
   const char* const lines[] = {
-      "--for 3 --physics-step 2 --velocity 0.05,0,0.2 --seed 7 --set gait.lift_m=0.02 --cycle 0.5",
-      "--for 3 --physics-step 2 --push '1: trunk 3,0,0 N for 0.1' --at '2: trunk.mass_kg=2.2'",
-      "--for 3 --physics-step 2 --bus can --no-gravity",
-      "--for 3 --physics-step 2 --vary --seed 3 --stand",
+      "--for 3 --physics-step 2 --velocity 0.05,0,0.2 --seed 7 --set gait.lift_m=0.02 --cycle 0.5 "
+      "--push '1: trunk 3,0,0 N for 0.1' --at '2: trunk.mass_kg=2.2' --no-gravity",
+      "--for 3 --physics-step 2 --bus can --vary --seed 3 --stand",
       "--for 3 --physics-step 2 --robots 2 --world pitch",
   };
   for (const std::string line : lines) {

@@ -176,7 +176,7 @@ TEST_F(Trouble, SecondSignalEndsARunThatHangs) {
   fs::permissions(folder_ / "bin/gnuplot", fs::perms::owner_all);
   const Outcome walk =
       shell("PATH=$PWD/bin:$PATH; " VERP_PROGRAM
-            " walk --for 600 --report out & "
+            " walk --for 600 --physics-step 2 --report out & "
             "for i in $(seq 300); do "
             "  test $(cat out/*.part 2>/dev/null | wc -c) -ge 1000000 || sleep 0.1; done; "
             "kill -TERM $!; for i in $(seq 100); do test -e started || sleep 0.1; done; sleep 3; "

@@ -52,8 +52,9 @@ class Keyboard final : public session::Observer {
 
 /// Serves the twin to a controller at the end of a link (session::RemoteController) until the
 /// controller or the walk ends. Throws what opening a link throws.
-HilResult serve_controller(const WalkPlan& plan, session::ServeOptions options,
+HilResult serve_controller(const scenario::Expanded& run, session::ServeOptions options,
                            cli::Progress& progress, std::vector<session::Observer*> observers) {
+  const WalkPlan& plan = run.plans.front();
   const auto say = [&progress](const std::string& line) {
     progress.clear();
     cli::complain("verp hil: " + line);
@@ -67,7 +68,7 @@ HilResult serve_controller(const WalkPlan& plan, session::ServeOptions options,
     if (!got.advice.empty()) say(got.advice);
   };
   options.cannot_keep_up = cli::leave_real_time;
-  session::Session session({.interrupted = cli::interrupted});
+  session::Session session({.world = run.world, .interrupted = cli::interrupted});
   session::RemoteController* served = nullptr;
   RunOnScreen screen(progress, "verp hil");
   Keyboard keyboard(served);
@@ -91,8 +92,9 @@ struct HilWords {
 
 /// `gives_orders`: this program does; otherwise the controller has its own actions.
 Walk walk_of(const WalkOptions& options, bool gives_orders) {
-  Walk walk{.scenario = scenario_of(options, {}), .run = {}};
-  walk.run = expand(options, walk.scenario, {});
+  const sim::WorldOptions world = scenario::world_of(world_of(options));
+  Walk walk{.scenario = scenario_of(options, world), .run = {}};
+  walk.run = expand(options, walk.scenario, world);
   session::WalkPlan& plan = walk.run.plans.front();
   if (gives_orders && plan.get_ups > 0) action::take_get_up_actions(plan);
   return walk;
@@ -245,7 +247,7 @@ int run_hil(const CLI::App& app, HilWords words) {
   WalkFiles files(options, plan, metadata_of(options, plan, walk.scenario), live.robot());
   cli::Progress progress(!options.json);
   KeptTrace kept(files.trace(), files.wants_report());
-  const HilResult result = serve_controller(plan, words.hil, progress, {&kept, &live});
+  const HilResult result = serve_controller(walk.run, words.hil, progress, {&kept, &live});
   if (!gives_orders) return answer_served(plan, options, result);
   cli::Json more = to_json(result);
   live.add_to(more);
@@ -264,7 +266,7 @@ cli::Subcommand add_hil(CLI::App& root) {
   auto words = std::make_shared<HilWords>();
   words->walk.command = words->walk.touch.command = "verp hil";
   declare_basics(*app, words->walk);
-  declare_falls(*app, words->walk);
+  declare_twin(*app, words->walk);
   declare_push(*app, words->walk.touch);
   app->get_option("--get-up")
       ->description(
