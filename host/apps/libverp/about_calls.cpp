@@ -6,6 +6,7 @@
 #include "host/apps/libverp/failure.hpp"
 #include "host/trace/record/fields.hpp"
 #include "host/trace/record/replay.hpp"
+#include "host/trace/record/trace_parts.hpp"
 
 using namespace verp::abi;
 
@@ -54,12 +55,13 @@ const char* verp_layout(const char* name) {
 int verp_replay(const char* file, uint64_t* ticks, uint64_t* digest) {
   return call("verp_replay", [&]() -> int {
     need_text(file, "file");
-    const verp::record::Trace trace = verp::record::read_trace(file);
+    verp::record::TraceFile trace(file, verp::record::Read::kStrict);
     const verp::record::ReplayResult result = verp::record::replay(trace);
     if (ticks != nullptr) *ticks = result.ticks;
     if (digest != nullptr) *digest = result.replayed_digest;
     if (!result.divergence) return VERP_OK;
-    throw Failure(VERP_DIFFERS, std::string(file) + ": diverges at " +
-                                    text(*result.divergence, trace.params, "recorded", "replayed"));
+    throw Failure(VERP_DIFFERS,
+                  std::string(file) + ": diverges at " +
+                      text(*result.divergence, trace.head().params, "recorded", "replayed"));
   });
 }

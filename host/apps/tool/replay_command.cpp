@@ -12,6 +12,7 @@
 #include "host/show/web/replay_page.hpp"
 #include "host/study/report/files.hpp"
 #include "host/trace/record/replay.hpp"
+#include "host/trace/record/trace_parts.hpp"
 
 namespace verp::tool {
 namespace {
@@ -66,7 +67,10 @@ int make_page(const ReplayOptions& options) {
 
 int run_replay(const ReplayOptions& options) {
   if (!options.page.empty()) return make_page(options);
-  const record::Trace trace = load(options.file, options.recover);
+  record::TraceFile file(options.file,
+                         options.recover ? record::Read::kRecover : record::Read::kStrict);
+  const record::Trace& trace = file.head();
+  if (!trace.warning.empty()) cli::complain(trace.warning);
   const auto recorded_by = trace.metadata.find("own_controller");
   if (options.controller.empty() && recorded_by != trace.metadata.end() &&
       !recorded_by->second.empty()) {
@@ -77,7 +81,7 @@ int run_replay(const ReplayOptions& options) {
   }
   record::StepFunction core;
   if (!options.controller.empty()) core = own_controller(options.controller, !options.json)();
-  const record::ReplayResult result = record::replay(trace, nullptr, core);
+  const record::ReplayResult result = record::replay(file, core);
   const bool equal = !result.divergence;
   if (options.json) {
     cli::Json json = {{"trace", options.file},

@@ -2,14 +2,14 @@
 
 #include <zstd.h>
 
+#include "host/trace/record/mcap_format.hpp"
+
 namespace verp::record::mcap {
 namespace {
 
 /// A walk of 20 s, 7.7 MB, chunks of 390 kB (November 2026): level 1 gives 1.47 MB in 12 ms, level
 /// 3 1.40 MB in 17 ms, level 9 1.31 MB in 72 ms.
 constexpr int kLevel = 1;
-/// Our chunks are smaller: a larger size is an error in the file.
-constexpr std::uint64_t kMostBytes = 1u << 30;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ std::optional<std::string> unpacked(std::string_view compression, std::string_vi
   // Other writers may omit the content size.
   const std::uint64_t said = ZSTD_getFrameContentSize(frame.data(), frame.size());
   const bool fits = said == size || said == ZSTD_CONTENTSIZE_UNKNOWN;
-  if (compression != kZstdName || !fits || size > kMostBytes) return std::nullopt;
+  if (compression != kZstdName || !fits || size > kMostRecord) return std::nullopt;
   std::string bytes(size, '\0');
   const std::size_t got = ZSTD_decompress(bytes.data(), bytes.size(), frame.data(), frame.size());
   if (ZSTD_isError(got) != 0 || got != size) return std::nullopt;

@@ -33,12 +33,18 @@ inline constexpr std::uint64_t kFooterSize = 20;
 
 using StringMap = std::map<std::string, std::string>;
 
+/// Of a record, and of a chunk unpacked. Ours have some hundred kB; a few bytes of zstd can stand
+/// for gigabytes.
+inline constexpr std::uint64_t kMostRecord = 64u << 20;
+
 struct Schema {
   std::string_view name, encoding, data;
+  bool operator==(const Schema&) const = default;
 };
 struct Channel {
   std::uint16_t schema = 0;
   std::string_view topic, encoding;
+  bool operator==(const Channel&) const = default;
 };
 
 /// As in zip and zlib (reflected 0x04C11DB7). For pieces: value = crc32(piece, value).

@@ -1,6 +1,9 @@
 #include "host/trace/record/mcap_reader.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <type_traits>
+#include <utility>
 
 #include "host/trace/record/compression.hpp"
 
@@ -53,46 +56,121 @@ class Cursor {
   bool good_ = true;
 };
 
-class Parser {
+/// A stream that knows its size.
+class Source {
  public:
-  explicit Parser(std::string_view bytes) : bytes_(bytes) {}
+  explicit Source(std::unique_ptr<std::istream> in) : in_(std::move(in)) {
+    in_->seekg(0, std::ios::end);
+    const std::streamoff end = in_->tellg();
+    if (end > 0) size_ = static_cast<std::uint64_t>(end);
+  }
 
-  File run() {
-    if (bytes_.substr(0, kMagic.size()) != kMagic) {
-      const bool cut = kMagic.starts_with(bytes_);
+  std::uint64_t size() const { return size_; }
+  std::uint64_t at() const { return at_; }
+  void seek(std::uint64_t at) {
+    in_->clear();
+    in_->seekg(static_cast<std::streamoff>(at));
+    at_ = at;
+  }
+  /// Fewer bytes at the end.
+  void take(std::uint64_t size, std::string& to) {
+    to.resize(std::min(size, size_ - std::min(at_, size_)));
+    in_->read(to.data(), static_cast<std::streamsize>(to.size()));
+    to.resize(static_cast<std::size_t>(in_->gcount()));
+    at_ += to.size();
+  }
+
+ private:
+  std::unique_ptr<std::istream> in_;
+  std::uint64_t size_ = 0, at_ = 0;
+};
+
+}  // namespace
+
+class Reader::Parser {
+ public:
+  explicit Parser(std::unique_ptr<std::istream> in) : in_(std::move(in)) {}
+
+  const File& file() const { return file_; }
+  File take() && { return std::move(file_); }
+  const File& run(const OnMessage& on_message) {
+    file_ = File();
+    kept_bytes_ = 0;
+    crc_ = 0;
+    footer_seen_ = false;
+    on_message_ = &on_message;
+    std::string magic;
+    in_.seek(in_.size() - std::min<std::uint64_t>(in_.size(), kMagic.size()));
+    in_.take(kMagic.size(), magic);
+    ended_ = in_.size() >= 2 * kMagic.size() && magic == kMagic;
+    in_.seek(0);
+    in_.take(kMagic.size(), magic);
+    crc_ = crc32(magic);
+    if (magic != kMagic) {
+      const bool cut = kMagic.starts_with(magic);
       fail(0, cut ? "the file ends inside its first 8 bytes" : "not an MCAP file (wrong magic)",
            cut);
-      return std::move(file_);
     }
-    ended_ = bytes_.size() >= 2 * kMagic.size() && bytes_.ends_with(kMagic);
-    at_ = kMagic.size();
     while (!file_.flaw && !footer_seen_) top_level_record();
     if (!file_.flaw) check_ending();
-    return std::move(file_);
+    return file_;
+  }
+  void run_part(std::uint64_t part, const OnMessage& on_message) {
+    on_message_ = &on_message;
+    const std::uint64_t messages = file_.messages;
+    std::optional<Flaw> flaw = std::exchange(file_.flaw, std::nullopt);
+    in_.seek(part);
+    top_level_record();
+    file_.messages = messages;
+    // A truncated chunk is one again.
+    if (!file_.flaw || flaw) file_.flaw = std::move(flaw);
   }
 
  private:
   void fail(std::uint64_t offset, std::string what, bool truncated = false) {
-    if (!file_.flaw) file_.flaw = Flaw{offset, std::move(what), truncated, 0};
+    if (!file_.flaw) file_.flaw = Flaw{offset, std::move(what), truncated, false};
+  }
+  void overrun(std::uint64_t offset) {
+    fail(offset, "edited or damaged: a record's fields overrun it");
+  }
+
+  /// False: what the File holds became too much.
+  bool may_keep(std::size_t bytes, std::uint64_t offset) {
+    kept_bytes_ += bytes + sizeof(std::string);
+    if (kept_bytes_ > kMostRecord)
+      fail(offset, too_much("its channels, metadata and attachments take", kept_bytes_));
+    return kept_bytes_ <= kMostRecord;
+  }
+  /// A copy that lives as long as the File; empty: too much.
+  std::string_view keep(std::string_view text, std::uint64_t offset) {
+    return may_keep(text.size(), offset) ? std::string_view(file_.texts.emplace_back(text)) : "";
   }
 
   void top_level_record() {
-    const std::uint64_t start = at_;
-    const std::uint64_t left = bytes_.size() - at_;
+    const std::uint64_t start = in_.at();
+    const std::uint64_t left = in_.size() - start;
     if (left == 0 && !ended_) return fail(start, "the file ends here, without its summary", true);
-    Cursor head(bytes_.substr(at_));
+    in_.take(kRecordHead, head_);
+    Cursor head(head_);
     const auto opcode = static_cast<Opcode>(head.number<std::uint8_t>());
     const std::uint64_t length = head.u64();
-    if (!head.good() || length > left - kRecordHead) {
-      if (ended_) return fail(start, "a record is longer than the file");
-      const std::string_view begun = head.good() ? bytes_.substr(at_ + kRecordHead) : "";
-      fail(start, "the file ends inside a record", true);
-      if (opcode == Opcode::kChunk) file_.flaw->lost_messages = count_lost(begun);
+    if (head.good() && length <= left - kRecordHead) {
+      if (length > kMostRecord) return fail(start, too_much("a record takes", length));
+      in_.take(length, content_);
+      if (content_.size() != length) return fail(start, "the file cannot be read");
+      record(opcode, content_, start);
+      if (opcode == Opcode::kDataEnd) return;
+      crc_ = crc32(content_, crc32(head_, crc_));
       return;
     }
-    const std::string_view content = bytes_.substr(at_ + kRecordHead, length);
-    at_ += kRecordHead + length;
-    record(opcode, content, start);
+    if (ended_) return fail(start, "a record is longer than the file");
+    if (head.good() && opcode == Opcode::kChunk) {
+      in_.take(kMostRecord, content_);
+      truncated_chunk(content_, start);
+      file_.flaw.reset();
+    }
+    fail(start, "the file ends inside a record", true);
+    file_.flaw->in_chunk = opcode == Opcode::kChunk;
   }
 
   void record(Opcode opcode, std::string_view content, std::uint64_t start) {
@@ -105,23 +183,25 @@ class Parser {
       case Opcode::kSchema:
       case Opcode::kChannel:
       case Opcode::kMessage:
-        return inner_record(opcode, content, start);
+        return inner_record(opcode, content, start, start);
       case Opcode::kChunk:
         return chunk(in, start);
       case Opcode::kAttachment:
         return attachment(content, start);
       case Opcode::kMetadata: {
         const std::string name(in.text());
+        if (!may_keep(content.size(), start)) return;
         file_.metadata[name] = in.map();
         break;
       }
       case Opcode::kDataEnd:
-        if (in.u32() != crc32(bytes_.substr(0, start))) {
+        if (in.u32() != crc_) {
           return fail(start,
                       "edited or damaged: the CRC of all bytes before this one does not match");
         }
-        data_end_seen_ = true;
-        summary_start_ = at_;
+        file_.data_whole = true;
+        crc_ = 0;
+        summary_start_ = in_.at();
         break;
       case Opcode::kFooter:
         return footer(in, content, start);
@@ -129,36 +209,70 @@ class Parser {
         if (opcode > Opcode::kDataEnd || opcode == Opcode{0}) fail(start, "unknown record type");
         return;  // indexes and statistics repeat the data section; CRCs cover them
     }
-    if (!in.good() || !in.at_end()) fail(start, "edited or damaged: a record's fields overrun it");
+    if (!in.good() || !in.at_end()) overrun(start);
   }
 
-  void inner_record(Opcode opcode, std::string_view content, std::uint64_t start) {
+  void inner_record(Opcode opcode, std::string_view content, std::uint64_t start,
+                    std::uint64_t part) {
     Cursor in(content);
     const std::uint16_t id = in.u16();
     if (opcode == Opcode::kSchema) {
-      Schema& schema = file_.schemas[id];
-      schema.name = in.text();
-      schema.encoding = in.text();
-      schema.data = in.text();
+      const Schema schema{in.text(), in.text(), in.text()};
+      declare(file_.schemas, id, schema, content, start);
     } else if (opcode == Opcode::kChannel) {
-      Channel& channel = file_.channels[id];
-      channel.schema = in.u16();
-      channel.topic = in.text();
-      channel.encoding = in.text();
+      const Channel channel{in.u16(), in.text(), in.text()};
       in.map();
+      if (!file_.schemas.contains(channel.schema))
+        return fail(start, "channel " + std::to_string(id) + " has a schema that nothing declares");
+      declare(file_.channels, id, channel, content, start);
     } else if (opcode == Opcode::kMessage) {
-      Message message;
-      message.channel = id;
-      message.sequence = in.u32();
-      message.time_ns = in.u64();
-      in.u64();
-      message.offset = start;
-      message.data = in.take(content.size() - in.at());
-      if (in.good()) file_.messages.push_back(message);
+      message(in,
+              {.channel = id,
+               .sequence = in.u32(),
+               .time_ns = in.u64(),
+               .data = {},
+               .offset = start,
+               .part = part},
+              content);
     } else {
       return fail(start, "edited or damaged: a chunk holds a record that does not belong there");
     }
-    if (!in.good() || !in.at_end()) fail(start, "edited or damaged: a record's fields overrun it");
+    if (!in.good() || !in.at_end()) overrun(start);
+  }
+
+  void message(Cursor& in, Message message, std::string_view content) {
+    in.u64();
+    message.data = in.take(content.size() - in.at());
+    if (!in.good()) return;
+    if (!file_.channels.contains(message.channel)) {
+      return fail(message.offset, "a message of channel " + std::to_string(message.channel) +
+                                      ", which nothing declares");
+    }
+    ++file_.messages;
+    if (*on_message_) (*on_message_)(file_, message);
+  }
+
+  /// A declaration may come again, as in the summary, but no other one of that number.
+  template <class Declared>
+  void declare(std::map<std::uint16_t, Declared>& all, std::uint16_t id, const Declared& declared,
+               std::string_view content, std::uint64_t start) {
+    const auto found = all.find(id);
+    if (found == all.end()) {
+      // The same fields of a copy.
+      Cursor in(keep(content, start));
+      if (file_.flaw) return;
+      in.u16();
+      all[id] = read<Declared>(in);
+    } else if (!(found->second == declared)) {
+      fail(start, "number " + std::to_string(id) + " is declared twice, each time otherwise");
+    }
+  }
+  template <class Declared>
+  static Declared read(Cursor& in) {
+    if constexpr (std::is_same_v<Declared, Schema>)
+      return {in.text(), in.text(), in.text()};
+    else
+      return {in.u16(), in.text(), in.text()};
   }
 
   void chunk(Cursor& in, std::uint64_t start) {
@@ -175,24 +289,42 @@ class Parser {
       return fail(start, "a chunk is compressed by " + std::string(compression) +
                              ", and zstd alone is known here");
     }
+    if (size > kMostRecord) return fail(start, too_much("a chunk takes", size));
     if (!compression.empty()) {
       auto unpacked = mcap::unpacked(compression, records, size);
-      if (!unpacked) return fail(start, "edited or damaged: a compressed chunk cannot be unpacked");
-      records = file_.unpacked.emplace_back(std::move(*unpacked));
+      if (!unpacked) {
+        return fail(start, "edited or damaged: a compressed chunk is not the " +
+                               std::to_string(size) + " bytes that it says");
+      }
+      unpacked_ = std::move(*unpacked);
+      records = unpacked_;
     }
     if (size != records.size() || crc != crc32(records)) {
       return fail(start, "edited or damaged: a chunk's CRC does not match");
     }
-    const std::uint64_t base =
-        compression.empty() ? static_cast<std::uint64_t>(records.data() - bytes_.data()) : start;
     Cursor inner(records);
     while (!inner.at_end() && !file_.flaw) {
-      const std::uint64_t offset = base + (compression.empty() ? inner.at() : 0);
+      const std::uint64_t offset =
+          compression.empty() ? in_.at() - records.size() + inner.at() : start;
       const auto opcode = static_cast<Opcode>(inner.number<std::uint8_t>());
       const std::string_view content = inner.take(inner.u64());
       if (!inner.good())
         return fail(offset, "edited or damaged: a record is longer than its chunk");
-      inner_record(opcode, content, offset);
+      inner_record(opcode, content, offset, start);
+    }
+  }
+
+  /// Its whole records; a compressed one has none.
+  void truncated_chunk(std::string_view begun, std::uint64_t start) {
+    Cursor in(begun);
+    in.take(8 + 8 + 8 + 4);
+    if (!in.text().empty()) return;
+    in.u64();
+    while (in.good() && !in.at_end() && !file_.flaw) {
+      const std::uint64_t offset = start + kRecordHead + in.at();
+      const auto opcode = static_cast<Opcode>(in.number<std::uint8_t>());
+      const std::string_view content = in.take(in.u64());
+      if (in.good()) inner_record(opcode, content, offset, start);
     }
   }
 
@@ -210,6 +342,8 @@ class Parser {
     if (!in.good() || !in.at_end() || crc != crc32(content.substr(0, covered))) {
       return fail(start, "edited or damaged: an attachment's CRC does not match");
     }
+    found.media_type = keep(found.media_type, start);
+    found.data = keep(found.data, start);
     file_.attachments[name] = found;
   }
 
@@ -217,46 +351,57 @@ class Parser {
     const std::uint64_t summary_start = in.u64();
     in.u64();
     const std::uint32_t crc = in.u32();
-    if (!in.good() || !in.at_end() || !data_end_seen_ || summary_start != summary_start_) {
+    if (!in.good() || !in.at_end() || !file_.data_whole || summary_start != summary_start_) {
       return fail(start, "edited or damaged: the footer does not point at the summary");
     }
-    const std::uint64_t covered = start + kRecordHead + content.size() - 4 - summary_start;
-    if (crc != crc32(bytes_.substr(summary_start, covered))) {
+    if (crc != crc32(content.substr(0, content.size() - 4), crc32(head_, crc_))) {
       return fail(start, "edited or damaged: the CRC of the summary does not match");
     }
     footer_seen_ = true;
   }
 
   void check_ending() {
-    const std::string_view rest = bytes_.substr(at_);
+    const std::uint64_t at = in_.at();
+    std::string rest;
+    in_.take(kMagic.size() + 1, rest);
     if (rest == kMagic) return;
     const bool cut = kMagic.starts_with(rest);
-    fail(at_, cut ? "the file ends inside its last 8 bytes" : "bytes follow the footer", cut);
+    fail(at, cut ? "the file ends inside its last 8 bytes" : "bytes follow the footer", cut);
   }
 
-  /// Number of messages in an incomplete chunk, including the one that is cut.
-  static std::uint64_t count_lost(std::string_view begun) {
-    Cursor in(begun);
-    in.take(8 + 8 + 8 + 4);
-    if (!in.text().empty()) return 0;  // compressed: unknown
-    in.u64();
-    std::uint64_t messages = 0;
-    while (in.good() && !in.at_end()) {
-      const auto opcode = static_cast<Opcode>(in.number<std::uint8_t>());
-      in.take(in.u64());
-      if (opcode == Opcode::kMessage) ++messages;
-    }
-    return messages;
+  static std::string too_much(const std::string& what, std::uint64_t bytes) {
+    return what + " " + std::to_string(bytes) + " bytes, and the most is " +
+           std::to_string(kMostRecord);
   }
 
-  std::string_view bytes_;
-  std::uint64_t at_ = 0;
-  std::uint64_t summary_start_ = 0;
-  bool ended_ = false, data_end_seen_ = false, footer_seen_ = false;
+  Source in_;
   File file_;
+  const OnMessage* on_message_ = nullptr;
+  std::string head_, content_, unpacked_;
+  std::uint64_t kept_bytes_ = 0, summary_start_ = 0;
+  std::uint32_t crc_ = 0;  ///< of the data section, then of the summary
+  bool ended_ = false, footer_seen_ = false;
 };
 
-}  // namespace
+Reader::Reader(std::unique_ptr<std::istream> in) : parser_(new Parser(std::move(in))) {}
+Reader::~Reader() = default;
+Reader::Reader(Reader&&) noexcept = default;
+
+const File& Reader::read(const OnMessage& on_message) {
+  return parser_->run(on_message);
+}
+
+void Reader::read_part(std::uint64_t part, const OnMessage& on_message) {
+  parser_->run_part(part, on_message);
+}
+
+const File& Reader::file() const {
+  return parser_->file();
+}
+
+File Reader::take() && {
+  return std::move(*parser_).take();
+}
 
 const Channel* File::find_channel(std::string_view topic, std::uint16_t& id) const {
   for (const auto& [key, channel] : channels) {
@@ -265,10 +410,6 @@ const Channel* File::find_channel(std::string_view topic, std::uint16_t& id) con
     return &channel;
   }
   return nullptr;
-}
-
-File parse(std::string_view bytes) {
-  return Parser(bytes).run();
 }
 
 }  // namespace verp::record::mcap

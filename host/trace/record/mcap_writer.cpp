@@ -18,6 +18,8 @@
 namespace verp::record::mcap {
 
 namespace {
+constexpr std::size_t kMessageRoom = 1u << 20;  // for declarations in its chunk
+
 /// Locked for writer_of(); the lock ends with the process.
 std::FILE* open_locked(const std::filesystem::path& path, std::filesystem::path& part) {
   const int descriptor = files::open_part(path, part);
@@ -133,6 +135,11 @@ void Writer::add_message(std::uint16_t channel, std::uint64_t time_ns, std::stri
   OpenChannel& to = channels_.at(channel);
   if (listener_ != nullptr) listener_->message(channel, time_ns, data);
   if (file_ == nullptr) return;
+  if (data.size() > kMostRecord - kMessageRoom) {
+    throw TraceError(part_, position_, "a message of " + std::to_string(data.size()) + " bytes",
+                     "64 MB is the most: record smaller pictures");
+  }
+  if (!chunk_.empty() && chunk_.size() + data.size() > kMostRecord - kMessageRoom) end_chunk();
   if (!to.announced) {
     const std::size_t schema = to.schema - 1u;
     if (!schema_announced_.at(schema)) chunk_ += schemas_[schema];

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "common/control/step.hpp"
+#include "host/trace/record/trace_parts.hpp"
 
 namespace verp::record {
 namespace {
@@ -57,11 +59,11 @@ void place(Divergence& divergence, const Trace& trace, std::size_t index) {
 class Reference {
  public:
   explicit Reference(const Trace& trace) : trace_(trace), state_(trace.start()) {}
-  void advance(std::size_t index) {
+  void advance(const TickRecord& record) {
     if (!valid_) return;
     Outputs outputs;
-    step(trace_.params, actions_, state_, trace_.ticks[index].inputs, outputs);
-    valid_ = !compare_digests(trace_.ticks[index].digest, state_.digest);
+    step(trace_.params, actions_, state_, record.inputs, outputs);
+    valid_ = !compare_digests(record.digest, state_.digest);
   }
   bool valid() const { return valid_; }
   const State& state() const { return state_; }
@@ -73,49 +75,82 @@ class Reference {
   bool valid_ = true;
 };
 
-/// Names fields from the first State kept at or after the divergence; replays up to it.
-void name_from_keyframe(Divergence& divergence, const Trace& trace, const Params& params,
-                        const StepFunction& core, State state) {
-  const Keyframe* keyframe = keyframe_from(trace, divergence.index);
-  if (keyframe == nullptr) return;
-  for (std::size_t i = divergence.index + 1; i <= keyframe->index; ++i) {
-    Outputs outputs;
-    core(params, state, trace.ticks[i].inputs, outputs);
+/// Tick by tick. Without a reference, fields are named from the first State kept at or after the
+/// divergence.
+class Replay {
+ public:
+  Replay(const Trace& head, const Params* other, const StepFunction& core)
+      : params_(other != nullptr ? *other : head.params),
+        actions_(head.library()),
+        core_(core),
+        foreign_(other != nullptr || core),
+        state_(head.start()),
+        reference_(head) {
+    result_.recorded_digest = head.start().digest.chain;
   }
-  divergence.fields = diff_states(keyframe->state, state);
-  divergence.fields_tick = trace.ticks[keyframe->index].inputs.tick;
-}
+
+  void tick(const TickRecord& record) {
+    Outputs outputs;
+    if (core_) {
+      core_(params_, state_, record.inputs, outputs);
+    } else {
+      step(params_, actions_, state_, record.inputs, outputs);
+    }
+    const std::size_t index = result_.ticks++;
+    tick_ = record.inputs.tick;
+    result_.recorded_digest = record.digest.chain;
+    if (result_.divergence) return;
+    if (foreign_) reference_.advance(record);
+    result_.divergence = compare_digests(record.digest, state_.digest);
+    if (!result_.divergence) return;
+    result_.divergence->index = index;
+    result_.divergence->tick = result_.divergence->fields_tick = tick_;
+    is_named_ = foreign_ && reference_.valid();
+    if (is_named_) result_.divergence->fields = diff_states(reference_.state(), state_);
+  }
+  void keyframe(const State& kept) {
+    if (!result_.divergence || std::exchange(is_named_, true)) return;
+    result_.divergence->fields = diff_states(kept, state_);
+    result_.divergence->fields_tick = tick_;
+  }
+  ReplayResult result() {
+    result_.replayed_digest = state_.digest.chain;
+    return result_;
+  }
+
+ private:
+  const Params& params_;
+  const action::Library actions_;
+  const StepFunction& core_;
+  const bool foreign_;
+  State state_;
+  Reference reference_;
+  ReplayResult result_;
+  std::uint32_t tick_ = 0;
+  bool is_named_ = false;  ///< of the divergence
+};
 
 }  // namespace
 
 ReplayResult replay(const Trace& trace, const Params* other, const StepFunction& core) {
-  const action::Library actions = trace.library();
-  const StepFunction own = [&](const Params& params, State& state, const Inputs& inputs,
-                               Outputs& outputs) { step(params, actions, state, inputs, outputs); };
-  const StepFunction& run = core ? core : own;
-  const Params& params = other != nullptr ? *other : trace.params;
-  const bool foreign = other != nullptr || core;
-  ReplayResult result;
-  result.ticks = trace.ticks.size();
-  result.recorded_digest = trace.digest();
-  State state = trace.start();
-  Reference reference(trace);
+  Replay replay(trace, other, core);
+  std::size_t kept = 0;
   for (std::size_t i = 0; i < trace.ticks.size(); ++i) {
-    Outputs outputs;
-    run(params, state, trace.ticks[i].inputs, outputs);
-    if (result.divergence) continue;
-    if (foreign) reference.advance(i);
-    result.divergence = compare_digests(trace.ticks[i].digest, state.digest);
-    if (!result.divergence) continue;
-    place(*result.divergence, trace, i);
-    if (foreign && reference.valid()) {
-      result.divergence->fields = diff_states(reference.state(), state);
-    } else {
-      name_from_keyframe(*result.divergence, trace, params, run, state);
-    }
+    replay.tick(trace.ticks[i]);
+    for (; kept < trace.keyframes.size() && trace.keyframes[kept].index == i; ++kept)
+      replay.keyframe(trace.keyframes[kept].state);
   }
-  result.replayed_digest = state.digest.chain;
-  return result;
+  return replay.result();
+}
+
+ReplayResult replay(TraceFile& trace, const StepFunction& core) {
+  Replay replay(trace.head(), nullptr, core);
+  trace.read({.tick = [&](const TickRecord& record) { replay.tick(record); },
+              .keyframe = [&](const State& state) { replay.keyframe(state); },
+              .change = {},
+              .body = {},
+              .objects = {}});
+  return replay.result();
 }
 
 namespace {
@@ -173,8 +208,8 @@ std::optional<Divergence> diff(const Trace& left, const Trace& right) {
       found.stage = "inputs";
       return found;
     }
-    left_run.advance(i);
-    right_run.advance(i);
+    left_run.advance(a);
+    right_run.advance(b);
     if (auto digests = compare_digests(a.digest, b.digest)) {
       place(*digests, left, i);
       name_from_both(*digests, left, right, left_run, right_run);

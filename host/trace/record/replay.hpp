@@ -12,6 +12,8 @@ namespace verp::record {
 
 using StepFunction = std::function<void(const Params&, State&, const Inputs&, Outputs&)>;
 
+class TraceFile;
+
 /// First tick and field whose bits differ.
 struct Divergence {
   std::size_t index = 0;   ///< into Trace::ticks
@@ -40,6 +42,8 @@ struct ReplayResult {
 /// The trace's own robot runs along to name the field.
 ReplayResult replay(const Trace& trace, const Params* other = nullptr,
                     const StepFunction& core = nullptr);
+/// Holds one chunk of the trace.
+ReplayResult replay(TraceFile& trace, const StepFunction& core = nullptr);
 
 /// Robots, inputs by field, then stages. A prefix of the other trace: stage "length".
 std::optional<Divergence> diff(const Trace& left, const Trace& right);

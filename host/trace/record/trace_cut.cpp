@@ -14,33 +14,72 @@ namespace {
 constexpr std::uint64_t kCutChunkTicks = 125;
 constexpr std::string_view kStaticTopic = "/tf_static";  ///< camera poses of the whole run
 
+/// The range, the State to begin from, and the ticks' numbers.
+class CutPlan {
+ public:
+  CutPlan(TraceFile& file, std::optional<double> from_s, std::optional<double> to_s)
+      : finder_(file.head(), from_s, to_s), before_(file.head().before) {
+    file.read({.tick = [&](const TickRecord& record) { tick(record.inputs.tick); },
+               .keyframe = [&](const State& state) { keyframe(state); },
+               .change = {},
+               .body = {},
+               .objects = {}});
+    ticks_ = finder_.range();
+    ticks_.first = first_;
+  }
+
+  const std::optional<State>& before() const { return before_; }
+  TickRange ticks() const { return ticks_; }
+  Cut cut(double period_s) const {
+    return {.ticks = ticks_.last - ticks_.first + 1,
+            .first_tick = first_tick_,
+            .last_tick = last_tick_,
+            .first_s = first_tick_ * period_s,
+            .last_s = last_tick_ * period_s,
+            .from_state = first_ > 0};
+  }
+
+ private:
+  void tick(std::uint32_t tick) {
+    if (count_++ == first_) first_tick_ = tick;
+    finder_.add(tick);
+    if (finder_.is_in()) last_tick_ = tick;
+  }
+  void keyframe(const State& state) {
+    if (finder_.has_begun()) return;
+    before_ = state;
+    first_ = count_;
+  }
+
+  TickRangeFinder finder_;
+  std::optional<State> before_;
+  TickRange ticks_;
+  std::size_t count_ = 0, first_ = 0;
+  std::uint32_t first_tick_ = 0, last_tick_ = 0;
+};
+
 class Copy {
  public:
-  Copy(const Trace& trace, const mcap::File& from, TickRange ticks, mcap::Writer& to)
+  Copy(const mcap::File& from, TickRange ticks, const Cut& cut, std::uint32_t period_us,
+       mcap::Writer& to)
       : from_(from),
         to_(to),
         ticks_(ticks),
-        first_ns_(time_ns(trace, ticks.first)),
-        last_ns_(time_ns(trace, ticks.last)) {
+        first_ns_(std::uint64_t{cut.first_tick} * period_us * 1000),
+        last_ns_(std::uint64_t{cut.last_tick} * period_us * 1000) {
     from_.find_channel(kTickTopic, tick_);
     add_channels();
   }
 
-  void messages() {
-    for (const mcap::Message& message : from_.messages) {
-      if (message.channel == tick_) count_tick();
-      if (!is_wanted(message)) continue;
-      // Messages before the first tick belong to the whole run.
-      to_.add_message(channels_.at(message.channel), std::max(message.time_ns, first_ns_),
-                      message.data);
-    }
+  void operator()(const mcap::Message& message) {
+    if (message.channel == tick_) count_tick();
+    if (!is_wanted(message)) return;
+    // Messages before the first tick belong to the whole run.
+    to_.add_message(channels_.at(message.channel), std::max(message.time_ns, first_ns_),
+                    message.data);
   }
 
  private:
-  static std::uint64_t time_ns(const Trace& trace, std::size_t index) {
-    return std::uint64_t{trace.ticks[index].inputs.tick} * trace.params.period_us * 1000;
-  }
-
   void add_channels() {
     std::map<std::uint16_t, std::uint16_t> schemas;
     for (const auto& [id, channel] : from_.channels) {
@@ -76,15 +115,15 @@ class Copy {
   std::size_t seen_ = 0;  ///< ticks read so far
 };
 
-void add_heads(const Trace& trace, const mcap::File& from, const Cut& cut,
-               const std::optional<State>& before, mcap::Writer& to) {
-  mcap::StringMap metadata = trace.metadata;
-  metadata["cut_from"] = trace.file.string();
+void add_heads(const TraceFile& trace, const Cut& cut, const std::optional<State>& before,
+               mcap::Writer& to) {
+  mcap::StringMap metadata = trace.head().metadata;
+  metadata["cut_from"] = trace.head().file.string();
   metadata["cut"] = fmt::format("ticks {} to {}, {:.3f} s to {:.3f} s", cut.first_tick,
                                 cut.last_tick, cut.first_s, cut.last_s);
   to.add_metadata(kMetadataName, metadata);
   // "result" describes the whole run, so it is left out.
-  for (const auto& [name, attachment] : from.attachments) {
+  for (const auto& [name, attachment] : trace.file().attachments) {
     if (name == kStateAttachment || name == kStateLayoutAttachment) continue;
     to.add_attachment(name, attachment.media_type, attachment.data);
   }
@@ -96,29 +135,14 @@ void add_heads(const Trace& trace, const mcap::File& from, const Cut& cut,
 Cut cut_trace(const std::filesystem::path& file, std::optional<double> from_s,
               std::optional<double> to_s, const std::filesystem::path& output,
               mcap::Compression compression) {
-  const std::string bytes = read_trace_bytes(file);
-  const mcap::File from = mcap::parse(bytes);
-  const Trace trace = trace_of(file, from, Read::kStrict);
-  TickRange ticks = ticks_between(trace, from_s, to_s);
-  std::optional<State> before = trace.before;
-  const auto kept = std::lower_bound(
-      trace.keyframes.begin(), trace.keyframes.end(), ticks.first,
-      [](const Keyframe& keyframe, std::size_t index) { return keyframe.index < index; });
-  const bool from_state = kept != trace.keyframes.begin();
-  ticks.first = from_state ? std::prev(kept)->index + 1 : 0;
-  if (from_state) before = std::prev(kept)->state;
-
-  const auto tick = [&](std::size_t index) { return trace.ticks[index].inputs.tick; };
-  const Cut cut{.ticks = ticks.last - ticks.first + 1,
-                .first_tick = tick(ticks.first),
-                .last_tick = tick(ticks.last),
-                .first_s = tick(ticks.first) * trace.period_s(),
-                .last_s = tick(ticks.last) * trace.period_s(),
-                .from_state = from_state};
-  mcap::Writer writer(output, from.profile, "verp", compression);
+  TraceFile trace(file, Read::kStrict);
+  const CutPlan plan(trace, from_s, to_s);
+  const Cut cut = plan.cut(trace.head().period_s());
+  mcap::Writer writer(output, trace.file().profile, "verp", compression);
   try {
-    add_heads(trace, from, cut, before, writer);
-    Copy(trace, from, ticks, writer).messages();
+    add_heads(trace, cut, plan.before(), writer);
+    Copy copy(trace.file(), plan.ticks(), cut, trace.head().params.period_us, writer);
+    trace.read([&](const mcap::File&, const mcap::Message& message) { copy(message); });
     writer.close();
   } catch (const TraceError&) {
     writer.discard();

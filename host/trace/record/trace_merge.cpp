@@ -1,8 +1,8 @@
 #include "host/trace/record/trace_merge.hpp"
 
-#include <algorithm>
 #include <memory>
 
+#include "host/trace/record/in_order.hpp"
 #include "host/trace/record/team_channel.hpp"
 #include "host/trace/record/trace_parts.hpp"
 
@@ -14,12 +14,12 @@ constexpr std::size_t kChunkMessages = 2000;
 class Source {
  public:
   explicit Source(const NamedTrace& named)
-      : named_(named), bytes_(read_trace_bytes(named.file)), file_(mcap::parse(bytes_)) {
+      : named_(named), reader_(open_mcap(named.file)), file_(reader_.read()) {
     refuse_flaw(named.file, file_);
     refuse_no_trace(named.file, file_);
   }
 
-  const mcap::File& file() const { return file_; }
+  InOrder::Source in_order() { return {named_.file, &reader_}; }
   bool has_objects() const {
     std::uint16_t id = 0;
     return file_.find_channel(kObjectsTopic, id) != nullptr;
@@ -61,8 +61,8 @@ class Source {
 
  private:
   const NamedTrace named_;
-  const std::string bytes_;
-  const mcap::File file_;
+  mcap::Reader reader_;
+  const mcap::File& file_;
   struct Channel {
     Channel(std::string_view robot, std::string_view topic, const mcap::Schema& schema)
         : team(robot, topic, schema) {}
@@ -71,24 +71,6 @@ class Source {
   };
   std::map<std::uint16_t, Channel> channels_;
 };
-
-struct Place {
-  const Source* source;
-  const mcap::Message* message;
-};
-
-std::vector<Place> in_order(const std::vector<std::unique_ptr<Source>>& sources) {
-  std::vector<Place> all;
-  for (const auto& source : sources) {
-    for (const mcap::Message& message : source->file().messages) {
-      all.push_back({source.get(), &message});
-    }
-  }
-  std::stable_sort(all.begin(), all.end(), [](const Place& a, const Place& b) {
-    return a.message->time_ns < b.message->time_ns;
-  });
-  return all;
-}
 
 }  // namespace
 
@@ -105,8 +87,11 @@ std::size_t merge_traces(const std::vector<NamedTrace>& traces, const std::files
       source->add_to(writer, common, objects);
       objects = objects && !source->has_objects();
     }
-    for (const Place& each : in_order(sources)) {
-      if (!each.source->write(*each.message, writer)) continue;
+    std::vector<InOrder::Source> files;
+    for (const auto& source : sources) files.push_back(source->in_order());
+    InOrder messages(files);
+    while (const auto next = messages.next()) {
+      if (!sources[next->source]->write(next->message, writer)) continue;
       if (++count % kChunkMessages == 0) writer.flush();
     }
     writer.close();

@@ -1,7 +1,8 @@
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <iterator>
+#include <memory>
 #include <type_traits>
 
 #include "common/model/image.hpp"
@@ -16,6 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What a Trace may take in memory: an hour of a walk takes a twentieth.
+constexpr std::size_t kMostHeld = std::size_t{2} << 30;
+
 template <class T>
 const std::string& layout_of(const char* name) {
   static const std::string text = describe_layout<T>(name);  // once: 30 kB for Params
@@ -27,10 +31,10 @@ std::string writer_of(const mcap::StringMap& metadata) {
   return revision == metadata.end() ? "another revision" : "revision " + revision->second;
 }
 
-/// Builds a Trace from a parsed file; every error names a byte.
-class Loader {
+/// Makes a Trace's head of a file; every error names a byte.
+class Head {
  public:
-  Loader(const fs::path& path, const mcap::File& file) : path_(path), file_(file) {
+  Head(const fs::path& path, const mcap::File& file) : path_(path), file_(file) {
     trace_.file = path;
   }
 
@@ -39,20 +43,7 @@ class Loader {
     load_params();
     load_actions();
     load_state();
-    std::uint16_t tick_id = 0, state_id = 0;
-    const bool keyframes = find_channels(tick_id, state_id);
-    std::uint16_t changed_id = 0, tf_id = 0;
-    const bool changed = file_.find_channel(kChangedTopic, changed_id) != nullptr;
-    const bool bodies = file_.find_channel("/tf", tf_id) != nullptr;
-    std::uint16_t objects_id = 0;
-    const bool objects = file_.find_channel(kObjectsTopic, objects_id) != nullptr;
-    for (const mcap::Message& message : file_.messages) {
-      if (objects && message.channel == objects_id) add_objects(message);
-      if (message.channel == tick_id) add_tick(message);
-      if (changed && message.channel == changed_id) add_change(message);
-      if (bodies && message.channel == tf_id) add_body(message);
-      if (keyframes && message.channel == state_id) add_keyframe(message);
-    }
+    check_ticks();
     return std::move(trace_);
   }
 
@@ -125,69 +116,15 @@ class Loader {
     std::memcpy(&trace_.before.emplace(), found->second.data.data(), sizeof(State));
   }
 
-  /// Returns whether State has our layout; TickRecord must.
-  bool find_channels(std::uint16_t& tick_id, std::uint16_t& state_id) const {
-    const mcap::Channel* tick = file_.find_channel(kTickTopic, tick_id);
-    if (tick == nullptr) {
-      if (file_.flaw && file_.messages.empty()) {
-        tick_id = state_id = 0xFFFF;
-        return false;
-      }
+  void check_ticks() const {
+    std::uint16_t id = 0;
+    const mcap::Channel* tick = file_.find_channel(kTickTopic, id);
+    if (tick == nullptr)
       refuse(0, std::string("has no channel ") + kTickTopic, "give a file written by verp");
-    }
-    const auto schema = file_.schemas.find(tick->schema);
-    if (schema == file_.schemas.end() ||
-        schema->second.data != layout_of<TickRecord>("TickRecord")) {
+    if (file_.schemas.at(tick->schema).data != layout_of<TickRecord>("TickRecord")) {
       refuse(0, "ticks with other fields than this verp's Inputs",
              "read it with verp of " + writer_of(trace_.metadata));
     }
-    const mcap::Channel* state = file_.find_channel(kStateTopic, state_id);
-    if (state == nullptr) return false;
-    const auto state_schema = file_.schemas.find(state->schema);
-    return state_schema != file_.schemas.end() &&
-           state_schema->second.data == layout_of<State>("State");
-  }
-
-  void add_tick(const mcap::Message& message) {
-    if (message.data.size() != sizeof(TickRecord)) {
-      refuse(message.offset,
-             fmt::format("a tick of {} bytes, not {}", message.data.size(), sizeof(TickRecord)),
-             "record the run again");
-    }
-    if (message.sequence != trace_.ticks.size()) {
-      refuse(message.offset, fmt::format("tick number {} is missing", trace_.ticks.size()),
-             "record the run again");
-    }
-    std::memcpy(&trace_.ticks.emplace_back(), message.data.data(), sizeof(TickRecord));
-  }
-
-  void add_keyframe(const mcap::Message& message) {
-    if (message.data.size() != sizeof(State) || trace_.ticks.empty()) {
-      refuse(message.offset, "a State that belongs to no tick", "record the run again");
-    }
-    Keyframe& keyframe = trace_.keyframes.emplace_back();
-    keyframe.index = trace_.ticks.size() - 1;
-    std::memcpy(&keyframe.state, message.data.data(), sizeof(State));
-  }
-
-  void add_change(const mcap::Message& message) {
-    const auto what = ros::read_string(message.data);
-    if (!what || trace_.ticks.empty()) {
-      refuse(message.offset, "a change that belongs to no tick", "record the run again");
-    }
-    trace_.changes.push_back({trace_.ticks.back().inputs.tick, *what});
-  }
-
-  /// Replay never reads poses: invalid ones are ignored.
-  void add_body(const mcap::Message& message) {
-    const std::optional<ros::BodyPose> pose = ros::body_pose(message.data);
-    if (pose && !trace_.ticks.empty()) trace_.bodies.push_back({trace_.ticks.size() - 1, *pose});
-  }
-
-  void add_objects(const mcap::Message& message) {
-    std::vector<ros::ObjectPose> objects = ros::read_objects(message.data);
-    if (!objects.empty() && !trace_.ticks.empty())
-      trace_.objects.push_back({trace_.ticks.size() - 1, std::move(objects)});
   }
 
   const fs::path& path_;
@@ -195,34 +132,98 @@ class Loader {
   Trace trace_;
 };
 
-std::string lost_text(const mcap::File& file) {
-  std::uint16_t id = 0;
-  std::uint64_t ticks = 0;
-  if (file.find_channel(kTickTopic, id) != nullptr) {
-    for (const mcap::Message& message : file.messages) ticks += message.channel == id;
+/// Gives a trace's messages as what they are.
+class Pass {
+ public:
+  Pass(const fs::path& path, const mcap::File& file, const TraceRecords& to)
+      : path_(path), to_(to) {
+    for (const auto& [id, channel] : file.channels) {
+      if (channel.topic == kTickTopic) what_[id] = &Pass::tick;
+      if (channel.topic == kStateTopic && to.keyframe &&
+          file.schemas.at(channel.schema).data == layout_of<State>("State"))
+        what_[id] = &Pass::keyframe;
+      if (channel.topic == kChangedTopic && to.change) what_[id] = &Pass::change;
+      if (channel.topic == "/tf" && to.body) what_[id] = &Pass::body;
+      if (channel.topic == kObjectsTopic && to.objects) what_[id] = &Pass::objects;
+    }
   }
-  std::string text = fmt::format("{} ticks before it are whole", ticks);
+
+  void operator()(const mcap::Message& message) {
+    const auto found = what_.find(message.channel);
+    if (found != what_.end()) (this->*found->second)(message);
+  }
+
+ private:
+  [[noreturn]] void refuse(const mcap::Message& message, const std::string& problem) const {
+    throw TraceError(path_, message.offset, problem, "record the run again");
+  }
+
+  void tick(const mcap::Message& message) {
+    if (message.data.size() != sizeof(TickRecord)) {
+      refuse(message,
+             fmt::format("a tick of {} bytes, not {}", message.data.size(), sizeof(TickRecord)));
+    }
+    if (message.sequence != ticks_)
+      refuse(message, fmt::format("tick number {} is missing", ticks_));
+    ++ticks_;
+    if (!to_.tick) return;
+    TickRecord record;
+    std::memcpy(&record, message.data.data(), sizeof record);
+    to_.tick(record);
+  }
+
+  void keyframe(const mcap::Message& message) {
+    if (message.data.size() != sizeof(State) || ticks_ == 0)
+      refuse(message, "a State that belongs to no tick");
+    State state;
+    std::memcpy(&state, message.data.data(), sizeof state);
+    to_.keyframe(state);
+  }
+
+  void change(const mcap::Message& message) {
+    const auto what = ros::read_string(message.data);
+    if (!what || ticks_ == 0) refuse(message, "a change that belongs to no tick");
+    to_.change(*what);
+  }
+
+  /// Replay never reads poses: invalid ones are ignored.
+  void body(const mcap::Message& message) {
+    const std::optional<ros::BodyPose> pose = ros::body_pose(message.data);
+    if (pose && ticks_ > 0) to_.body(*pose);
+  }
+
+  void objects(const mcap::Message& message) {
+    std::vector<ros::ObjectPose> objects = ros::read_objects(message.data);
+    if (!objects.empty() && ticks_ > 0) to_.objects(std::move(objects));
+  }
+
+  const fs::path& path_;
+  const TraceRecords& to_;
+  std::map<std::uint16_t, void (Pass::*)(const mcap::Message&)> what_;
+  std::size_t ticks_ = 0;
+};
+
+std::string lost_text(const mcap::File& file, std::size_t ticks) {
+  const std::string text = fmt::format("{} ticks before it are whole", ticks);
+  if (file.data_whole) return text + ", and all messages are";
   if (!file.flaw->truncated) return text;
-  const std::uint64_t share = ticks == 0 ? 1 : (file.messages.size() + ticks - 1) / ticks;
-  const std::uint64_t lost = (file.flaw->lost_messages + share - 1) / share;
-  return text +
-         (lost > 0 ? fmt::format(", about {} more are lost", lost) : ", later ones are lost");
+  return text + (file.flaw->in_chunk ? ", later ones are lost" : ", later ones, if any, are lost");
 }
 
 }  // namespace
 
-std::string read_trace_bytes(const fs::path& file) {
+mcap::Reader open_mcap(const fs::path& file) {
   std::error_code error;
   if (fs::is_directory(file, error))
     throw TraceError(file, "is a folder", "name the .mcap file in it");
   if (fs::exists(file, error) && !fs::is_regular_file(file, error))
     throw TraceError(file, "is not a regular file", "name a .mcap file");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
+  auto in = std::make_unique<std::ifstream>(file, std::ios::binary);
+  if (!*in) {
     throw TraceError(file, "no such file, or it cannot be opened",
                      "check the path; `verp walk --record F.mcap` writes a trace");
   }
-  return {std::istreambuf_iterator<char>(in), {}};
+  return mcap::Reader(std::move(in));
 }
 
 void refuse_no_trace(const fs::path& path, const mcap::File& file) {
@@ -251,46 +252,93 @@ std::string core_of(const Trace& trace) {
   return "";
 }
 
-Trace read_trace(const fs::path& path, Read mode) {
-  const std::string bytes = read_trace_bytes(path);
-  return trace_of(path, mcap::parse(bytes), mode);
-}
-
-Trace trace_of(const fs::path& path, const mcap::File& file, Read mode) {
+TraceFile::TraceFile(const fs::path& path, Read mode) : reader_(open_mcap(path)) {
+  const mcap::File& file =
+      reader_.read([&](const mcap::File& so_far, const mcap::Message& message) {
+        ticks_ += so_far.channels.at(message.channel).topic == kTickTopic ? 1 : 0;
+      });
   std::uint16_t id = 0;
   const bool salvage = !file.attachments.empty() && file.find_channel(kTickTopic, id) != nullptr;
   if (file.flaw && (mode == Read::kStrict || !salvage)) {
     throw TraceError(path, file.flaw->offset,
-                     file.flaw->what + (salvage ? " (" + lost_text(file) + ")" : ""),
+                     file.flaw->what + (salvage ? " (" + lost_text(file, ticks_) + ")" : ""),
                      salvage ? "`verp trace recover` keeps those, or take an intact copy"
                              : "take an intact copy or record the run again");
   }
-  Trace trace = Loader(path, file).load();
+  head_ = Head(path, file).load();
   if (file.flaw) {
-    trace.warning = fmt::format("{}: byte {}: {}; {}", path.string(), file.flaw->offset,
-                                file.flaw->what, lost_text(file));
+    head_.warning = fmt::format("{}: byte {}: {}; {}", path.string(), file.flaw->offset,
+                                file.flaw->what, lost_text(file, ticks_));
   }
+}
+
+void TraceFile::read(const mcap::OnMessage& on_message) {
+  const std::uint64_t messages = file().messages;
+  if (reader_.read(on_message).messages == messages) return;
+  throw TraceError(head_.file, "another program changes it", "wait until it is written");
+}
+
+void TraceFile::read(const TraceRecords& to) {
+  Pass pass(head_.file, file(), to);
+  read([&](const mcap::File&, const mcap::Message& message) { pass(message); });
+}
+
+Trace read_trace(const fs::path& path, Read mode) {
+  TraceFile file(path, mode);
+  Trace trace = file.head();
+  const auto last = [&] { return trace.ticks.size() - 1; };
+  std::size_t left = kMostHeld;
+  const auto hold = [&](std::size_t bytes) {
+    if (bytes > left) {
+      throw TraceError(
+          path, fmt::format("takes more than the {} bytes of memory that this may", kMostHeld),
+          "cut it first: `verp trace cut`");
+    }
+    left -= bytes;
+  };
+  hold(std::min(file.ticks(), kMostHeld) * sizeof(TickRecord));
+  trace.ticks.reserve(file.ticks());
+  file.read({.tick = [&](const TickRecord& tick) { trace.ticks.push_back(tick); },
+             .keyframe =
+                 [&](const State& state) {
+                   hold(sizeof(Keyframe));
+                   trace.keyframes.push_back({last(), state});
+                 },
+             .change =
+                 [&](const std::string& what) {
+                   hold(sizeof(Change) + what.size());
+                   trace.changes.push_back({trace.ticks.back().inputs.tick, what});
+                 },
+             .body =
+                 [&](const ros::BodyPose& pose) {
+                   hold(sizeof(BodyAt));
+                   trace.bodies.push_back({last(), pose});
+                 },
+             .objects =
+                 [&](std::vector<ros::ObjectPose> objects) {
+                   hold(sizeof(ObjectsAt) + objects.size() * sizeof(ros::ObjectPose));
+                   trace.objects.push_back({last(), std::move(objects)});
+                 }});
   return trace;
 }
 
 std::size_t for_each_picture(const fs::path& path,
                              const std::function<void(const RecordedPicture&)>& show) {
-  const std::string bytes = read_trace_bytes(path);
-  const mcap::File file = mcap::parse(bytes);
-  refuse_flaw(path, file);
+  mcap::Reader reader = open_mcap(path);
+  refuse_flaw(path, reader.read());
   std::size_t count = 0;
-  for (const mcap::Message& message : file.messages) {
+  reader.read([&](const mcap::File& file, const mcap::Message& message) {
     const mcap::Channel& channel = file.channels.at(message.channel);
     const std::string_view type = file.schemas.at(channel.schema).name;
     const bool compressed = type == ros::kCompressedImage.name;
-    if (!compressed && type != ros::kImage.name) continue;
+    if (!compressed && type != ros::kImage.name) return;
     auto picture = compressed ? ros::read_compressed(message.data) : ros::read_image(message.data);
     if (!picture) {
       throw TraceError(path, message.offset, "a picture that is none", "record the run again");
     }
     show({std::string(channel.topic), message.time_ns, std::move(*picture)});
     ++count;
-  }
+  });
   return count;
 }
 

@@ -10,9 +10,9 @@
 #include "host/show/camera/twin_camera.hpp"
 #include "host/show/render/files.hpp"
 #include "host/show/scene/build.hpp"
-#include "host/trace/record/mcap_reader.hpp"
 #include "host/trace/record/trace.hpp"
 #include "tests/host/tool/program.hpp"
+#include "tests/support/mcap_file.hpp"
 
 namespace verp::tool::test {
 namespace {
@@ -48,7 +48,7 @@ TEST_F(CameraRun, KeepsEachPictureAndChangesNoBitOfTheRun) {
               2);
 
   const std::string bytes = slurp(folder_ / "with.mcap");
-  const record::mcap::File file = record::mcap::parse(bytes);
+  const record::mcap::WholeFile file = record::mcap::parse(bytes);
   EXPECT_FALSE(file.flaw);
   std::map<std::string, std::size_t> messages;
   for (const auto& each : file.messages)

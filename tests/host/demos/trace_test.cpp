@@ -6,10 +6,10 @@
 #include <map>
 #include <sstream>
 
-#include "host/trace/record/mcap_reader.hpp"
 #include "host/trace/record/replay.hpp"
 #include "host/trace/record/ros_radio.hpp"
 #include "tests/host/demos/told.hpp"
+#include "tests/support/mcap_file.hpp"
 
 namespace verp::demos {
 namespace {
@@ -35,7 +35,7 @@ std::vector<Radio> radio_of(const fs::path& file) {
   std::ostringstream bytes;
   bytes << std::ifstream(file, std::ios::binary).rdbuf();
   const std::string text = bytes.str();
-  const record::mcap::File trace = record::mcap::parse(text);
+  const record::mcap::WholeFile trace = record::mcap::parse(text);
   std::uint16_t channel = 0;
   std::vector<Radio> out;
   if (trace.find_channel("/radio", channel) == nullptr) return out;

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "host/apps/libverp/verp.hpp"
-#include "host/trace/record/mcap_reader.hpp"
 #include "host/trace/record/ros_radio.hpp"
 #include "tests/host/libverp/expect_error.hpp"
 #include "tests/host/libverp/opened.hpp"
+#include "tests/support/mcap_file.hpp"
 
 namespace verp::abi::test {
 namespace {
@@ -42,7 +42,7 @@ std::map<std::string, int> kept(const std::string& file) {
   std::ostringstream bytes;
   bytes << std::ifstream(file, std::ios::binary).rdbuf();
   const std::string text = bytes.str();
-  const record::mcap::File trace = record::mcap::parse(text);
+  const record::mcap::WholeFile trace = record::mcap::parse(text);
   std::uint16_t channel = 0;
   std::map<std::string, int> events;
   if (trace.find_channel("/radio", channel) == nullptr) return events;

@@ -1,8 +1,8 @@
 #include <map>
 
 #include "host/trace/record/joint_speeds.hpp"
-#include "host/trace/record/mcap_reader.hpp"
 #include "tests/host/record/sample.hpp"
+#include "tests/support/mcap_file.hpp"
 
 namespace verp::record::test {
 namespace {
@@ -10,7 +10,7 @@ namespace {
 using Channels = TraceFolder;
 
 std::map<std::string, std::vector<std::string>> messages_of(const std::string& bytes) {
-  const mcap::File file = mcap::parse(bytes);
+  const mcap::WholeFile file = mcap::parse(bytes);
   EXPECT_FALSE(file.flaw);
   std::map<std::string, std::vector<std::string>> all;
   for (const mcap::Message& each : file.messages) {

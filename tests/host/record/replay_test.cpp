@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "host/trace/record/trace_parts.hpp"
 #include "tests/host/record/sample.hpp"
 
 namespace verp::record::test {
@@ -54,6 +55,24 @@ TEST(Replay, ChangedCoreIsNamedByTickStageAndField) {
   EXPECT_NE(line.find("tick 130 (1.300 s): stage balance"), std::string::npos) << line;
   EXPECT_NE(line.find("field tuning.gait.lift_m: recorded"), std::string::npos) << line;
   EXPECT_EQ(line.find('\n'), std::string::npos);
+}
+
+TEST_F(TraceFolder, ReplaysInTheRoomOfAChunkAsInMemory) {
+  const std::size_t kLift =
+      offsetof(State, tuning) + offsetof(Tuning, gait) + offsetof(GaitTuning, lift_m);
+  const fs::path file = folder_ / "run.mcap";
+  write_run(file, 300);
+  TraceFile streamed(file, Read::kStrict);
+  for (const StepFunction& core : {StepFunction(), planted(130, kLift)}) {
+    const ReplayResult a = replay(streamed, core), b = replay(read_trace(file), nullptr, core);
+    EXPECT_EQ(a.ticks, 300u);
+    EXPECT_EQ(a.recorded_digest, b.recorded_digest);
+    EXPECT_EQ(a.replayed_digest, b.replayed_digest);
+    ASSERT_EQ(a.divergence.has_value(), static_cast<bool>(core));
+    if (!core) continue;
+    EXPECT_EQ(text(*a.divergence, sample_params(), "a", "b"),
+              text(*b.divergence, sample_params(), "a", "b"));
+  }
 }
 
 TEST(Replay, ForeignTraceIsNamedFromTheNextKeptState) {

@@ -1,8 +1,8 @@
 #include "host/trace/record/trace_cut.hpp"
 
-#include "host/trace/record/mcap_reader.hpp"
 #include "host/trace/record/replay.hpp"
 #include "tests/host/record/sample.hpp"
+#include "tests/support/mcap_file.hpp"
 
 namespace verp::record::test {
 namespace {
@@ -59,7 +59,7 @@ TEST_F(TraceCut, KeepsEveryMessageOfItsTime) {
   }
   cut(1.3, 2.0);
   const std::string bytes = slurp(part_);
-  const mcap::File file = mcap::parse(bytes);
+  const mcap::WholeFile file = mcap::parse(bytes);
   ASSERT_FALSE(file.flaw) << file.flaw->what;
   std::map<std::string, int> messages;
   for (const mcap::Message& each : file.messages) {

@@ -1,8 +1,8 @@
 #include "host/trace/record/trace_merge.hpp"
 
-#include "host/trace/record/mcap_reader.hpp"
 #include "host/trace/record/ros_frames.hpp"
 #include "tests/host/record/sample.hpp"
+#include "tests/support/mcap_file.hpp"
 
 namespace verp::record::test {
 namespace {
@@ -34,7 +34,7 @@ class TraceMerge : public TraceFolder {
 TEST_F(TraceMerge, KnowsEveryTypeOfMessageByItsDefinition) {
   write("a.mcap", 40);
   const std::string bytes = slurp(folder_ / "a.mcap");
-  const mcap::File file = mcap::parse(bytes);
+  const mcap::WholeFile file = mcap::parse(bytes);
   std::map<std::string, int> types;
   for (const mcap::Message& each : file.messages) {
     const mcap::Schema& schema = file.schemas.at(file.channels.at(each.channel).schema);
@@ -56,7 +56,7 @@ TEST_F(TraceMerge, RobotsAreToldApartByTopicAndFrame) {
   const std::size_t count =
       merge_traces({{"lead", folder_ / "a.mcap"}, {"b", folder_ / "b.mcap"}}, both);
   const std::string bytes = slurp(both);
-  const mcap::File file = mcap::parse(bytes);
+  const mcap::WholeFile file = mcap::parse(bytes);
   ASSERT_FALSE(file.flaw) << file.flaw->what;
   EXPECT_EQ(file.messages.size(), count);
   std::map<std::string, int> messages;

@@ -6,9 +6,9 @@
 #include <thread>
 
 #include "host/os/process/child.hpp"
-#include "host/trace/record/mcap_reader.hpp"
 #include "tests/host/live/viewer.hpp"
 #include "tests/host/tool/program.hpp"
+#include "tests/support/mcap_file.hpp"
 
 // A viewer gets every message of the trace and does not change the run.
 
@@ -73,7 +73,7 @@ class Live : public Program {
 
   Messages in_trace(const std::string& name) const {
     const std::string bytes = slurp(folder_ / name);
-    const record::mcap::File file = record::mcap::parse(bytes);
+    const record::mcap::WholeFile file = record::mcap::parse(bytes);
     EXPECT_FALSE(file.flaw.has_value());
     Messages all;
     for (const record::mcap::Message& message : file.messages) {

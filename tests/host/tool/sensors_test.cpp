@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "host/robot/model/find.hpp"
-#include "host/trace/record/mcap_reader.hpp"
 #include "host/trace/record/team_channel.hpp"
 #include "host/trace/record/trace.hpp"
 #include "tests/host/tool/program.hpp"
+#include "tests/support/mcap_file.hpp"
 
 namespace verp::tool::test {
 namespace {
@@ -31,7 +31,7 @@ struct Message {
 
 std::map<std::string, std::vector<Message>> messages_in(const fs::path& trace) {
   const std::string bytes = slurp(trace);
-  const record::mcap::File file = record::mcap::parse(bytes);
+  const record::mcap::WholeFile file = record::mcap::parse(bytes);
   EXPECT_FALSE(file.flaw);
   std::map<std::string, std::vector<Message>> all;
   for (const auto& each : file.messages) {

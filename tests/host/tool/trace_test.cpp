@@ -2,9 +2,11 @@
 #include <nlohmann/json.hpp>
 
 #include "common/model/image.hpp"
+#include "host/trace/record/compression.hpp"
 #include "host/trace/record/trace.hpp"
 #include "host/trace/record/trace_writer.hpp"
 #include "tests/host/tool/program.hpp"
+#include "tests/support/mcap_file.hpp"
 
 namespace verp::tool::test {
 namespace {
@@ -102,6 +104,26 @@ TEST_F(TraceCommand, ACutReplaysAndEveryCommandTakesIt) {
   expect_refused("trace merge a.mcap -o b.mcap", "two traces or more");
   expect_refused("compare a.mcap part.mcap", "begins in the midst of a walk");
   expect_refused("debug --board mps2_an386 part.mcap", "begins in the midst of a run");
+}
+
+// Under right CRCs: what nobody's writer would write.
+TEST_F(TraceCommand, AMessageOfNoChannelOrAChunkOfGigabytesIsOneLine) {
+  using namespace record::mcap;
+  const std::string bytes = slurp(folder_ / "a.mcap");
+  const std::string bomb = record::mcap::packed(std::string(65u << 20, '\0'));
+  for (const auto& [content, says] :
+       {std::pair(with_chunk(bytes, message_record(700, "x")),
+                  "channel 700, which nothing declares"),
+        std::pair(with_chunk(bytes, bomb, kZstdName, 65u << 20), "the most is 67108864")}) {
+    std::ofstream(folder_ / "bad.mcap", std::ios::binary) << content;
+    for (const char* words :
+         {"trace info bad.mcap", "trace cut bad.mcap --from 1 -o b.mcap",
+          "trace merge a.mcap bad.mcap -o b.mcap", "trace pictures bad.mcap -o pictures",
+          "trace play bad.mcap --live 0", "trace csv bad.mcap", "replay bad.mcap"}) {
+      expect_refused(words, says);
+    }
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "b.mcap"));
 }
 
 // Every complete chunk remains.

@@ -101,6 +101,18 @@ TEST_F(Trouble, FullDiskCostsTheReportButNotTheResult) {
   EXPECT_EQ(std::count(walk.err.begin(), walk.err.end(), '\n'), 2) << walk.err;
 }
 
+TEST_F(Trouble, AnExportThatFailsLeavesTheOldImageAndSaysWhy) {
+  ASSERT_EQ(verp("export generic21 -o .").status, 0);
+  const std::string before = slurp(folder_ / "params.bin");
+  const Outcome failed = verp_with_blocks(8, "export op3 -o .");
+  EXPECT_EQ(failed.status, 2);
+  EXPECT_NE(failed.err.find("params.bin: cannot be written: File too large; free space"),
+            std::string::npos)
+      << failed.err;
+  EXPECT_EQ(slurp(folder_ / "params.bin"), before);
+  EXPECT_EQ(only_part(folder_), "");
+}
+
 TEST_F(Trouble, NoRoomForAnyTraceIsToldBeforeTheWalkAndLeavesNothing) {
   const Outcome walk = verp_with_blocks(8, "walk --for 4 --record a.mcap --json");
   EXPECT_EQ(walk.status, 2);

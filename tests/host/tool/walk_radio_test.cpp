@@ -3,9 +3,9 @@
 #include <string>
 #include <thread>
 
-#include "host/trace/record/mcap_reader.hpp"
 #include "host/trace/record/ros_radio.hpp"
 #include "tests/host/tool/program.hpp"
+#include "tests/support/mcap_file.hpp"
 
 // Plain Python programs drive robots of one walk and talk through the modems on their buses.
 
@@ -38,7 +38,7 @@ class WalkRadio : public Program {
 
   std::map<std::string, int> kept(const std::string& file) const {
     const std::string bytes = slurp(folder_ / file);
-    const record::mcap::File trace = record::mcap::parse(bytes);
+    const record::mcap::WholeFile trace = record::mcap::parse(bytes);
     std::map<std::string, int> events;
     std::uint16_t channel = 0;
     if (trace.find_channel("/radio", channel) == nullptr) return events;

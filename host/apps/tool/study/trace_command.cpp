@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <memory>
+#include <vector>
 
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/interrupt.hpp"
@@ -13,83 +14,87 @@
 #include "host/apps/tool/study/trace_words.hpp"
 #include "host/apps/tool/walk_options.hpp"
 #include "host/trace/record/trace_cut.hpp"
-#include "host/trace/record/trace_writer.hpp"
+#include "host/trace/record/trace_parts.hpp"
+#include "host/trace/record/trace_recover.hpp"
 
 namespace verp::tool {
 namespace {
 
+struct Story {
+  std::uint64_t digest = 0;
+  std::size_t kept_states = 0;
+  std::vector<record::Change> changes;
+};
+
+Story story_of(record::TraceFile& trace) {
+  Story story{trace.head().digest(), 0, {}};
+  std::uint32_t tick = 0;
+  trace.read({.tick =
+                  [&](const TickRecord& record) {
+                    tick = record.inputs.tick;
+                    story.digest = record.digest.chain;
+                  },
+              .keyframe = [&](const State&) { ++story.kept_states; },
+              .change =
+                  [&](const std::string& what) {
+                    story.changes.push_back({tick, what});
+                  },
+              .body = {},
+              .objects = {}});
+  return story;
+}
+
+cli::Json json_of(const TraceWords& words, const record::TraceFile& trace, const Story& story) {
+  const record::Trace& head = trace.head();
+  cli::Json metadata = cli::Json::object();
+  for (const auto& [key, value] : head.metadata) metadata[key] = value;
+  cli::Json changes = cli::Json::array();
+  for (const record::Change& each : story.changes) {
+    changes.push_back(
+        {{"tick", each.tick}, {"time_s", each.tick * head.period_s()}, {"what", each.what}});
+  }
+  return {{"trace", words.file},
+          {"model", std::string(head.params.name, ::strnlen(head.params.name, kNameLength))},
+          {"ticks", trace.ticks()},
+          {"period_us", head.params.period_us},
+          {"duration_s", static_cast<double>(trace.ticks()) * head.period_s()},
+          {"joints", head.params.joint_count},
+          {"kept_states", story.kept_states},
+          {"digest", fmt::format("0x{:016x}", story.digest)},
+          {"changes", changes},
+          {"metadata", metadata}};
+}
+
 int info(const TraceWords& words) {
-  const record::Trace trace = load_trace(words);
-  const double duration_s = static_cast<double>(trace.ticks.size()) * trace.period_s();
-  const std::string digest = fmt::format("0x{:016x}", trace.digest());
+  record::TraceFile trace(words.file,
+                          words.recover ? record::Read::kRecover : record::Read::kStrict);
+  const record::Trace& head = trace.head();
+  if (!head.warning.empty()) cli::complain(head.warning);
+  const Story story = story_of(trace);
   if (words.json) {
-    cli::Json metadata = cli::Json::object();
-    for (const auto& [key, value] : trace.metadata) metadata[key] = value;
-    cli::Json changes = cli::Json::array();
-    for (const record::Change& each : trace.changes) {
-      changes.push_back(
-          {{"tick", each.tick}, {"time_s", each.tick * trace.period_s()}, {"what", each.what}});
-    }
-    cli::print_json(
-        {{"trace", words.file},
-         {"model", std::string(trace.params.name, ::strnlen(trace.params.name, kNameLength))},
-         {"ticks", trace.ticks.size()},
-         {"period_us", trace.params.period_us},
-         {"duration_s", duration_s},
-         {"joints", trace.params.joint_count},
-         {"kept_states", trace.keyframes.size()},
-         {"digest", digest},
-         {"changes", changes},
-         {"metadata", metadata}});
+    cli::print_json(json_of(words, trace, story));
     return cli::kGood;
   }
-  cli::answer(
-      fmt::format("{}\n  {} ticks of {} us: {:.2f} s\n  {} joints, {} kept States\n  digest {}\n",
-                  words.file, trace.ticks.size(), trace.params.period_us, duration_s,
-                  trace.params.joint_count, trace.keyframes.size(), digest));
-  for (const record::Change& each : trace.changes) {
+  cli::answer(fmt::format(
+      "{}\n  {} ticks of {} us: {:.2f} s\n  {} joints, {} kept States\n  digest 0x{:016x}\n",
+      words.file, trace.ticks(), head.params.period_us,
+      static_cast<double>(trace.ticks()) * head.period_s(), head.params.joint_count,
+      story.kept_states, story.digest));
+  for (const record::Change& each : story.changes) {
     cli::answer(fmt::format("  after tick {}, {:.2f} s: {}\n", each.tick,
-                            each.tick * trace.period_s(), each.what));
+                            each.tick * head.period_s(), each.what));
   }
-  for (const auto& [key, value] : trace.metadata)
-    cli::answer(fmt::format("  {}: {}\n", key, value));
+  for (const auto& [key, value] : head.metadata) cli::answer(fmt::format("  {}: {}\n", key, value));
   return cli::kGood;
 }
 
 int recover(const TraceWords& words) {
   refuse_same_file(words);
-  const record::Trace trace = record::read_trace(words.file, record::Read::kRecover);
-  record::mcap::StringMap run = trace.metadata;
-  for (const auto& [key, value] : record::build_info()) {
-    run["recorded_" + key] = run.contains(key) ? run[key] : "unknown";
-    run.erase(key);
-  }
-  record::TraceWriter writer(
-      words.output, trace.params, run,
-      {.actions = trace.actions, .compress = words.compress, .before = trace.before});
-  // A damaged trace's fault bits are unknown: states keep their places.
-  std::size_t next = 0, change = 0;
-  const auto write = [&] {
-    for (std::size_t i = 0; i < trace.ticks.size(); ++i) {
-      const bool kept = next < trace.keyframes.size() && trace.keyframes[next].index == i;
-      writer.append(trace.ticks[i], kept ? &trace.keyframes[next].state : nullptr);
-      next += kept ? 1 : 0;
-      for (; change < trace.changes.size() &&
-             trace.changes[change].tick == trace.ticks[i].inputs.tick;
-           ++change) {
-        writer.note(trace.changes[change].tick, trace.changes[change].what);
-      }
-    }
-    writer.close({{"recovered_from", words.file}});
-  };
-  try {
-    write();
-  } catch (const record::TraceError&) {  // the original is intact
-    writer.discard();
-    throw;
-  }
-  cli::complain(trace.warning.empty() ? words.file + ": is whole" : trace.warning);
-  cli::answer(fmt::format("{}: {} ticks\n", words.output, trace.ticks.size()));
+  const record::Recovered made =
+      record::recover_trace(words.file, words.output, compression_of(words));
+  cli::complain(made.warning.empty() ? words.file + ": is whole" : made.warning);
+  cli::answer(fmt::format("{}: {} ticks, {} messages of {} channels\n", words.output, made.ticks,
+                          made.messages, made.channels));
   return cli::kGood;
 }
 

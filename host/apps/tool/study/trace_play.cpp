@@ -9,6 +9,7 @@
 #include "host/apps/tool/study/trace_words.hpp"
 #include "host/os/link/system_clock.hpp"
 #include "host/trace/live/server.hpp"
+#include "host/trace/record/in_order.hpp"
 #include "host/trace/record/trace_parts.hpp"
 
 namespace verp::tool {
@@ -26,39 +27,34 @@ bool sleep_until(std::uint64_t time_ns) {
   return false;
 }
 
-std::vector<const record::mcap::Message*> in_order(const record::mcap::File& file) {
-  std::vector<const record::mcap::Message*> all;
-  for (const record::mcap::Message& message : file.messages) all.push_back(&message);
-  std::stable_sort(all.begin(), all.end(),
-                   [](const auto* a, const auto* b) { return a->time_ns < b->time_ns; });
-  return all;
-}
-
 }  // namespace
 
 int play(const TraceWords& words) {
-  const std::string bytes = record::read_trace_bytes(words.file);
-  const record::mcap::File file = record::mcap::parse(bytes);
+  record::mcap::Reader reader = record::open_mcap(words.file);
+  const record::mcap::File& file = reader.read();
   record::refuse_flaw(words.file, file);  // a merged trace plays as well
+  record::InOrder messages({{words.file, &reader}});
+  const std::uint64_t count = file.messages;
   LiveStream live("verp trace play", words.live);
   record::mcap::Listener& to = *live.robot();
   for (const auto& [id, schema] : file.schemas) to.schema(id, schema);
   for (const auto& [id, channel] : file.channels) to.channel(id, channel);
-  const auto messages = in_order(file);
   live.wait_for_viewer();
   const std::uint64_t begun_ns = link::monotonic_ns();
-  const std::uint64_t first_ns = messages.empty() ? 0 : messages.front()->time_ns;
+  std::optional<std::uint64_t> first_ns;
   std::size_t played = 0;
-  for (const record::mcap::Message* message : messages) {
-    const auto after_ns = static_cast<double>(message->time_ns - first_ns) / words.rate;
+  while (const auto next = messages.next()) {
+    const record::mcap::Message& message = next->message;
+    if (!first_ns) first_ns = message.time_ns;
+    const auto after_ns = static_cast<double>(message.time_ns - *first_ns) / words.rate;
     if (!sleep_until(begun_ns + static_cast<std::uint64_t>(after_ns))) break;
-    to.message(message->channel, message->time_ns, message->data);
+    to.message(message.channel, message.time_ns, message.data);
     ++played;
   }
   live.finish();
-  cli::answer(fmt::format("{}: {} of {} messages played\n{}", words.file, played, messages.size(),
-                          live.text()));
-  if (played == messages.size()) return cli::kGood;
+  cli::answer(
+      fmt::format("{}: {} of {} messages played\n{}", words.file, played, count, live.text()));
+  if (played == count) return cli::kGood;
   cli::complain("verp trace play: interrupted");
   return cli::kRunFailed;
 }
