@@ -1,10 +1,9 @@
 #pragma once
 #include <cstdint>
 
-/// Registers of servos and of our sensor devices on the same bus. Servos: ROBOTIS e-Manual, control
-/// tables of XM430-W210 (docs/en/dxl/x/xm430-w210) and MX-28(2.0) (docs/en/dxl/mx/mx-28-2), which
-/// agree. Size in bytes after each address; R: read only. EEPROM is writable only while Torque
-/// Enable is 0.
+/// Registers of servos and of our sensor devices on the same bus. Servos: ROBOTIS e-Manual; which
+/// model has which, and with what limits, stands in servo_models.hpp. Size in bytes after each
+/// address; R: read only. EEPROM is writable only while Torque Enable is 0.
 namespace verp::dxl {
 
 inline constexpr std::uint16_t kModelXm430W210 = 1030;  ///< e-Manual, Model Number (0)
@@ -31,12 +30,15 @@ inline constexpr std::uint16_t kTemperatureLimit = 31;   // 1, degrees Celsius
 inline constexpr std::uint16_t kMaxVoltageLimit = 32;    // 2, 0.1 V
 inline constexpr std::uint16_t kMinVoltageLimit = 34;    // 2, 0.1 V
 inline constexpr std::uint16_t kPwmLimit = 36;           // 2, 885 is 100 %
-inline constexpr std::uint16_t kCurrentLimit = 38;       // 2, X-series only
-inline constexpr std::uint16_t kAccelerationLimit = 40;  // 4, MX(2.0) only
+inline constexpr std::uint16_t kCurrentLimit = 38;       // 2
+inline constexpr std::uint16_t kAccelerationLimit = 40;  // 4
 inline constexpr std::uint16_t kVelocityLimit = 44;      // 4
 inline constexpr std::uint16_t kMaxPositionLimit = 48;   // 4
 inline constexpr std::uint16_t kMinPositionLimit = 52;   // 4
-inline constexpr std::uint16_t kShutdown = 63;           // 1, mask over Hardware Error Status
+inline constexpr std::uint16_t kExternalPortMode1 = 56;  // 1; 2 and 3 follow
+inline constexpr std::uint16_t kStartupConfiguration = 60;  // 1
+inline constexpr std::uint16_t kPwmSlope = 62;              // 1
+inline constexpr std::uint16_t kShutdown = 63;              // 1, mask over Hardware Error Status
 // RAM
 inline constexpr std::uint16_t kTorqueEnable = 64;           // 1
 inline constexpr std::uint16_t kLed = 65;                    // 1
@@ -52,7 +54,7 @@ inline constexpr std::uint16_t kFeedforward2Gain = 88;       // 2
 inline constexpr std::uint16_t kFeedforward1Gain = 90;       // 2
 inline constexpr std::uint16_t kBusWatchdog = 98;            // 1, see kBusWatchdogUnit_us
 inline constexpr std::uint16_t kGoalPwm = 100;               // 2
-inline constexpr std::uint16_t kGoalCurrent = 102;           // 2, X-series only
+inline constexpr std::uint16_t kGoalCurrent = 102;           // 2
 inline constexpr std::uint16_t kGoalVelocity = 104;          // 4
 inline constexpr std::uint16_t kProfileAcceleration = 108;   // 4; ms with a time-based profile
 inline constexpr std::uint16_t kProfileVelocity = 112;       // 4; ms with a time-based profile
@@ -61,7 +63,7 @@ inline constexpr std::uint16_t kRealtimeTick = 120;          // 2, R, ms
 inline constexpr std::uint16_t kMoving = 122;                // 1, R
 inline constexpr std::uint16_t kMovingStatus = 123;          // 1, R
 inline constexpr std::uint16_t kPresentPwm = 124;            // 2, R
-inline constexpr std::uint16_t kPresentCurrent = 126;        // 2, R; MX(2.0): load, 0.1 %
+inline constexpr std::uint16_t kPresentCurrent = 126;        // 2, R; or a load, 0.1 %
 inline constexpr std::uint16_t kPresentVelocity = 128;       // 4, R, 0.229 rev/min
 inline constexpr std::uint16_t kPresentPosition = 132;       // 4, R
 inline constexpr std::uint16_t kVelocityTrajectory = 136;    // 4, R
@@ -69,8 +71,8 @@ inline constexpr std::uint16_t kPositionTrajectory = 140;    // 4, R
 inline constexpr std::uint16_t kPresentVoltage = 144;        // 2, R, 0.1 V
 inline constexpr std::uint16_t kPresentTemperature = 146;    // 1, R, degrees Celsius
 inline constexpr std::uint16_t kBackupReady = 147;           // 1, R
-// Two blocks of 28 pairs: Indirect Data n (1 byte) stands for the byte at Indirect Address n (2
-// bytes).
+inline constexpr std::uint16_t kExternalPortData1 = 152;     // 2; 2 and 3 follow
+// Indirect Addresses (2 bytes each) and Data (1 byte); elsewhere in the XL330 and XC330.
 inline constexpr std::uint16_t kIndirectAddress1 = 168;
 inline constexpr std::uint16_t kIndirectData1 = 224;
 inline constexpr std::uint16_t kIndirectAddress29 = 578;
@@ -78,13 +80,13 @@ inline constexpr std::uint16_t kIndirectData29 = 634;
 }  // namespace address
 
 inline constexpr std::uint16_t kIndirectBlock = 28;  ///< pairs in each block
-inline constexpr std::uint16_t kIndirectFirst = 64;  ///< addresses allowed there
-inline constexpr std::uint16_t kIndirectLast = 661;
+inline constexpr std::uint16_t kIndirectFirst = 64;  ///< lowest address allowed there
 inline constexpr std::uint8_t kFactoryId = 1;
 inline constexpr std::uint32_t kFactoryBaud = 57600;
 
 inline constexpr std::uint8_t kTimeBasedProfile = 1 << 2;  ///< bit 2 of Drive Mode
 inline constexpr std::uint8_t kPositionMode = 3;           ///< Operating Mode; one turn
+inline constexpr int kCountsPerTurn = 4096;                ///< positions
 inline constexpr std::uint16_t kFullPwm = 885;             ///< PWM Limit of 100 %
 
 /// After this many units with torque and no instruction packet on the bus the servo stops in place,
@@ -102,12 +104,14 @@ enum HardwareError : std::uint8_t {
   kOverloadError = 1 << 5,
 };
 
+/// By the value of Baud Rate (8).
+inline constexpr std::uint32_t kBaudRates[] = {9600,    57600,   115200,  1000000,
+                                               2000000, 3000000, 4000000, 4500000};
+
 /// Value of Baud Rate (8); 0xFF for a rate that the servos lack.
 constexpr std::uint8_t baud_rate_code(std::uint32_t baud) {
-  constexpr std::uint32_t kRates[] = {9600,    57600,   115200,  1000000,
-                                      2000000, 3000000, 4000000, 4500000};
   for (std::uint8_t code = 0; code < 8; ++code) {
-    if (kRates[code] == baud) return code;
+    if (kBaudRates[code] == baud) return code;
   }
   return 0xFF;
 }

@@ -1,7 +1,13 @@
 #include "host/robot/model/bus_facts.hpp"
 
-#include <numbers>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <iterator>
+#include <numbers>
+#include <span>
+
+#include "common/protocol/servo_models.hpp"
 #include "host/robot/model/bounds.hpp"
 #include "host/robot/model/servo_type_facts.hpp"
 
@@ -102,6 +108,20 @@ std::uint32_t read_baud(const XmlElement& e, BusProtocol protocol) {
       "choose one of: " + list);
 }
 
+// Baud Rate (8).
+void check_rate(const XmlElement& e, const BusFact& fact) {
+  if (fact.protocol != BusProtocol::kDynamixel2) return;
+  const std::uint8_t code = dxl::baud_rate_code(fact.baud);
+  for (const ServoFact& each : fact.servos) {
+    const dxl::ServoModel* model = dxl::find_servo_model(each.servo.model_number);
+    const std::size_t rates = model ? model->most_baud_code + 1u : std::size(dxl::kBaudRates);
+    if (code < rates) continue;
+    e.fail(fmt::format("<verp:bus> baud {}: servo type '{}' has no such Baud Rate (8)", fact.baud,
+                       each.servo.type),
+           fmt::format("choose one of: {}", fmt::join(std::span(dxl::kBaudRates, rates), ", ")));
+  }
+}
+
 }  // namespace
 
 BusFact read_bus(const XmlElement& e, const std::vector<ServoType>& types) {
@@ -115,6 +135,7 @@ BusFact read_bus(const XmlElement& e, const std::vector<ServoType>& types) {
   for (const XmlElement& child : e.children()) {
     fact.servos.push_back(read_servo(child, types, fact.protocol, fact.period_us));
   }
+  check_rate(e, fact);
   return fact;
 }
 

@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <numbers>
 
+#include "common/protocol/servo_models.hpp"
 #include "host/robot/model/bounds.hpp"
 
 namespace verp::model {
@@ -102,6 +103,22 @@ void read_gearbox(const XmlElement& e, const Reader& read, ServoType& type) {
   read_bands(e, type);
 }
 
+// What the model of that number lacks, a file can't give it.
+void check_model(const XmlElement& e, const ServoType& type) {
+  const dxl::ServoModel* model = dxl::find_servo_model(type.model_number);
+  if (type.protocol != BusProtocol::kDynamixel2 || model == nullptr) return;
+  const std::string what =
+      fmt::format("<verp:servo_type> model_number {} is {}, which ", model->number, model->name);
+  if (type.fast_sync_read && !model->has(dxl::kFastSyncRead)) {
+    e.fail(what + "has no Fast Sync Read", "write fast_sync_read=\"0\"");
+  }
+  if (type.counts_per_rev != dxl::kCountsPerTurn) {
+    e.fail(what + fmt::format("has {} counts a turn, not {:.0f}", dxl::kCountsPerTurn,
+                              type.counts_per_rev),
+           "leave counts_per_rev out, or give the servo's own model_number");
+  }
+}
+
 ServoType read_type(const XmlElement& e, const std::vector<ServoType>& known) {
   e.allow({"name",
            "like",
@@ -170,6 +187,7 @@ ServoType read_type(const XmlElement& e, const std::vector<ServoType>& known) {
   type.default_p_gain =
       static_cast<std::uint16_t>(e.integer("p_gain", 1, 16383, type.default_p_gain));
   read_gearbox(e, read, type);
+  check_model(e, type);
   return type;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/protocol/servo_models.hpp"
 #include "host/robot/model/entity.hpp"
 
 namespace verp::model {
@@ -10,12 +11,17 @@ namespace verp::model {
 namespace {
 
 // All MX(2.0) and X-series servos. Encoder (e-Manual): ams AS5045, 0.03 degrees rms, 384 us delay
-// in slow mode (data sheet). The loop's rate is an estimate: gains are per millisecond.
+// in slow mode (data sheet); the XL and XC have an AS5601, taken as alike. The loop's rate is an
+// estimate: gains are per millisecond.
 ServoType dynamixel(const char* name, const char* title, std::uint16_t model_number) {
   ServoType type;
   type.name = name;
   type.title = title;
   type.model_number = model_number;
+  const dxl::ServoModel& model = *dxl::find_servo_model(model_number);
+  type.nominal_v = model.nominal_dv / 10.0;
+  type.default_p_gain = model.position_p_gain;
+  type.fast_sync_read = model.has(dxl::kFastSyncRead);
   type.loop_delay_us = 384;
   return type;
 }
@@ -31,8 +37,9 @@ ServoType identified(ServoType type, double kt_n_m_a, double resistance_ohm, con
 }
 
 // No parameters of these motors are published. The motor's line is the data sheet's (e-Manual, at
-// 12 V), friction on top. For the identified MX-64 the sheet gives 6.0 N m and its line 6.3. Rotor
-// and friction are means of the identified MX-64 and MX-106, as shares of what scales them:
+// the nominal voltage), friction on top. For the identified MX-64 the sheet gives 6.0 N m and its
+// line 6.3. Rotor and friction are means of the identified MX-64 and MX-106, as shares of what
+// scales them:
 //   rotor      0.95, 1.05 (XL-330: 1.10) e-5 kg m2 per N m of stall torque at the rotor, seen
 //              through the gear ratio
 //   f_base     0.98, 0 % of stall torque; f_strib 0.38, 0.93 %
@@ -58,17 +65,6 @@ ServoType scaled(ServoType type, double gear_ratio, double stall_torque_n_m, dou
   return type;
 }
 
-ServoType mx(ServoType type) {
-  type.default_p_gain = 850;
-  return type;
-}
-
-ServoType x_series(ServoType type, std::uint16_t p_gain = 800) {
-  type.default_p_gain = p_gain;
-  type.fast_sync_read = true;
-  return type;
-}
-
 // The twin's drive (host/twin/can): an XM430-W210 with a 14-bit encoder (ams AS5048A, usual in
 // joint drives). The same stiffness needs a quarter of the P gain.
 ServoType drive_of(ServoType type) {
@@ -84,9 +80,7 @@ ServoType drive_of(ServoType type) {
 
 // The XL-330 is the M288 at 5 V.
 ServoType xl330() {
-  ServoType type = x_series(dynamixel("xl330", "XL330-M288-T", 1200), 400);
-  type.nominal_v = 5;
-  return identified(type, 0.386, 3.40,
+  return identified(dynamixel("xl330", "XL330-M288-T", 1200), 0.386, 3.40,
                     {.armature_kg_m2 = 0.00190,
                      .f_base_n_m = 0.0088,
                      .f_strib_n_m = 0,
@@ -102,19 +96,27 @@ ServoType xl330() {
 const std::vector<ServoType>& servo_types() {
   static const std::vector<ServoType> kTypes = [] {
     const ServoType w210 =
-        scaled(x_series(dynamixel("xm430_w210", "XM430-W210-R", 1030)), 212.6, 3.0, 77, 2.3);
+        scaled(dynamixel("xm430_w210", "XM430-W210-R", 1030), 212.6, 3.0, 77, 2.3);
     return std::vector<ServoType>{
         w210,
-        scaled(x_series(dynamixel("xm430_w350", "XM430-W350-R", 1020)), 353.5, 4.1, 46, 2.3),
-        scaled(x_series(dynamixel("xh430_w210", "XH430-W210-R", 1010), 900), 212.6, 2.5, 50, 1.3),
-        scaled(x_series(dynamixel("xh430_w350", "XH430-W350-R", 1000), 900), 353.5, 3.4, 30, 1.3),
-        scaled(x_series(dynamixel("xm540_w150", "XM540-W150-R", 1130)), 152.3, 7.3, 53, 4.4),
-        scaled(x_series(dynamixel("xm540_w270", "XM540-W270-R", 1120)), 272.5, 10.6, 30, 4.4),
-        scaled(x_series(dynamixel("xh540_w150", "XH540-W150-R", 1110)), 152.3, 7.1, 70, 4.9),
-        scaled(x_series(dynamixel("xh540_w270", "XH540-W270-R", 1100)), 272.5, 9.9, 39, 4.9),
+        scaled(dynamixel("xm430_w350", "XM430-W350-R", 1020), 353.5, 4.1, 46, 2.3),
+        scaled(dynamixel("xh430_w210", "XH430-W210-R", 1010), 212.6, 2.5, 50, 1.3),
+        scaled(dynamixel("xh430_w350", "XH430-W350-R", 1000), 353.5, 3.4, 30, 1.3),
+        scaled(dynamixel("xm540_w150", "XM540-W150-R", 1130), 152.3, 7.3, 53, 4.4),
+        scaled(dynamixel("xm540_w270", "XM540-W270-R", 1120), 272.5, 10.6, 30, 4.4),
+        scaled(dynamixel("xh540_w150", "XH540-W150-R", 1110), 152.3, 7.1, 70, 4.9),
+        scaled(dynamixel("xh540_w270", "XH540-W270-R", 1100), 272.5, 9.9, 39, 4.9),
         xl330(),
-        scaled(mx(dynamixel("mx28", "MX-28(2.0)", 30)), 193, 2.5, 55, 1.4),
-        identified(mx(dynamixel("mx64", "MX-64(2.0)", 311)), 1.663, 3.16,
+        scaled(dynamixel("xl330_m077", "XL330-M077-T", 1190), 77.5, 0.215, 383, 1.47),
+        scaled(dynamixel("xl430_w250", "XL430-W250-T", 1060), 258.5, 1.4, 57, 1.3),
+        scaled(dynamixel("xc430_w150", "XC430-W150-T", 1070), 159.59, 1.6, 106, 1.4),
+        scaled(dynamixel("xc430_w240", "XC430-W240-T", 1080), 245.22, 1.9, 70, 1.4),
+        scaled(dynamixel("xc330_m181", "XC330-M181-T", 1230), 180.62, 0.60, 129, 1.80),
+        scaled(dynamixel("xc330_m288", "XC330-M288-T", 1240), 288.35, 0.93, 81, 1.80),
+        scaled(dynamixel("xc330_t181", "XC330-T181-T", 1210), 180.62, 0.76, 104, 0.80),
+        scaled(dynamixel("xc330_t288", "XC330-T288-T", 1220), 288.35, 0.92, 65, 0.80),
+        scaled(dynamixel("mx28", "MX-28(2.0)", 30), 193, 2.5, 55, 1.4),
+        identified(dynamixel("mx64", "MX-64(2.0)", 311), 1.663, 3.16,
                    {.armature_kg_m2 = 0.01096,
                     .f_base_n_m = 0.0616,
                     .f_strib_n_m = 0.0239,
@@ -123,7 +125,7 @@ const std::vector<ServoType>& servo_types() {
                     .w_s_rad_s = 1.52,
                     .alpha = 1.33,
                     .f_visc_n_m_s = 0.0148}),
-        identified(mx(dynamixel("mx106", "MX-106(2.0)", 321)), 2.231, 2.37,
+        identified(dynamixel("mx106", "MX-106(2.0)", 321), 2.231, 2.37,
                    {.armature_kg_m2 = 0.02457,
                     .f_base_n_m = 0,
                     .f_strib_n_m = 0.1049,

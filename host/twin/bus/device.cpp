@@ -8,12 +8,10 @@ namespace verp::bus {
 namespace at = dxl::address;
 
 std::uint16_t Device::meant(std::uint16_t address) const {
-  for (const auto& [addresses, data] : {std::pair{at::kIndirectAddress1, at::kIndirectData1},
-                                        std::pair{at::kIndirectAddress29, at::kIndirectData29}}) {
-    if (address < data || address >= data + dxl::kIndirectBlock) continue;
+  for (const auto& [addresses, data, pairs] : indirect_) {
+    if (address < data || address >= data + pairs) continue;
     const auto pointer = static_cast<std::uint16_t>(addresses + 2 * (address - data));
-    return table_.find(pointer) == nullptr ? address
-                                           : static_cast<std::uint16_t>(table_.get(pointer));
+    return static_cast<std::uint16_t>(table_.get(pointer));
   }
   return address;
 }

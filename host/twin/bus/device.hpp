@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/protocol/control_table.hpp"
+#include "common/protocol/servo_models.hpp"
 #include "host/twin/bus/register_table.hpp"
 
 namespace verp::bus {
@@ -57,7 +57,9 @@ class Device {
   dxl::Error clear(std::span<const std::uint8_t> parameters);
 
  protected:
-  explicit Device(std::vector<Register> registers) : table_(std::move(registers)) {}
+  explicit Device(std::vector<Register> registers,
+                  std::span<const dxl::IndirectBlock> indirect = {})
+      : table_(std::move(registers)), indirect_(indirect) {}
   virtual dxl::Error check(std::uint16_t address, std::span<const std::uint8_t> data) const {
     return table_.check(address, data, false);
   }
@@ -71,6 +73,7 @@ class Device {
   }
   static constexpr std::uint64_t kNever_us = ~std::uint64_t{0};
   RegisterTable table_;
+  std::span<const dxl::IndirectBlock> indirect_;
   std::uint64_t heard_us_ = 0;
 
  private:

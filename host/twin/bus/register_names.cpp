@@ -1,6 +1,7 @@
 #include "host/twin/bus/register_names.hpp"
 
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "common/protocol/control_table.hpp"
@@ -81,10 +82,7 @@ struct Model {
   const char* name;
   std::span<const NamedRegister> registers;
 };
-const std::array<Model, 8> kModels = {{
-    {dxl::kModelXm430W210, "XM430-W210", servo::named_registers()},
-    {dxl::kModelXm430W350, "XM430-W350", servo::named_registers()},
-    {dxl::kModelMx28, "MX-28(2.0)", servo::named_registers()},
+constexpr std::array<Model, 5> kModels = {{
     {dxl::kModelImu, "IMU device", kImu},
     {dxl::kModelFoot, "foot device", kFoot},
     {lockstep::kClockModel, "twin's clock", kClock},
@@ -92,11 +90,13 @@ const std::array<Model, 8> kModels = {{
     {dxl::controller::kModel, "controller", dxl::controller::kTable},
 }};
 
-const Model* find_model(std::uint16_t number) {
+std::optional<Model> find_model(std::uint16_t number) {
   for (const Model& model : kModels) {
-    if (model.number == number) return &model;
+    if (model.number == number) return model;
   }
-  return nullptr;
+  const dxl::ServoModel* servo = dxl::find_servo_model(number);
+  if (servo == nullptr) return std::nullopt;
+  return Model{number, servo->name, servo::named_registers(*servo)};
 }
 
 }  // namespace
@@ -115,13 +115,13 @@ std::string hardware_errors(unsigned bits) {
 }
 
 std::string model_name(std::uint16_t model) {
-  const Model* known = find_model(model);
-  return known == nullptr ? "model " + std::to_string(model) : known->name;
+  const std::optional<Model> known = find_model(model);
+  return !known ? "model " + std::to_string(model) : known->name;
 }
 
 std::span<const NamedRegister> registers_of(std::uint16_t model) {
-  const Model* known = find_model(model);
-  return known == nullptr ? std::span<const NamedRegister>{} : known->registers;
+  const std::optional<Model> known = find_model(model);
+  return known ? known->registers : std::span<const NamedRegister>{};
 }
 
 const NamedRegister* find_register(std::uint16_t model, std::string_view name) {

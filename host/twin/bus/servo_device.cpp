@@ -20,7 +20,8 @@ bool overlaps(std::uint16_t address, std::uint16_t length, std::uint16_t first, 
 }  // namespace
 
 ServoDevice::ServoDevice(const ServoIdentity& identity, sim::Plant& plant, int joint)
-    : Device(registers_of(identity)),
+    : Device(registers_of(identity), model_of(identity.model).indirect),
+      model_(model_of(identity.model)),
       plant_(plant),
       joint_(joint),
       fast_sync_read_(identity.fast_sync_read),
@@ -37,8 +38,9 @@ void ServoDevice::refresh(std::uint16_t address, std::uint16_t length) {
              static_cast<std::int64_t>(plant_.now_us() / 1000) % kRealtimeTickWrap);
   table_.set(at::kPresentPwm, std::llround(sign() * measured.duty * dxl::kFullPwm));
   table_.set(at::kPresentCurrent,
-             std::llround(sign() * (is_mx() ? measured.duty * kLoadFull
-                                            : measured.current_a / kCurrentUnitA)));
+             std::llround(sign() * (model_.has(dxl::kLoad)
+                                        ? measured.duty * kLoadFull
+                                        : measured.current_a / current_unit_a(model_))));
   table_.set(at::kPresentVoltage, std::llround(measured.voltage_v * 10));
   table_.set(at::kPresentTemperature, std::llround(measured.temperature_c));
   watch_limits(measured);
@@ -95,11 +97,11 @@ bool ServoDevice::known(std::uint16_t address, std::span<const std::uint8_t> dat
   const std::uint8_t mode = written(at::kOperatingMode);
   const bool of_current = mode == kCurrentMode || mode == kCurrentPositionMode;
   const bool is_mode = mode == kVelocityMode || mode == dxl::kPositionMode || mode == kTurnsMode ||
-                       mode == kPwmMode || (of_current && !is_mx());
+                       mode == kPwmMode || (of_current && model_.has(dxl::kCurrentControl));
   return is_mode && (written(at::kDriveMode) & 1 << 1) == 0;  // dual joints only
 }
 
-// Goals (100 to 104, 116) and Acceleration Limit (40) must stay within the EEPROM limits
+// Goals (100 to 104, 116) and Profile Acceleration (108) must stay within the EEPROM limits
 // (e-Manual).
 bool ServoDevice::within_limits(std::uint16_t address, std::span<const std::uint8_t> data) const {
   const auto inside = [&](std::uint16_t goal, std::int64_t least, std::int64_t most) {
@@ -115,7 +117,8 @@ bool ServoDevice::within_limits(std::uint16_t address, std::span<const std::uint
   };
   return within(at::kGoalPwm, at::kPwmLimit) && within(at::kGoalCurrent, at::kCurrentLimit) &&
          within(at::kGoalVelocity, at::kVelocityLimit) &&
-         (!is_mx() || within(at::kProfileAcceleration, at::kAccelerationLimit)) &&
+         (!model_.has(dxl::kAccelerationBound) ||
+          within(at::kProfileAcceleration, at::kAccelerationLimit)) &&
          (byte(at::kOperatingMode) != dxl::kPositionMode ||
           inside(at::kGoalPosition, table_.get(at::kMinPositionLimit),
                  table_.get(at::kMaxPositionLimit)));

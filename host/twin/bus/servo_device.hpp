@@ -53,11 +53,11 @@ class ServoDevice final : public Device {
   bool moving() override;
   bool tripped() const { return byte(dxl::address::kBusWatchdog) == dxl::kBusWatchdogTripped; }
   std::int32_t homing() const;
-  bool is_mx() const { return table_.find(dxl::address::kGoalCurrent) == nullptr; }
   void watch_limits(const sim::ServoMeasurement& measured);
   void apply();
   void apply_profile(sim::ServoSetpoint& setpoint) const;
 
+  const dxl::ServoModel& model_;
   sim::Plant& plant_;
   int joint_;
   bool fast_sync_read_;

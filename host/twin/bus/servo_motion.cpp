@@ -82,7 +82,7 @@ void ServoDevice::apply() {
                                           : sim::ServoMode::kPosition;
   setpoint.goal_pwm = static_cast<double>(sign() * goal_pwm);
   setpoint.goal_count_s = sign() * number(at::kGoalVelocity) * kVelocityUnitCountS;
-  setpoint.goal_a = sign() * number(at::kGoalCurrent) * kCurrentUnitA;
+  setpoint.goal_a = sign() * number(at::kGoalCurrent) * current_unit_a(model_);
   setpoint.current_limit_a = mode_ == kCurrentPositionMode ? std::abs(setpoint.goal_a) : -1;
   apply_profile(setpoint);
 }

@@ -4,19 +4,21 @@
 #include <span>
 #include <vector>
 
-#include "common/protocol/control_table.hpp"
+#include "common/protocol/servo_models.hpp"
 #include "host/twin/bus/register_names.hpp"
 #include "host/twin/bus/register_table.hpp"
 #include "host/twin/bus/servo_device.hpp"
 
-/// Values of the servo's control table: e-Manual, XM430-W210 and MX-28(2.0).
+/// A servo's control table, by its model (common/protocol/servo_models.hpp).
 namespace verp::bus::servo {
 
 inline constexpr double kVelocityUnitRadS = 0.229 * 2.0 * std::numbers::pi / 60.0;
-inline constexpr double kCurrentUnitA = 0.00269;  // X-series, Present Current
-inline constexpr double kLoadFull = 1000;         // MX(2.0), Present Load in 0.1 %
+constexpr double current_unit_a(const dxl::ServoModel& model) {
+  return model.current_unit_10ua / 1e5;
+}
+inline constexpr double kLoadFull = 1000;  // Present Load in 0.1 %
 inline constexpr std::int64_t kRealtimeTickWrap = 32768;
-inline constexpr double kCountsPerTurn = 4096;
+inline constexpr double kCountsPerTurn = dxl::kCountsPerTurn;
 inline constexpr double kVelocityUnitCountS = 0.229 / 60 * kCountsPerTurn;
 // Profile Acceleration (108): 214.577 rev/min^2.
 inline constexpr double kAccelerationUnitCountS2 = 214.577 / 3600 * kCountsPerTurn;
@@ -33,7 +35,6 @@ enum OperatingMode : std::uint8_t {
 inline constexpr std::uint8_t kReverse = 1 << 0;
 inline constexpr std::uint8_t kTorqueOnByGoal = 1 << 3;
 // Startup Configuration (60).
-inline constexpr std::uint16_t kStartupConfiguration = 60;
 inline constexpr std::uint8_t kStartupTorqueOn = 1 << 0;
 inline constexpr std::uint8_t kRamRestore = 1 << 1;
 // Control Table Backup (0x20): commands and the guard word.
@@ -44,8 +45,10 @@ inline constexpr std::uint8_t kInPosition = 1 << 0, kOngoing = 1 << 1, kNotFollo
 inline constexpr double kInPositionCount = 10;
 inline constexpr double kFollowingCount = 57;  // 5 degrees
 
-/// Sorted by address.
-std::span<const NamedRegister> named_registers();
+/// A number without a row: as an MX-28 below 1000, else as an XM430-W210.
+const dxl::ServoModel& model_of(std::uint16_t number);
+/// Sorted by address, without the indirect ones; `model` is a row of dxl::kServoModels.
+std::span<const NamedRegister> named_registers(const dxl::ServoModel& model);
 std::vector<Register> registers_of(const ServoIdentity& identity);
 
 }  // namespace verp::bus::servo

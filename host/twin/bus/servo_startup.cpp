@@ -12,13 +12,14 @@ namespace at = dxl::address;
 
 // e-Manual, Startup Configuration (60).
 void ServoDevice::started() {
-  const std::uint8_t startup = byte(kStartupConfiguration);
+  const std::uint8_t startup = byte(at::kStartupConfiguration);
   const bool kept = stored_.get(at::kBackupReady) != 0;
   if (kept && (startup & kRamRestore) != 0) {
     table_.copy(stored_, at::kVelocityIGain, at::kBusWatchdog);
     table_.copy(stored_, at::kProfileAcceleration, at::kGoalPosition);
-    table_.copy(stored_, at::kIndirectAddress1, at::kIndirectData1);
-    table_.copy(stored_, at::kIndirectAddress29, at::kIndirectData29);
+    for (const auto& [addresses, data, pairs] : indirect_) {
+      table_.copy(stored_, addresses, static_cast<std::uint16_t>(addresses + 2 * pairs));
+    }
   }
   if ((startup & kStartupTorqueOn) != 0) {
     table_.set(at::kTorqueEnable, 1);
@@ -28,7 +29,7 @@ void ServoDevice::started() {
 }
 
 dxl::Error ServoDevice::backup(std::span<const std::uint8_t> parameters) {
-  if (is_mx()) return dxl::Error::kInstruction;
+  if (!model_.has(dxl::kStartup)) return dxl::Error::kInstruction;
   if (parameters.size() != 1 + sizeof kBackupWord ||
       !std::equal(std::begin(kBackupWord), std::end(kBackupWord), parameters.begin() + 1)) {
     return dxl::Error::kDataRange;

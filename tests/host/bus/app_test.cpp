@@ -271,16 +271,22 @@ TEST_F(AppLoop, NothingIsSentToJointsBeyondTheRobots) {
   }
 }
 
-TEST_F(AppLoop, ServosWithoutFastSyncReadAreReadOneByOne) {
-  Params plain = test::bus_params(kJoints, false);
-  plain.servo[0].model_number = dxl::kModelMx28;
-  test::FakePlant mx_plant;
-  bus::VirtualBus mx(plain, mx_plant);
-  Tap mx_tap{mx};
-  app::App<Tap, Script, Memory> mx_app{plain, mx_tap, script, memory};
-  ASSERT_EQ(mx_app.bring_up().status, app::BringUpStatus::kReady);
-  for (int i = 0; i < 3; ++i) mx_app.tick();
-  EXPECT_EQ(mx_app.inputs().fresh, all());
+// An MX has no Fast Sync Read.
+TEST_F(AppLoop, ServosOfEveryModelAreBroughtUpAndRead) {
+  for (const dxl::ServoModel& model : dxl::kServoModels) {
+    SCOPED_TRACE(model.name);
+    Params params = test::bus_params(kJoints, model.has(dxl::kFastSyncRead));
+    params.servo[0].model_number = model.number;
+    test::FakePlant own_plant;
+    own_plant.rated.nominal_v = model.nominal_dv / 10.0;
+    for (auto& each : own_plant.measured) each.voltage_v = own_plant.rated.nominal_v;
+    bus::VirtualBus own(params, own_plant);
+    Tap own_tap{own};
+    app::App<Tap, Script, Memory> own_app{params, own_tap, script, memory};
+    ASSERT_EQ(own_app.bring_up().status, app::BringUpStatus::kReady);
+    for (int i = 0; i < 3; ++i) own_app.tick();
+    EXPECT_EQ(own_app.inputs().fresh, all());
+  }
 }
 
 TEST_F(AppLoop, EveryServosHealthComesInTurn) {

@@ -6,20 +6,20 @@
 #include <iterator>
 #include <set>
 #include <string>
+#include <vector>
 
-#include "common/protocol/control_table.hpp"
+#include "common/protocol/servo_models.hpp"
 #include "firmware/app/lockstep_messages.hpp"
 #include "host/twin/bus/modem_device.hpp"
 
 namespace verp::bus {
 namespace {
 
-constexpr std::uint16_t kModels[] = {dxl::kModelXm430W210,   dxl::kModelXm430W350, dxl::kModelMx28,
-                                     dxl::kModelImu,         dxl::kModelFoot,      modem::kModel,
-                                     dxl::controller::kModel};
-
 TEST(RegisterNames, EveryKnownModelHasANameAndOrderedRegisters) {
-  for (const std::uint16_t model : kModels) {
+  std::vector<std::uint16_t> models = {dxl::kModelImu, dxl::kModelFoot, modem::kModel,
+                                       dxl::controller::kModel};
+  for (const dxl::ServoModel& servo : dxl::kServoModels) models.push_back(servo.number);
+  for (const std::uint16_t model : models) {
     EXPECT_EQ(model_name(model).find("model "), std::string::npos) << model;
     std::set<std::string> names;
     unsigned end = 0;
@@ -44,6 +44,18 @@ TEST(RegisterNames, ServoRegistersHaveTheManualsSizes) {
   EXPECT_EQ(size("present_input_voltage"), 2u);
   EXPECT_EQ(size("torque_enable"), 1u);
   EXPECT_EQ(size("homing_offset"), 4u);
+}
+
+TEST(RegisterNames, AServoHasTheNamesAndUnitsOfItsModel) {
+  constexpr std::uint16_t kMx64 = 311, kXl330 = 1200, kXm540 = 1120;
+  EXPECT_STREQ(find_register(dxl::kModelXm430W210, "goal_current")->unit, "2.69 mA");
+  EXPECT_STREQ(find_register(kMx64, "present_current")->unit, "3.36 mA");
+  EXPECT_STREQ(find_register(kXl330, "current_limit")->unit, "1 mA");
+  EXPECT_EQ(find_register(kXl330, "current_limit")->maximum, 1750u);
+  EXPECT_EQ(find_register(dxl::kModelMx28, "goal_current"), nullptr);
+  EXPECT_STREQ(find_register(dxl::kModelMx28, "present_load")->unit, "0.1 %");
+  EXPECT_EQ(find_register(dxl::kModelMx28, "startup_configuration"), nullptr);
+  EXPECT_NE(find_register(kXm540, "external_port_mode_3"), nullptr);
 }
 
 TEST(RegisterNames, TheTwinsClockIsNamed) {

@@ -217,8 +217,8 @@ TEST(Check, SaysWhichServosAreIdentifiedAndWhichAreScaledWithinABand) {
 }
 
 TEST(ServoTypes, EachFamilyHasARowThatSaysWhereItsNumbersAreFrom) {
-  for (const char* family :
-       {"mx28", "mx64", "mx106", "xl330", "xm430", "xh430", "xm540", "xh540"}) {
+  for (const char* family : {"mx28", "mx64", "mx106", "xl330", "xl430", "xc330", "xc430", "xm430",
+                             "xh430", "xm540", "xh540"}) {
     int rows = 0;
     for (const ServoType& type : servo_types()) {
       if (!type.name.starts_with(family)) continue;

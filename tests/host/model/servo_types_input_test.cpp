@@ -76,6 +76,30 @@ TEST(BadInput, ServoTypesOfTheFileAreReadAndTheirSlipsNamed) {
                  "<gear/>", "unknown element <gear>");
 }
 
+TEST(BadInput, WhatTheServosModelLacksIsRefused) {
+  const auto with = [](const std::string& type, const std::string& baud) {
+    std::string text = edited("<verp:bus name=\"dxl\"", type + "\n    <verp:bus name=\"dxl\"");
+    return text.replace(text.find("baud=\"2000000\""), 14, "baud=\"" + baud + '"');
+  };
+  const auto mine = [&](const std::string& attributes) {
+    return with("<verp:servo_type name=\"mine\" like=\"mx28\" " + attributes + "/>", "2000000");
+  };
+  expect_refused(mine("fast_sync_read=\"1\""), "<verp:servo_type", "MX-28(2.0), which has no Fast");
+  expect_refused(mine("counts_per_rev=\"1024\""), "<verp:servo_type", "4096 counts a turn");
+  const TemporaryFile other("robot.sdf", mine("counts_per_rev=\"1024\" model_number=\"4711\""));
+  EXPECT_NO_THROW(load_robot(other.path()));
+
+  expect_refused(with("", "1234567"), "<verp:bus", "no such Baud Rate");
+  std::string fast = with("", "4500000");
+  const TemporaryFile fast_file("robot.sdf", fast);
+  EXPECT_NO_THROW(load_robot(fast_file.path()));
+  const std::string old_type = "type=\"xm430_w210\"";
+  for (auto from = fast.find(old_type); from != std::string::npos; from = fast.find(old_type)) {
+    fast.replace(from, old_type.size(), "type=\"xl330\"");
+  }
+  expect_refused(fast, "<verp:bus", "servo type 'xl330' has no such Baud Rate");
+}
+
 // Random robots vary unmeasured numbers.
 TEST(BadInput, AServoTypeThatIsLikeAnotherIsAsSureAsItsNumbers) {
   const std::string old_type = "type=\"xm430_w210\"";

@@ -31,9 +31,10 @@ class LoneServo {
   LoneServo& operator=(const LoneServo&) = delete;
 
   /// Before the first call no servo answers.
-  void connect(const bus::ServoIdentity& identity) {
+  void connect(const bus::ServoIdentity& identity, const sim::ServoMeasurement& measured = {}) {
     const std::scoped_lock lock(mutex_);
     const int joint = static_cast<int>(servos_.size());
+    plant_.measured[servos_.size()] = measured;
     servos_.push_back(std::make_unique<bus::ServoDevice>(identity, plant_, joint));
   }
   void disconnect() {
