@@ -275,14 +275,14 @@ TEST_F(AppLoop, NothingIsSentToJointsBeyondTheRobots) {
 TEST_F(AppLoop, ServosOfEveryModelAreBroughtUpAndRead) {
   for (const dxl::ServoModel& model : dxl::kServoModels) {
     SCOPED_TRACE(model.name);
-    Params params = test::bus_params(kJoints, model.has(dxl::kFastSyncRead));
-    params.servo[0].model_number = model.number;
+    Params robot = test::bus_params(kJoints, model.has(dxl::kFastSyncRead));
+    robot.servo[0].model_number = model.number;
     test::FakePlant own_plant;
     own_plant.rated.nominal_v = model.nominal_dv / 10.0;
     for (auto& each : own_plant.measured) each.voltage_v = own_plant.rated.nominal_v;
-    bus::VirtualBus own(params, own_plant);
+    bus::VirtualBus own(robot, own_plant);
     Tap own_tap{own};
-    app::App<Tap, Script, Memory> own_app{params, own_tap, script, memory};
+    app::App<Tap, Script, Memory> own_app{robot, own_tap, script, memory};
     ASSERT_EQ(own_app.bring_up().status, app::BringUpStatus::kReady);
     for (int i = 0; i < 3; ++i) own_app.tick();
     EXPECT_EQ(own_app.inputs().fresh, all());
