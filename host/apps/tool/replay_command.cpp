@@ -65,20 +65,25 @@ int make_page(const ReplayOptions& options) {
   return cli::kGood;
 }
 
+void refuse_other_controller(const ReplayOptions& options, const record::Trace& trace) {
+  const auto recorded_by = trace.metadata.find("own_controller");
+  if (!options.controller.empty() || recorded_by == trace.metadata.end() ||
+      recorded_by->second.empty()) {
+    return;
+  }
+  throw cli::ToolError(cli::kBadInput,
+                       fmt::format("{}: was decided by a controller of somebody's own; "
+                                   "replay it with --controller {}",
+                                   options.file, recorded_by->second));
+}
+
 int run_replay(const ReplayOptions& options) {
   if (!options.page.empty()) return make_page(options);
   record::TraceFile file(options.file,
                          options.recover ? record::Read::kRecover : record::Read::kStrict);
   const record::Trace& trace = file.head();
   if (!trace.warning.empty()) cli::complain(trace.warning);
-  const auto recorded_by = trace.metadata.find("own_controller");
-  if (options.controller.empty() && recorded_by != trace.metadata.end() &&
-      !recorded_by->second.empty()) {
-    throw cli::ToolError(cli::kBadInput,
-                         fmt::format("{}: was decided by a controller of somebody's own; "
-                                     "replay it with --controller {}",
-                                     options.file, recorded_by->second));
-  }
+  refuse_other_controller(options, trace);
   record::StepFunction core;
   if (!options.controller.empty()) core = own_controller(options.controller, !options.json)();
   const record::ReplayResult result = record::replay(file, core);

@@ -25,6 +25,12 @@ namespace {
 
 constexpr int kMostRecent = 8;
 
+bool save_png(const QImage& picture, const QString& file) {
+  files::NewFile made(file.toStdString());
+  return !made.trouble().any() &&
+         picture.save(QString::fromStdString(made.part().string()), "PNG") && !made.keep().any();
+}
+
 const char* const kKeys = R"(<table cellpadding="3">
 <tr><td><b>W A S D</b>, arrows in the picture</td><td>walk: each press a quarter faster that way</td></tr>
 <tr><td><b>Q E</b></td><td>turn left, right</td></tr>
@@ -76,12 +82,8 @@ void MainWindow::make_menus() {
     const QString chosen =
         QFileDialog::getSaveFileName(this, "Save the picture", "picture.png", "Pictures (*.png)");
     if (chosen.isEmpty()) return;
-    files::NewFile made(chosen.toStdString());
-    const bool whole =
-        !made.trouble().any() &&
-        scene_->grabFramebuffer().save(QString::fromStdString(made.part().string()), "PNG") &&
-        !made.keep().any();
-    say(whole ? "Saved " + chosen : chosen + ": it cannot be written there");
+    say(save_png(scene_->grabFramebuffer(), chosen) ? "Saved " + chosen
+                                                    : chosen + ": it cannot be written there");
   });
   file->addSeparator();
   file->addAction("&Quit", QKeySequence::Quit, this, &QWidget::close);
