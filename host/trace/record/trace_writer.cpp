@@ -162,19 +162,10 @@ void TraceWriter::append(const TickRecord& record, const State& state, const Out
   const bool keep =
       options_.every_state || ticks_ % kKeyframeTicks == 0 || outputs.faults != faults_;
   faults_ = outputs.faults;
-  put(record, keep ? &state : nullptr, {&state, &outputs}, body, effort_n_m);
-}
-
-void TraceWriter::append(const TickRecord& record, const State* kept) {
-  put(record, kept, {}, nullptr, {});
-}
-
-void TraceWriter::put(const TickRecord& record, const State* kept, const Made& made,
-                      const ros::BodyPose* body, std::span<const double> effort_n_m) {
   const std::uint64_t time_ns = std::uint64_t{record.inputs.tick} * params_.period_us * 1000;
   writer_.add_message(tick_, time_ns, image(record));
-  if (kept != nullptr) writer_.add_message(state_, time_ns, image(*kept));
-  if (options_.ros) append_ros(record.inputs, made, body, effort_n_m, time_ns);
+  if (keep) writer_.add_message(state_, time_ns, image(state));
+  if (options_.ros) append_ros(record.inputs, state, outputs, body, effort_n_m, time_ns);
   ++ticks_;
   if (ticks_ % options_.chunk_ticks != 0 && writer_.open_bytes() < options_.chunk_bytes) return;
   writer_.flush();
@@ -218,19 +209,16 @@ void TraceWriter::note(std::uint32_t tick, const std::string& what) {
   writer_.add_message(*changed_, std::uint64_t{tick} * params_.period_us * 1000, ros::string(what));
 }
 
-void TraceWriter::append_ros(const Inputs& inputs, const Made& made, const ros::BodyPose* body,
-                             std::span<const double> effort_n_m, std::uint64_t time_ns) {
+void TraceWriter::append_ros(const Inputs& inputs, const State& state, const Outputs& outputs,
+                             const ros::BodyPose* body, std::span<const double> effort_n_m,
+                             std::uint64_t time_ns) {
   writer_.add_message(
       joints_, time_ns,
       ros::joint_state(params_, inputs.position_count, speeds_.after(inputs), effort_n_m, time_ns));
-  if (made.outputs != nullptr) {
-    writer_.add_message(goals_, time_ns,
-                        ros::joint_state(params_, made.outputs->goal_count, {}, {}, time_ns));
-    writer_.add_message(control_, time_ns,
-                        ros::control(params_, inputs, *made.state, *made.outputs));
-    writer_.add_message(odometry_, time_ns,
-                        ros::estimated_odometry(params_, inputs, *made.state, time_ns));
-  }
+  writer_.add_message(goals_, time_ns,
+                      ros::joint_state(params_, outputs.goal_count, {}, {}, time_ns));
+  writer_.add_message(control_, time_ns, ros::control(params_, inputs, state, outputs));
+  writer_.add_message(odometry_, time_ns, ros::estimated_odometry(params_, inputs, state, time_ns));
   writer_.add_message(imu_, time_ns, ros::imu(params_, inputs, time_ns));
   if (body != nullptr && ticks_ % kTransformTicks == 0) {
     writer_.add_message(tf_, time_ns, ros::transforms(params_, inputs, *body, time_ns));

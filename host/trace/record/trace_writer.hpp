@@ -44,8 +44,6 @@ class TraceWriter {
   /// and joint efforts, for which servos are not asked.
   void append(const TickRecord& record, const State& state, const Outputs& outputs,
               const ros::BodyPose* body = nullptr, std::span<const double> effort_n_m = {});
-  /// A tick of a copied run. `kept`: its trace's State, or null.
-  void append(const TickRecord& record, const State* kept);
   /// A scan for viewers, measured up to that tick, on /SENSOR. Message: the tick's time; header:
   /// the measurement's. Needs TraceOptions::ros.
   void append(const std::string& sensor, std::uint32_t tick, const ros::LaserScan& scan);
@@ -69,15 +67,9 @@ class TraceWriter {
 
  private:
   void begin(const mcap::StringMap& run);
-  /// Results of a tick; null in a copied run.
-  struct Made {
-    const State* state = nullptr;
-    const Outputs* outputs = nullptr;
-  };
-  void put(const TickRecord& record, const State* kept, const Made& made, const ros::BodyPose* body,
-           std::span<const double> effort_n_m);
-  void append_ros(const Inputs& inputs, const Made& made, const ros::BodyPose* body,
-                  std::span<const double> effort_n_m, std::uint64_t time_ns);
+  void append_ros(const Inputs& inputs, const State& state, const Outputs& outputs,
+                  const ros::BodyPose* body, std::span<const double> effort_n_m,
+                  std::uint64_t time_ns);
 
   mcap::Writer writer_;
   Params params_;

@@ -62,7 +62,7 @@ TEST_F(TraceCommand, DiffSaysWhenTwoCoresRecorded) {
     record::TraceWriter other(folder_ / "b.mcap", trace.params, {{"core_version", "7"}});
     for (TickRecord tick : trace.ticks) {
       tick.digest.chain ^= tick.inputs.tick > 300 ? 1 : 0;
-      other.append(tick, nullptr);
+      other.append(tick, State{}, Outputs{});
     }
     other.close();
   }
