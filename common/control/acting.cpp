@@ -19,11 +19,11 @@ bool plays(Mode mode) {
 
 // A stop leaves by the exit. A fall's action cannot be stopped.
 bool shall_stop(const State& state, const Inputs& inputs, const AdmitOut& admitted) {
-  constexpr std::uint32_t kNoMore = safety::kAskRelax | safety::kOperatorQuiet | safety::kPowerBad;
+  constexpr std::uint32_t kNoMore = safety::kAskRelax | safety::kOperatorQuiet | safety::kTrouble;
   if (state.machine.mode == Mode::kFalling) return false;
   const bool another = state.machine.mode == Mode::kActing && inputs.action != state.action.number;
   return another || (admitted.conditions & kNoMore) != 0 ||
-         (state.machine.faults & safety::kPowerFaults) != 0;
+         (state.machine.faults & safety::kTroubleFaults) != 0;
 }
 
 // Without sensors, a foot is assumed to be where the action wants it.

@@ -135,7 +135,7 @@ void watch_power(const Params& params, const Tuning& tuning, const Inputs& input
     state.voltage_low = low ? older(state.voltage_low) : std::uint8_t{0};
     if (state.voltage_low >= kSupplyReadings) out.faults |= kFaultVoltage;
   }
-  if (alarmed(state) != 0 || state.voltage_low >= kSupplyReadings) out.conditions |= kPowerBad;
+  if (alarmed(state) != 0 || state.voltage_low >= kSupplyReadings) out.conditions |= kTrouble;
 }
 
 void take_command(const Params& params, const Tuning& tuning, const Inputs& inputs,

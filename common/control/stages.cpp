@@ -31,10 +31,10 @@ float period_s(const Params& params) {
   return static_cast<float>(params.period_us) * 1e-6F;
 }
 
-// Power trouble is latched with its fault: a supply that sags under load recovers without it.
-bool power_bad(const State& state, const AdmitOut& admitted) {
-  return (admitted.conditions & safety::kPowerBad) != 0 ||
-         (state.machine.faults & safety::kPowerFaults) != 0;
+// Trouble is latched with its fault: a supply that sags under load recovers without it.
+bool in_trouble(const State& state, const AdmitOut& admitted) {
+  return (admitted.conditions & safety::kTrouble) != 0 ||
+         (state.machine.faults & safety::kTroubleFaults) != 0;
 }
 
 balance::SteppingIn stepping_in(const Params& params, const State& state) {
@@ -49,7 +49,7 @@ bool walks(const State& state, const AdmitOut& admitted) {
   constexpr std::uint32_t kNoMore = safety::kOperatorQuiet | safety::kStale;
   constexpr std::uint32_t kWhy = safety::kAskWalk | safety::kPushed;
   return state.machine.mode == Mode::kWalking && (admitted.conditions & kWhy) != 0 &&
-         (admitted.conditions & kNoMore) == 0 && !power_bad(state, admitted);
+         (admitted.conditions & kNoMore) == 0 && !in_trouble(state, admitted);
 }
 
 // The error and its integral, to meet a slip in every step before it happens.
@@ -97,7 +97,7 @@ std::uint32_t conditions_of(const State& state, const AdmitOut& admitted,
   if (attitude.calibrated) conditions |= safety::kCalibrated;
   if (state.gait.queued == 0) conditions |= safety::kGaitOver;
   if (time_is_up(state)) conditions |= safety::kTimeUp;
-  if (power_bad(state, admitted)) conditions |= safety::kPowerBad;
+  if (in_trouble(state, admitted)) conditions |= safety::kTrouble;
   if (limited.beyond) conditions |= safety::kJointBeyond;
   return conditions;
 }
@@ -118,6 +118,32 @@ void enter(Mode mode, std::int32_t period_us, safety::MachineState& machine) {
   } else if (machine.in_mode_us < kLongest_us) {
     machine.in_mode_us += period_us;
   }
+}
+
+std::uint32_t oldest_servos(const Params& params, const AdmitState& admit) {
+  std::uint8_t oldest = admit.imu_age > 1 ? admit.imu_age : std::uint8_t{1};
+  std::uint32_t silent = 0;
+  for (int j = 0; j < params.joint_count; ++j) {
+    if (admit.servo_age[j] > oldest) silent = 0;
+    if (admit.servo_age[j] < oldest) continue;
+    oldest = admit.servo_age[j];
+    silent |= 1U << j;
+  }
+  return silent;
+}
+
+// A robot that holds and rises again and again never walks, and never rests.
+bool flutters(const Params& params, const AdmitState& admit, Mode before, std::uint32_t conditions,
+              safety::MachineState& machine) {
+  const auto period_us = static_cast<std::int32_t>(params.period_us);
+  const bool rests = machine.mode == Mode::kRelaxed || machine.flutter_us < period_us;
+  machine.flutter_us = rests ? 0 : machine.flutter_us - period_us;
+  const bool held = before != Mode::kHolding && machine.mode == Mode::kHolding;
+  if (held && (conditions & safety::kStale) != 0) {
+    machine.flutter_us += safety::kForgotten_us;
+    machine.silent = oldest_servos(params, admit);
+  }
+  return machine.flutter_us > safety::kFlutter_us;
 }
 
 }  // namespace
@@ -186,6 +212,7 @@ gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& ad
   in.wanted.vx_m_s = admitted.vx_m_s;
   in.wanted.vy_m_s = admitted.vy_m_s;
   in.wanted.wz_rad_s = admitted.wz_rad_s;
+  in.wanted.quick = (admitted.conditions & safety::kOperatorQuiet) != 0;
   in.wanted.heading_error_rad = heading_error(params, state, admitted, attitude, state.steer);
   in.goal_rad = state.limit.goal_rad;
   in.period_us = gait_period_us(params, state);
@@ -242,6 +269,7 @@ void gate(const Params& params, State& state, const AdmitOut& admitted,
   const std::uint32_t conditions = conditions_of(state, admitted, attitude, limited);
   enter(safety::next_mode(before, conditions), static_cast<std::int32_t>(params.period_us),
         machine);
+  if (flutters(params, state.admit, before, conditions, machine)) faults |= safety::kFaultFlutter;
   if (machine.mode == Mode::kFallen) faults |= safety::kFaultFall;
   if (is_refused(before, conditions)) faults |= safety::kFaultJointBeyond;
   if (before == Mode::kGettingUp && machine.mode == Mode::kStanding) {

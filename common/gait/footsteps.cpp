@@ -273,10 +273,12 @@ Step next_footholds(const Params& params, const GaitTuning& tuning, const Veloci
 
   const float reach_m = reach_limit_m(params, tuning);
   const Stride goal = wanted_stride(tuning, wanted, reach_m, state);
-  const float most_m = tuning.step_change_m;
+  const bool quick = wanted.stop && wanted.quick;
+  const float most_m = quick ? tuning.max_step_m : tuning.step_change_m;
+  const float most_rad = (quick ? 1.0F : 0.25F) * tuning.max_turn_rad;
   Stride stride{{toward(state.stride.by_m.x, goal.by_m.x, most_m),
                  toward(state.stride.by_m.y, goal.by_m.y, most_m)},
-                toward(state.stride.turn_rad, goal.turn_rad, 0.25F * tuning.max_turn_rad)};
+                toward(state.stride.turn_rad, goal.turn_rad, most_rad)};
   const bool reached = stride.by_m.x == goal.by_m.x && stride.by_m.y == goal.by_m.y;
   // Between two directions a stride may exceed both.
   if (!reached) stride = shortened(stride, math::min(tuning.max_step_m, reach_m));
@@ -300,6 +302,14 @@ Step next_footholds(const Params& params, const GaitTuning& tuning, const Veloci
   step.zmp_begin_m = last.zmp_end_m;
   step.zmp_end_m = zmp_under(params, tuning, carrying, step.foot[carrying]);
   return step;
+}
+
+void take_back(const GaitTuning& tuning, const Step& last, FootstepState& state) {
+  const Stride& stride = state.stride;
+  const Xy by_m{stride.by_m.x, leads(last.swing, stride.by_m.y) ? 2.0F * stride.by_m.y : 0.0F};
+  state.body.yaw_rad -= leads(last.swing, stride.turn_rad) ? 2.0F * stride.turn_rad : 0.0F;
+  state.body.at_m = state.body.at_m - turned(by_m, state.body.yaw_rad);
+  if (tuning.heading_gain > 0.0F) state.made = (state.made - 1) & 7;
 }
 
 Step next_step(const Params& params, const GaitTuning& tuning, const VelocityIn& wanted,

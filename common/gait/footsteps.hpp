@@ -41,6 +41,7 @@ struct VelocityIn {
   float wz_rad_s = 0;
   float heading_error_rad = 0;  ///< wanted minus actual; the next turn corrects a share
   bool stop = false;
+  bool quick = false;  ///< with `stop`: the next step closes the feet
 };
 
 /// Room between two soles, across the better of two lines along a sole; up to 0 they may overlap.
@@ -71,6 +72,9 @@ Step rest_step(const GaitTuning& tuning, const Step& last);
 /// (Phase::kFinal, swing kBoth) returns the ZMP to the middle.
 Step next_step(const Params& params, const GaitTuning& tuning, const VelocityIn& wanted,
                const Step& last, FootstepState& state);
+
+/// Undoes next_step(), which made `last`.
+void take_back(const GaitTuning& tuning, const Step& last, FootstepState& state);
 
 /// The same for the ZMP only: does not check the swing's path.
 Step next_footholds(const Params& params, const GaitTuning& tuning, const VelocityIn& wanted,

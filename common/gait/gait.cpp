@@ -92,10 +92,20 @@ void throw_body(const Params& params, const GaitTuning& tuning, GaitState& state
   }
 }
 
+// Plans anew the step beyond the head's: no key point lies in it.
+void stop_earlier(const Tuning& tuning, GaitState& state) {
+  const Step& last = state.queue[state.queued - 1];
+  const bool planned = state.queued >= state.preview.head_step + 2 && last.swing != kBoth;
+  if (!planned || last.phase == Phase::kFinal) return;
+  take_back(tuning.gait, last, state.footsteps);
+  --state.queued;
+}
+
 // Keeps a step known beyond the head's.
 void extend_queue(const Params& params, const Tuning& tuning, const GaitIn& in, GaitState& state) {
   VelocityIn wanted = in.wanted;
   wanted.stop = wanted.stop || !in.walk || (state.footsteps.notes & kPlanRefused) != 0;
+  if (wanted.stop && wanted.quick) stop_earlier(tuning, state);
   while (state.queued < kQueue && state.queued < state.preview.head_step + 2) {
     const Step& last = state.queue[state.queued - 1];
     state.queue[state.queued] = last.ends_walk()

@@ -39,7 +39,7 @@ enum Condition : std::uint32_t {
   kLost = 1 << 10,           ///< the same for stale_release_s
   kOperatorQuiet = 1 << 11,  ///< no operator frame for command_hold_s
   kOperatorGone = 1 << 12,   ///< no operator frame for command_release_s
-  kPowerBad = 1 << 13,       ///< kPowerFaults, now or still latched
+  kTrouble = 1 << 13,        ///< kTroubleFaults, now or still latched
   kJointBeyond = 1 << 14,    ///< limp, and a joint is over kBeyond_rad beyond its limits
   kAskAction = 1 << 15,      ///< the operator asks for an action not yet played
   kFallSeen = 1 << 16,       ///< certain to fall, and has a pose for it
@@ -58,6 +58,7 @@ enum Fault : std::uint32_t {
   kFaultVoltage = 1 << 6,
   kFaultServoError = 1 << 7,
   kFaultJointBeyond = 1 << 8,    ///< stand refused: a joint is beyond its limits
+  kFaultFlutter = 1 << 9,        ///< silent again and again
   kNoteOverrun = 1 << 16,        ///< a tick ended after its deadline
   kNoteParameter = 1 << 17,      ///< a parameter write was out of range and ignored
   kNoteStrideLimited = 1 << 18,  ///< the velocity needs longer steps than allowed
@@ -67,8 +68,14 @@ enum Fault : std::uint32_t {
   kNoteSpeedLimited = 1 << 22,   ///< a joint hit its velocity limit
 };
 
-/// Load causes these and rest hides them: the reaction must outlast the load.
-inline constexpr std::uint32_t kPowerFaults = kFaultTemperature | kFaultVoltage | kFaultServoError;
+/// Rest hides their cause, a load or a motion: the reaction must outlast it.
+inline constexpr std::uint32_t kTroubleFaults =
+    kFaultTemperature | kFaultVoltage | kFaultServoError | kFaultFlutter;
+
+/// Each silence that holds the robot adds kForgotten_us, which time takes away: three in ten
+/// seconds, a cable that is touched, never add up. Over kFlutter_us is flutter: five at once.
+inline constexpr std::int32_t kForgotten_us = 3'000'000;
+inline constexpr std::int32_t kFlutter_us = 4 * kForgotten_us;
 
 struct MachineState {
   std::uint32_t faults = 0;     ///< Fault bits
@@ -76,7 +83,9 @@ struct MachineState {
   Mode mode = Mode::kRelaxed;
   std::uint8_t falling_ms = 0;  ///< time beyond recovery, up to 255
   std::uint16_t way_ms = 0;     ///< duration of the last rise or sitting
-  VERP_FIELDS(faults, in_mode_us, mode, falling_ms, way_ms)
+  std::int32_t flutter_us = 0;  ///< of silences that held the robot
+  std::uint32_t silent = 0;     ///< bit j: servo j's silence held it last; 0: another device's
+  VERP_FIELDS(faults, in_mode_us, mode, falling_ms, way_ms, flutter_us, silent)
 };
 VERP_PACKED(MachineState);
 

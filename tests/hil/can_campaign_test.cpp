@@ -81,6 +81,7 @@ const std::vector<Kind>& kinds() {
       {{"node_silent_for_good", 7, {}, Event::kNodeSilent, {}, 0, 4}, {gone_for_good}},
       {{"node_silent_for_good_physics", 2, {}, Event::kNodeSilent, {}, 0, 3, true},
        {gone_for_good}},
+      {{"node_flutters", 3, {}, Event::kFlutters, {}, 6, 10}, {flutters, walks_again}},
       {{"node_unpowered_0_1_s", 4, {}, Event::kNodeUnpowered, {}, 0.1, 8},
        {gone_briefly, let_go, walks_again}},
       {{"node_reboots", 10, {}, Event::kNodeReboots, {}, 0.5, 8}, {reboots, walks_again}},

@@ -110,6 +110,10 @@ class CanFaultRun final : public FaultScene<Line, CanPlan, CanFaultResult> {
   }
 
   void disturb() override {
+    if (plan_.event == CanEvent::kFlutters && mute_ != Scene::is_mute()) {
+      mute_ = !mute_;
+      bus_.set_connected(node(result_.joint), !mute_);
+    }
     if (plan_.event != CanEvent::kManyReboot || ended() || random_() % 10 != 0) return;
     ++result_.events;
     reboot(static_cast<int>(random_() % params_.joint_count));
@@ -125,7 +129,7 @@ class CanFaultRun final : public FaultScene<Line, CanPlan, CanFaultResult> {
     const Inputs& inputs = board_->loop.inputs();
     const Outputs& outputs = board_->loop.outputs();
     const bool repeats = plan_.event == CanEvent::kRepeats;
-    const bool gone = plan_.event == CanEvent::kNodeSilent;
+    const bool gone = plan_.event == CanEvent::kNodeSilent || plan_.event == CanEvent::kFlutters;
     const bool cut = line_->trouble.faults.down || plan_.event == CanEvent::kBusOffs ||
                      plan_.event == CanEvent::kShort || plan_.intruder == Intruder::Kind::kFlood;
     const std::uint64_t now_us = bus_.now_us();
@@ -185,6 +189,7 @@ class CanFaultRun final : public FaultScene<Line, CanPlan, CanFaultResult> {
   Intruder* intruder_ = nullptr;
   std::optional<Line> line_;
   std::deque<std::vector<TickRecord>> traces_;  ///< per run of the controller
+  bool mute_ = false;                           ///< a node that flutters
   std::uint32_t unready_ = 0;                   ///< joints without power since the robot relaxed
 };
 

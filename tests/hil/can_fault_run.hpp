@@ -27,9 +27,10 @@ enum class CanEvent : std::uint8_t {
   kJointBeyond,  ///< a relaxed robot's joint is turned beyond its limits
   kImuGone,      ///< unplugged from the bus
   kImuRepeats,
-  kBusOff,   ///< the controller's chip, once
-  kBusOffs,  ///< while the fault lasts
-  kShort,    ///< the bus wires are shorted
+  kBusOff,    ///< the controller's chip, once
+  kBusOffs,   ///< while the fault lasts
+  kShort,     ///< the bus wires are shorted
+  kFlutters,  ///< a node is silent for 70 ms in every 300
 };
 
 struct CanPlan {

@@ -45,6 +45,9 @@ class FaultRun final : public FaultScene<FaultyLine, FaultPlan, FaultResult> {
     if (plan_.event == Event::kImuGone) bus_.set_connected(params_.imu.device_id, true);
   }
 
+  void disturb() override {
+    if (plan_.event == Event::kFlutters) bus_.set_connected(servo(), !is_mute());
+  }
   void watched_tick() override {
     const int joint = result_.joint;
     if (body_.on_stand()) {
@@ -58,7 +61,7 @@ class FaultRun final : public FaultScene<FaultyLine, FaultPlan, FaultResult> {
     if (body_.on_stand()) watch_.watch_positions(inputs, repeats ? joint : RunWatch::kNobody);
     watch_.watch_silence(inputs);
     watch_gains();
-    const bool gone = plan_.event == Event::kServoGone;
+    const bool gone = plan_.event == Event::kServoGone || plan_.event == Event::kFlutters;
     watch_.watch_torque(outputs, line_.now_us(), line_.faults.cut,
                         gone ? joint : RunWatch::kNobody);
     watch_.watch_fall(outputs, line_.now_us(), body_.lies());

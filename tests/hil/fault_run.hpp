@@ -21,6 +21,7 @@ enum class Event {
   kJointBeyond,  ///< a relaxed robot's joint is turned beyond its limits
   kImuGone,      ///< unplugged from the bus
   kImuRepeats,
+  kFlutters,  ///< a servo is silent for 70 ms in every 300
 };
 
 struct FaultPlan {

@@ -71,6 +71,8 @@ class FaultScene {
     return 1e-6 * static_cast<double>(ticks * params_.period_us);
   }
   void fault(const std::string& what) { watch_.fault(what); }
+  /// In this tick of a fault that flutters.
+  bool is_mute() const { return result_.ticks * params_.period_us % 300'000 < 70'000 && !ended(); }
   bool ended() const { return plan_.lasts_s > 0 && seconds(result_.ticks) >= plan_.lasts_s; }
 
   void begin_in_plant() {
@@ -167,7 +169,7 @@ class FaultScene {
   /// Latched until a relaxed robot is asked to relax.
   bool is_trouble() const {
     return plan_.event == Event::kHot || plan_.event == Event::kLowVoltage ||
-           plan_.event == Event::kSags;
+           plan_.event == Event::kSags || plan_.event == Event::kFlutters;
   }
   void relax(double duration_s) {
     asks_ = false;

@@ -97,6 +97,14 @@ void sags(const RunResult& result) {
   stops_walking(result, safety::kFaultVoltage);
 }
 
+void flutters(const RunResult& result) {
+  EXPECT_EQ(result.during.faults & safety::kFaultFlutter, safety::kFaultFlutter + 0u);
+  EXPECT_EQ(result.during.mode, kRelaxed) << kModeNames[result.during.mode];
+  EXPECT_TRUE(was(result, kSitting));
+  EXPECT_LE(result.changes, 12u);
+  EXPECT_EQ(result.after.faults & safety::kFaultFlutter, 0u) << "acknowledged";
+}
+
 void joint_beyond(const RunResult& result) {
   EXPECT_EQ(result.during.mode, kRelaxed) << kModeNames[result.during.mode];
   EXPECT_EQ(result.during.faults & safety::kFaultJointBeyond, safety::kFaultJointBeyond + 0u);

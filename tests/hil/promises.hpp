@@ -26,6 +26,7 @@ void cut(const RunResult& result);
 void reset(const RunResult& result);
 void hot(const RunResult& result);
 void sags(const RunResult& result);
+void flutters(const RunResult& result);
 void joint_beyond(const RunResult& result);
 void low_voltage(const RunResult& result);
 void overheated(const RunResult& result);

@@ -83,5 +83,32 @@ TEST(Referee, SeesARobotStepThatIsToRelaxOrThatNobodyWatches) {
   EXPECT_TRUE(alone.saw("nobody watching")) << alone.referee.violation();
 }
 
+TEST(Referee, SeesARobotThatRisesAfterTheFifthSilenceInARow) {
+  Controller controller;
+  const auto hold_and_rise = [&controller](Mode from) {
+    controller.inputs.fresh = ~1U;
+    controller.is(from, 0.04);
+    controller.is(kHolding, 0.03);
+    controller.inputs.fresh = ~0U;
+    controller.is(kRising, 0.2);
+  };
+  hold_and_rise(kStanding);
+  for (int i = 1; i < 4; ++i) hold_and_rise(kRising);
+  EXPECT_EQ(controller.referee.violation(), "");
+  hold_and_rise(kRising);
+  EXPECT_TRUE(controller.saw("in trouble")) << controller.referee.violation();
+}
+
+TEST(Referee, SeesARobotThatWalksOnWithNobodyWatching) {
+  Controller controller;
+  controller.inputs.command.request = Request::kWalk;
+  controller.is(kWalking, 1);
+  controller.inputs.flags &= static_cast<std::uint16_t>(~kCommandFresh);
+  controller.is(kWalking, 1.5);
+  EXPECT_EQ(controller.referee.violation(), "");
+  controller.is(kWalking, 1.5);
+  EXPECT_TRUE(controller.saw("walks on")) << controller.referee.violation();
+}
+
 }  // namespace
 }  // namespace verp::test

@@ -100,16 +100,24 @@ void SafeTable::count_trouble(const Inputs& inputs, int to) {
   trouble_ = trouble_ || bad;
 }
 
+// Each silence that holds the robot counts for three seconds.
+void SafeTable::count_flutter(int to) {
+  const int period_us = static_cast<int>(params_.period_us);
+  flutter_us_ = to == kRelaxed ? 0 : std::max(0, flutter_us_ - period_us);
+  if (to == kHolding && mode_ != kHolding && silent_ > 0) flutter_us_ += kHeld_s * 1'000'000;
+  trouble_ = trouble_ || flutter_us_ > kFlutter_s * 1'000'000;
+}
+
 void SafeTable::check_trouble(int to) {
   constexpr double kLongestEnd_s = 4;  // up to four planned steps
   trouble_ticks_ = trouble_ && to == kWalking ? trouble_ticks_ + 1 : 0;
-  if (1e-6 * params_.period_us * trouble_ticks_ > kLongestEnd_s) fault("walks on with bad power");
+  if (1e-6 * params_.period_us * trouble_ticks_ > kLongestEnd_s) fault("walks on in trouble");
   if (!trouble_) return;
   if (to != mode_ && (to == kRising || to == kWalking || to == kActing || to == kGettingUp)) {
-    fault(std::string("power is bad, and ") + kModeNames[mode_] + " became " + kModeNames[to]);
+    fault(std::string("in trouble, and ") + kModeNames[mode_] + " became " + kModeNames[to]);
   }
   if (to == mode_ && (to == kRising || to == kStanding)) {
-    fault(std::string("power is bad, and it goes on ") + kModeNames[to]);
+    fault(std::string("in trouble, and it goes on ") + kModeNames[to]);
   }
 }
 
@@ -148,6 +156,9 @@ void SafeTable::check_transition(const Inputs& inputs, int to) {
   if (to != mode_ && (kMayLeadTo[mode_] & bit(to)) == 0) {
     return fault(std::string(kModeNames[mode_]) + " became " + kModeNames[to]);
   }
+  const GaitTuning& gait = params_.tuning.gait;
+  const double stops_s = safety.command_hold_s + 2 * gait.cycle_s + 2 * gait.start_s + 0.1;
+  if (to == kWalking && longer(operator_silent_, stops_s)) fault("walks on with nobody watching");
   if (moving(to) && stale) fault(std::string(kModeNames[to]) + " though a device is silent");
   if (to == kHolding && mode_ == kHolding && lost) fault("holding though a device is lost");
   if (to == mode_) return;
@@ -242,6 +253,7 @@ void SafeTable::tick(const Inputs& inputs, const Outputs& outputs) {
   count_push(inputs);
   tick_ = inputs.tick;
   count_trouble(inputs, to);
+  count_flutter(to);
   if (silent_ == 0) check_trouble(to);
   check_way(outputs, to);
   check_transition(inputs, to);

@@ -26,6 +26,7 @@ class SafeTable {
   void count_silence(const Inputs& inputs);
   void count_push(const Inputs& inputs);
   void count_trouble(const Inputs& inputs, int to);
+  void count_flutter(int to);
   void check_trouble(int to);
   void check_way(const Outputs& outputs, int to);
   void check_transition(const Inputs& inputs, int to);
@@ -55,6 +56,8 @@ class SafeTable {
   static constexpr double kFalls_s = 0.7;
   int servo_bad_[kMaxJoints] = {};  ///< consecutive readings
   int supply_low_ = 0;
+  static constexpr int kHeld_s = 3, kFlutter_s = 12;
+  int flutter_us_ = 0;     ///< of holdings; time takes it away
   bool trouble_ = false;   ///< until a request to relax
   int trouble_ticks_ = 0;  ///< while walking
   std::int16_t gyro_[3] = {}, accel_[3] = {};

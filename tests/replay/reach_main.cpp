@@ -121,6 +121,30 @@ void fall() {
   }
 }
 
+// Its operator is quiet while it walks any way, with and without steps of one length; then a servo
+// is silent again and again.
+void silence() {
+  for (const float gain : {0.12F, 0.0F}) {
+    for (const std::int16_t turn : {-300, 0, 300}) {
+      control::test::Loop loop;
+      loop.command.request = Request::kStand;
+      follow(loop, 700);
+      loop.state.tuning.gait.heading_gain = gain;
+      loop.walk(1000);
+      loop.command.vy_tenth_mm_s = turn;
+      loop.command.wz_mrad_s = turn;
+      follow(loop, 400);
+      loop.inputs.flags = static_cast<std::uint16_t>(loop.inputs.flags & ~kCommandFresh);
+      follow(loop, 300);
+      loop.inputs.flags |= kCommandFresh;
+      for (int tick = 0; tick < 300; ++tick) {
+        loop.inputs.fresh = tick % 20 < 7 ? ~6U : ~0U;
+        follow(loop, 1);
+      }
+    }
+  }
+}
+
 bool print(const char* what, const char* name, std::size_t ticks) {
   std::printf("%-12s %-22s %8zu%s\n", what, name, ticks, ticks > 0 ? "" : "  NEVER REACHED");
   return ticks > 0;
@@ -150,6 +174,7 @@ bool print_faults() {
                  {safety::kFaultVoltage, "voltage"},
                  {safety::kFaultServoError, "servo error"},
                  {safety::kFaultJointBeyond, "joint beyond"},
+                 {safety::kFaultFlutter, "flutter"},
                  {safety::kNoteOverrun, "overrun"},
                  {safety::kNoteParameter, "parameter"},
                  {safety::kNoteStrideLimited, "stride limited"},
@@ -188,6 +213,7 @@ int main(int count, char** argument) {
   for (const replay::Segment& segment : trace) good = replay::run(segment) && good;
   replay::act();
   replay::fall();
+  replay::silence();
   constexpr const char* kPhases[] = {"idle", "start", "transition", "finalisation"};
   for (int i = 0; i < 4; ++i) {
     good = replay::print("gait phase", kPhases[i], replay::phase_count[i]) && good;

@@ -1,5 +1,6 @@
 #include "host/run/session/fault_names.hpp"
 
+#include <bit>
 #include <utility>
 
 #include "common/safety/machine.hpp"
@@ -17,6 +18,7 @@ constexpr FaultName kNames[] = {
     {safety::kFaultVoltage, "voltage low"},
     {safety::kFaultServoError, "servo hardware error"},
     {safety::kFaultJointBeyond, "joint beyond its limits"},
+    {safety::kFaultFlutter, "silent again and again"},
     {safety::kNoteOverrun, "tick overran"},
     {safety::kNoteParameter, "parameter refused"},
     {safety::kNoteStrideLimited, "stride limited"},
@@ -39,6 +41,17 @@ std::string fault_names(std::uint32_t faults) {
     text += (text.empty() ? "" : ", ") + std::string(name);
   }
   return text;
+}
+
+std::string silent_device(const Params& params, const State& state) {
+  const std::uint32_t silent = state.machine.silent;
+  if (silent == 0) return state.admit.imu_age > 1 ? "IMU" : "the controller's own pause";
+  std::string names;
+  for (int j = 0; j < params.joint_count; ++j) {
+    if ((silent >> j & 1U) == 0) continue;
+    names += (names.empty() ? "" : ", ") + std::to_string(params.joint[j].servo_id);
+  }
+  return (std::has_single_bit(silent) ? "servo " : "servos ") + names;
 }
 
 std::string PlanNotes::news(std::uint32_t faults) {

@@ -3,6 +3,8 @@
 #include <span>
 #include <string>
 
+#include "common/control/state.hpp"
+
 namespace verp::session {
 
 struct FaultName {
@@ -13,6 +15,9 @@ std::span<const FaultName> all_fault_names();
 
 /// Names of the set fault bits, e.g. "fall, servo silent"; empty if none is set.
 std::string fault_names(std::uint32_t faults);
+
+/// What held the robot last, e.g. "servo 7", "servos 7, 8", "IMU".
+std::string silent_device(const Params& params, const State& state);
 
 /// An order or tuning exceeds the legs: steps are shortened or refused.
 class PlanNotes {

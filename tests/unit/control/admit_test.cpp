@@ -34,7 +34,7 @@ struct Telemetry {
     }
     return last;
   }
-  bool power_bad() const { return (last.conditions & safety::kPowerBad) != 0; }
+  bool power_bad() const { return (last.conditions & safety::kTrouble) != 0; }
 
   AdmitState state;
   Tuning tuning = kRobot.tuning;

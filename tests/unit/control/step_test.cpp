@@ -186,11 +186,49 @@ TEST(Step, SilentServoHoldsThenSits) {
   EXPECT_GE(loop.until(Mode::kSitting, 100), 0);
 }
 
+// Servo 12 is silent for 70 ms of each `every` ticks; how often the mode changes in a minute.
+int changes_in_a_minute(int every, Loop& loop) {
+  int changes = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const std::uint8_t before = loop.outputs.mode;
+    loop.inputs.fresh = i % every < 7 ? ~(1u << 12) : ~0u;
+    loop.tick();
+    changes += loop.outputs.mode != before ? 1 : 0;
+  }
+  loop.inputs.fresh = ~0u;
+  return changes;
+}
+
+TEST(Step, RobotThatIsSilencedAgainAndAgainSitsDownUntilItIsRelaxed) {
+  Loop& loop = test::fresh_loop();
+  get_walking(loop);
+  EXPECT_LE(changes_in_a_minute(30, loop), 12) << "four times holding and rising, then it sits";
+  EXPECT_TRUE(loop.is_in(Mode::kRelaxed)) << "though a walk is asked all the time";
+  EXPECT_NE(loop.outputs.faults & safety::kFaultFlutter, 0u);
+  loop.command.request = Request::kRelax;
+  loop.ticks(2);
+  EXPECT_EQ(loop.outputs.faults, 0u) << "acknowledged";
+  loop.command.request = Request::kWalk;
+  EXPECT_GE(loop.until(Mode::kWalking, 600), 0) << "left by asking to relax";
+}
+
+// A cable that is touched: three times in ten seconds, for ever.
+TEST(Step, RobotThatIsSilencedNowAndThenRisesEachTime) {
+  Loop& loop = test::fresh_loop();
+  get_walking(loop);
+  EXPECT_GE(changes_in_a_minute(334, loop), 18 * 3);
+  EXPECT_EQ(loop.outputs.faults & safety::kFaultFlutter, 0u);
+  EXPECT_NE(loop.outputs.torque_enable, 0u);
+}
+
 TEST(Step, QuietOperatorStopsTheWalkOnBothFeet) {
   Loop& loop = test::fresh_loop();
   get_walking(loop);
   loop.inputs.flags = static_cast<std::uint16_t>(loop.inputs.flags & ~kCommandFresh);
-  EXPECT_GE(loop.until(Mode::kStanding, 500), 0);
+  const GaitTuning& gait = kRobot.tuning.gait;
+  const SafetyTuning& safety = kRobot.tuning.safety;
+  const float most_s = safety.command_hold_s + 2.0F * gait.cycle_s + gait.start_s;
+  EXPECT_GE(loop.until(Mode::kStanding, static_cast<int>(100.0F * most_s)), 0) << "four steps";
   EXPECT_NE(loop.outputs.faults & safety::kFaultOperatorQuiet, 0u);
   EXPECT_EQ(loop.outputs.stance, gait::kBoth);
 }

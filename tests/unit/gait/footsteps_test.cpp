@@ -258,6 +258,39 @@ TEST(Footsteps, StopBringsTheFeetLevelThenTheWeightBack) {
   }
 }
 
+TEST(Footsteps, QuickStopClosesTheFeetInTheNextStepOrNarrowsThemInOneMore) {
+  for (const VelocityIn& wanted :
+       {VelocityIn{.vx_m_s = 0.42F}, VelocityIn{.vx_m_s = -0.1F, .vy_m_s = 0.2F},
+        VelocityIn{.vx_m_s = 0.1F, .wz_rad_s = -1.5F}}) {
+    Walk walk;
+    for (int i = 0; i < kSteps; ++i) walk.take(wanted);
+    VelocityIn stop = wanted;
+    stop.stop = stop.quick = true;
+    EXPECT_NE(walk.take(stop).swing, kBoth);
+    const bool wide = (walk.state.notes & kStepWidened) != 0;
+    if (wide) walk.take(stop);
+    EXPECT_EQ(walk.take(stop).swing, kBoth);
+  }
+}
+
+TEST(Footsteps, AStepThatIsTakenBackIsPlannedAgain) {
+  for (const VelocityIn& wanted :
+       {VelocityIn{.vx_m_s = 0.3F}, VelocityIn{.vx_m_s = -0.1F, .vy_m_s = 0.1F},
+        VelocityIn{.vx_m_s = 0.1F, .wz_rad_s = -0.5F}}) {
+    Walk walk;
+    for (int i = 0; i < kSteps; ++i) walk.take(wanted);
+    const Step before = walk.last;
+    const Step once = walk.take(wanted);
+    take_back(walk.tuning, once, walk.state);
+    walk.last = before;
+    const Step again = walk.take(wanted);
+    EXPECT_NEAR(again.landing.at_m.x, once.landing.at_m.x, 1e-6F);
+    EXPECT_NEAR(again.landing.at_m.y, once.landing.at_m.y, 1e-6F);
+    EXPECT_NEAR(again.landing.yaw_rad, once.landing.yaw_rad, 1e-6F);
+    EXPECT_EQ(again.key_us, once.key_us);
+  }
+}
+
 TEST(Footsteps, ZmpStaysInsideTheSoleWhateverIsTuned) {
   GaitTuning tuning;
   for (const float x : {-0.05F, 0.0F, 0.05F}) {

@@ -74,7 +74,7 @@ TEST(SafetyTable, Row6AskedToRelaxItSitsDownFirst) {
              Mode::kSitting);
 }
 TEST(SafetyTable, Row7PowerTroubleSitsDown) {
-  expect_row(7, modes(Mode::kRising, Mode::kStanding, Mode::kHolding), kPowerBad, kStale,
+  expect_row(7, modes(Mode::kRising, Mode::kStanding, Mode::kHolding), kTrouble, kStale,
              Mode::kSitting);
 }
 TEST(SafetyTable, Row8EndOfSilenceRisesAgain) {
@@ -85,7 +85,7 @@ TEST(SafetyTable, Row9AbandonedRobotSitsDown) {
 }
 TEST(SafetyTable, Row10RelaxedRobotRisesOnlyWhenAllIsWell) {
   expect_row(10, bit(Mode::kRelaxed), kAskStand | kServosKnown,
-             kFell | kStale | kOperatorQuiet | kPowerBad | kJointBeyond, Mode::kRising);
+             kFell | kStale | kOperatorQuiet | kTrouble | kJointBeyond, Mode::kRising);
 }
 TEST(SafetyTable, Row11RiseEndsInTheStand) {
   expect_row(11, bit(Mode::kRising), kTimeUp, 0, Mode::kStanding);
@@ -107,15 +107,15 @@ TEST(SafetyTable, Row15WalkEndsOnBothFeetWhenTheOperatorIsQuiet) {
 }
 TEST(SafetyTable, Row16WalkEndsOnBothFeetWhenPowerIsBad) {
   ASSERT_LT(16, kRows);
-  EXPECT_TRUE(next_mode(Mode::kWalking, kGaitOver | kAskWalk | kPowerBad) == Mode::kStanding);
-  EXPECT_TRUE(next_mode(Mode::kWalking, kAskWalk | kPowerBad) == Mode::kWalking);
-  EXPECT_EQ(kTable[16].all_of, kGaitOver | kPowerBad);
+  EXPECT_TRUE(next_mode(Mode::kWalking, kGaitOver | kAskWalk | kTrouble) == Mode::kStanding);
+  EXPECT_TRUE(next_mode(Mode::kWalking, kAskWalk | kTrouble) == Mode::kWalking);
+  EXPECT_EQ(kTable[16].all_of, kGaitOver | kTrouble);
 }
 TEST(SafetyTable, Row17SittingRobotRelaxesWhenDown) {
   expect_row(17, bit(Mode::kSitting), kTimeUp, 0, Mode::kRelaxed);
 }
 TEST(SafetyTable, Row18ActsOnlyWhenAllIsWell) {
-  expect_row(18, bit(Mode::kStanding), kAskAction | kCalibrated, kOperatorQuiet | kPowerBad,
+  expect_row(18, bit(Mode::kStanding), kAskAction | kCalibrated, kOperatorQuiet | kTrouble,
              Mode::kActing);
 }
 TEST(SafetyTable, Row19ActionEndsInTheStand) {
@@ -134,7 +134,7 @@ TEST(SafetyTable, Row22FallThatWasNoneHolds) {
 }
 TEST(SafetyTable, Row23GetsUpOnlyWhenAskedAndAllIsWell) {
   expect_row(23, modes(Mode::kFallen, Mode::kRelaxed), kAskGetUp | kServosKnown,
-             kStale | kOperatorQuiet | kPowerBad | kJointBeyond, Mode::kGettingUp);
+             kStale | kOperatorQuiet | kTrouble | kJointBeyond, Mode::kGettingUp);
 }
 TEST(SafetyTable, Row24GettingUpThatEndsLyingIsAFall) {
   expect_row(24, bit(Mode::kGettingUp), kTimeUp | kFell, 0, Mode::kFallen);
@@ -210,7 +210,7 @@ TEST(SafetyMachine, WalkingStopsOnlyOnBothFeetUnlessItMust) {
 TEST(SafetyMachine, PowerTroubleNeverBeginsARiseAWalkAnActionOrGettingUp) {
   int wrong = 0;
   for_all([&](Mode from, std::uint32_t conditions, Mode to) {
-    if ((conditions & kPowerBad) == 0 || from == to) return;
+    if ((conditions & kTrouble) == 0 || from == to) return;
     if (to == Mode::kRising || to == Mode::kWalking || to == Mode::kActing ||
         to == Mode::kGettingUp) {
       ++wrong;

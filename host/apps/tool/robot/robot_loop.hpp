@@ -77,9 +77,8 @@ class RobotRun {
         imu_(params_.imu),
         operator_(
             params_, plan.walk.velocity, plan.walk.walk_s,
-            [this](auto from, auto to, auto faults, const std::string& story) {
-              tell(from, to, faults, story);
-            },
+            [this](auto from, auto to, auto faults, const std::string& story,
+                   const std::string& silent) { tell(from, to, faults, story, silent); },
             plan.walk.get_ups),
         keeper_{robot_, operator_, result_.walk, trace},
         app_(params_, robot_.bus(), operator_, keeper_, plan.has_imu ? nullptr : &imu_,
@@ -185,8 +184,10 @@ class RobotRun {
     if (!news.empty()) say(news);
   }
 
-  void tell(safety::Mode from, safety::Mode to, std::uint32_t faults, const std::string& story) {
-    const std::string why = session::fault_names(faults & 0xFFFF);  // faults that stop the robot
+  void tell(safety::Mode from, safety::Mode to, std::uint32_t faults, const std::string& story,
+            const std::string& silent) {
+    std::string why = session::fault_names(faults & 0xFFFF);  // faults that stop the robot
+    if (!silent.empty() && !why.empty()) why += ": " + silent;
     say(fmt::format("{} to {}{}{}", safety::kModeNames[static_cast<int>(from)],
                     safety::kModeNames[static_cast<int>(to)], why.empty() ? "" : " (" + why + ")",
                     story.empty() ? "" : ": " + story));

@@ -10,7 +10,8 @@ using safety::Mode;
 
 RunOperator::RunOperator(const Params& params, const Command& velocity, double walk_s, Told told,
                          int get_ups)
-    : walker_(params, velocity, walk_s, get_ups),
+    : params_(params),
+      walker_(params, velocity, walk_s, get_ups),
       told_(std::move(told)),
       period_s_(1e-6 * params.period_us),
       most_s_(walk_s),
@@ -54,7 +55,11 @@ void RunOperator::observe_playing(const State& state, const Outputs& outputs) {
 // With get-ups, the walker counts the attempts.
 void RunOperator::observe_mode(Mode from, const State& state, const Outputs& outputs) {
   const std::string story = story_.observe(state, outputs);
-  if (mode_ != from) told_(from, mode_, outputs.faults, story);
+  if (mode_ != from && mode_ == Mode::kHolding) {
+    silent_ = session::silent_device(params_, state);
+  }
+  const bool holds = from == Mode::kHolding || mode_ == Mode::kHolding;
+  if (mode_ != from) told_(from, mode_, outputs.faults, story, holds ? silent_ : "");
   risen_ = risen_ || outputs.torque_enable != 0;
   if (mode_ == Mode::kFallen && !gets_up_) fail("the robot fell");
   if (mode_ == Mode::kStopped && !limp_) fail("stopped");

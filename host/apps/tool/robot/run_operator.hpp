@@ -18,9 +18,10 @@ namespace verp::tool {
 /// torque off. Waits while the robot holds. Does not raise a robot that released torque by itself.
 class RunOperator {
  public:
-  /// The robot's mode has changed. `story`: a fall in words, or empty.
+  /// The robot's mode has changed. `story`: a fall in words, or empty. `silent`: the device that
+  /// holds it, or empty.
   using Told = std::function<void(safety::Mode from, safety::Mode to, std::uint32_t faults,
-                                  const std::string& story)>;
+                                  const std::string& story, const std::string& silent)>;
 
   /// `get_ups`: attempts in a row after a fall; 0: a fall ends the walk.
   RunOperator(const Params& params, const Command& velocity, double walk_s, Told told,
@@ -58,6 +59,7 @@ class RunOperator {
   void observe_obeying(std::uint32_t faults);
   void observe_playing(const State& state, const Outputs& outputs);
 
+  const Params& params_;
   session::WalkOperator walker_;
   std::optional<action::PlayOperator> player_;
   Told told_;
@@ -69,6 +71,7 @@ class RunOperator {
   Command relax_;
   safety::Mode mode_ = safety::Mode::kRelaxed;
   std::string failure_;
+  std::string silent_;  ///< why it holds
   int quiet_ticks_ = 0;
   bool sitting_ = false, limp_ = false, risen_ = false;
 };
