@@ -114,7 +114,7 @@ struct NewRobotWords {
 };
 
 void write_text(const fs::path& file, const std::string& text) {
-  const files::Trouble trouble = files::create(file, text);
+  const files::Trouble trouble = files::replace(file, text);
   if (trouble.any()) throw cli::ToolError(cli::kBadInput, file.string() + ": " + trouble.text());
 }
 
