@@ -21,7 +21,7 @@ class Beside {
   Beside(const std::filesystem::path& file, const std::string& text)
       : path_(file.parent_path() /
               ("." + file.filename().string() + "." + std::to_string(::getpid()) + ".sdf")) {
-    const files::Trouble trouble = files::create(path_, text);
+    const files::Trouble trouble = files::replace(path_, text);
     if (trouble.any())
       throw std::runtime_error(path_.string() + ", which the run is made from: " + trouble.text());
   }
