@@ -110,12 +110,12 @@ TEST_F(Mcap, BytesAfterTheEndAreSeen) {
 
 TEST_P(McapOf, ATruncationLosesNoWholeMessage) {
   const std::string bytes = small_file(folder_ / "a.mcap", GetParam());
-  for (int i = 0; i < 6; ++i) {
+  for (unsigned i = 0; i < 6; ++i) {
     const std::string last = "message " + std::to_string(i) + std::string(90, '.');
     const std::size_t end = bytes.find(last) + last.size();
     if (GetParam() == mcap::Compression::kZstd) continue;  // its chunks are whole or lost
-    EXPECT_EQ(mcap::parse(bytes.substr(0, end)).messages.size(), i + 1u);
-    EXPECT_EQ(mcap::parse(bytes.substr(0, end - 1)).messages.size(), static_cast<unsigned>(i));
+    EXPECT_EQ(mcap::parse(bytes.substr(0, end)).messages.size(), i + 1);
+    EXPECT_EQ(mcap::parse(bytes.substr(0, end - 1)).messages.size(), i);
   }
   const mcap::WholeFile almost = mcap::parse(bytes.substr(0, bytes.size() - 1));
   EXPECT_TRUE(almost.data_whole);
