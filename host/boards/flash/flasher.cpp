@@ -98,9 +98,9 @@ std::string keep(const Step& step) {
     if (bytes.find_first_not_of('\xFF') == bytes.npos) continue;
     const bool kept =
         std::filesystem::exists(piece.file) || !files::create(piece.file, bytes).any();
-    told += fmt::format(
-        kept ? ", and with it --{} {}" : ", and with --{}, which was lost: {} cannot be written",
-        piece.what, piece.file.string());
+    told += kept ? fmt::format(", and with it --{} {}", piece.what, piece.file.string())
+                 : fmt::format(", and with --{}, which was lost: {} cannot be written", piece.what,
+                               piece.file.string());
   }
   return told;
 }
