@@ -4,10 +4,11 @@
 
 #include "common/protocol/control_table.hpp"
 
-/// What distinguishes the control tables of the servos' models. Source: ROBOTIS e-Manual, the page
-/// of each model (docs/en/dxl/x, docs/en/dxl/mx), with its includes. Older versions of the pages
-/// have other Velocity Limits (44): XM430-W350 350, XM540-W150 380, XH430-W210 360, MX-28 380,
-/// MX-64 435, MX-106 360; and other Drive Modes (10) of the X-series: up to 5, before firmware 45.
+/// The control tables of the servos' models, as far as they differ. Source: ROBOTIS e-Manual, the
+/// page of each model (docs/en/dxl/x, docs/en/dxl/mx), with its includes. Older versions of the
+/// pages have other Velocity Limits (44): XM430-W350 350, XM540-W150 380, XH430-W210 360, MX-28
+/// 380, MX-64 435, MX-106 360; and other Drive Modes (10) of the X-series: up to 5, before
+/// firmware 45.
 namespace verp::dxl {
 
 enum ServoFeature : std::uint16_t {

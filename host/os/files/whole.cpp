@@ -121,8 +121,8 @@ int open_part(const fs::path& file, fs::path& part) {
 
 bool take_name(int part, const fs::path& from, const fs::path& file) {
   struct stat old {};
-  if (::stat(file.c_str(), &old) == 0) [[maybe_unused]]
-    const int kept = ::fchmod(part, old.st_mode & 0777);  // a foreign disk may have no modes
+  if (::stat(file.c_str(), &old) == 0)
+    ::fchmod(part, old.st_mode & 0777);  // fails where a disk has no modes
   if (::fsync(part) != 0 && errno != EINVAL) return false;
   if (::rename(from.c_str(), file.c_str()) != 0) return false;
   sync_folder(file);

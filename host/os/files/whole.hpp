@@ -14,7 +14,7 @@ inline constexpr std::size_t kMostBytes = 128U << 20;
 /// Nothing if it cannot be opened or exceeds kMostBytes; errno has the reason.
 std::optional<std::string> read(const std::filesystem::path& file);
 
-/// What went wrong with a file that was written, if anything did.
+/// The result of a write: success, or an error with its remedy.
 class [[nodiscard]] Trouble {
  public:
   Trouble() = default;
@@ -46,7 +46,7 @@ class NewFile {
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
 
-  /// None: part() can be written.
+  /// Success: part() can be written.
   Trouble trouble() const { return trouble_; }
   /// Write here; FILE.PID-N.part, or FILE itself if it is a device or a pipe.
   const std::filesystem::path& part() const { return part_; }
@@ -61,8 +61,8 @@ class NewFile {
   bool direct_ = false;
 };
 
-/// The file that a name stands for: follows links, unless a stranger could have put them there.
-/// Nothing: refused, and errno has the reason.
+/// The file that a name stands for: follows links, unless another user could have put them there;
+/// then nothing, and errno has the reason.
 std::optional<std::filesystem::path> target_of(const std::filesystem::path& file);
 /// Makes FILE.PID-N.part, new; -1: errno has the reason.
 int open_part(const std::filesystem::path& file, std::filesystem::path& part);

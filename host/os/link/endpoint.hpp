@@ -11,9 +11,9 @@ namespace verp::link {
 ///     pty:  pty:PATH                makes a pseudo-terminal; PATH becomes a symbolic link to it
 ///     tcp:HOST:PORT                 connects; HOST is a name, an IPv4 address or [an IPv6 address]
 ///     tcp-listen:PORT               waits for one peer of this PC; PORT 0 takes a free one
-///     tcp-listen:HOST:PORT,token=FILE   ... on an address of the network: a peer says the secret
-///     in
-///                                   FILE first, as tcp:HOST:PORT,token=FILE does
+///     tcp-listen:HOST:PORT,token=FILE
+///                                   ... on an address of the network: a peer first says the secret
+///                                   in FILE, as tcp:HOST:PORT,token=FILE does
 ///     unix:PATH  unix-listen:PATH   a socket in the file system
 ///     can:can0                      a CAN interface of this PC, as `ip link` names it
 struct Endpoint {

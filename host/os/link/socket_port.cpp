@@ -226,7 +226,7 @@ class Listener final : public Port {
       if (count <= 0) return turn_away();
       said_.append(bytes.data(), static_cast<std::size_t>(count));
     }
-    unsigned wrong = 0;  // the time tells nothing of the place
+    unsigned wrong = 0;  // equally long wherever they differ
     for (std::size_t i = 0; i < said_.size(); ++i)
       wrong |= static_cast<unsigned char>(said_[i] ^ greeting_[i]);
     return wrong == 0 || turn_away();

@@ -103,7 +103,7 @@ void read_gearbox(const XmlElement& e, const Reader& read, ServoType& type) {
   read_bands(e, type);
 }
 
-// What the model of that number lacks, a file can't give it.
+// A file cannot give a servo what its model lacks.
 void check_model(const XmlElement& e, const ServoType& type) {
   const dxl::ServoModel* model = dxl::find_servo_model(type.model_number);
   if (type.protocol != BusProtocol::kDynamixel2 || model == nullptr) return;

@@ -16,7 +16,7 @@ std::span<const FaultName> all_fault_names();
 /// Names of the set fault bits, e.g. "fall, servo silent"; empty if none is set.
 std::string fault_names(std::uint32_t faults);
 
-/// What held the robot last, e.g. "servo 7", "servos 7, 8", "IMU".
+/// The devices whose silence held the robot last, e.g. "servo 7", "servos 7, 8", "IMU".
 std::string silent_device(const Params& params, const State& state);
 
 /// An order or tuning exceeds the legs: steps are shortened or refused.

@@ -209,7 +209,7 @@ void Server::accept_all() {
   }
 }
 
-/// Nobody is kept out by viewers that watch nothing or read nothing. False: all of them watch.
+/// Ends the viewer that has watched or read nothing for longest. False: all of them watch.
 bool Server::make_room() {
   const auto now = Clock::now();
   const std::lock_guard guard(lock_);

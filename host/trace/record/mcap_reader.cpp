@@ -314,7 +314,7 @@ class Reader::Parser {
     }
   }
 
-  /// Its whole records; a compressed one has none.
+  /// Keeps its whole records. A compressed chunk cannot be unpacked without its end.
   void truncated_chunk(std::string_view begun, std::uint64_t start) {
     Cursor in(begun);
     in.take(8 + 8 + 8 + 4);

@@ -45,7 +45,7 @@ TEST_F(Save, AFileThatAnotherProgramChangedStaysAndNothingIsLost) {
   EXPECT_NE(refusal().find(".unsaved2"), std::string::npos) << "and the first stays";
 }
 
-// In a shared folder somebody could have put a link there.
+// In a shared folder another user could have put a link there.
 TEST_F(Save, WhatIsPutAsideFollowsNoLink) {
   const std::string elsewhere = (folder_.path() / "elsewhere").string();
   fs::create_symlink(elsewhere, file_ + ".unsaved");

@@ -75,7 +75,7 @@ TEST(Replace, SaysWhatIsWrongWithItsRemedy) {
             "cannot be written: No space left on device; free space, or choose another place");
 }
 
-// A link that somebody else left in a shared folder leads to a file of the user's.
+// Another user's link in a shared folder leads to a file of this user's.
 class PlantedLink : public ::testing::Test {
  protected:
   PlantedLink() {

@@ -55,9 +55,8 @@ void RunOperator::observe_playing(const State& state, const Outputs& outputs) {
 // With get-ups, the walker counts the attempts.
 void RunOperator::observe_mode(Mode from, const State& state, const Outputs& outputs) {
   const std::string story = story_.observe(state, outputs);
-  if (mode_ != from && mode_ == Mode::kHolding) {
-    silent_ = session::silent_device(params_, state);
-  }
+  if (mode_ != from && mode_ == Mode::kHolding)  // a caught fall holds without a silence
+    silent_ = from == Mode::kFalling ? "" : session::silent_device(params_, state);
   const bool holds = from == Mode::kHolding || mode_ == Mode::kHolding;
   if (mode_ != from) told_(from, mode_, outputs.faults, story, holds ? silent_ : "");
   risen_ = risen_ || outputs.torque_enable != 0;
