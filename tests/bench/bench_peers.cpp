@@ -20,10 +20,9 @@
 /// faster of two solvers: Levenberg-Marquardt, and Newton-Raphson with weighted damped least
 /// squares. Exit 1 if either differs from our answer.
 ///
-/// KDL gets every advantage: set up once, single-axis joints, Eigen with the compiler's vectors,
-/// the true answer of 10 ms earlier as start, no joint limits. Tolerances are no finer than needed:
-/// Levenberg-Marquardt's default residual is 1e-5 in metres, a radian weighing 0.01 m;
-/// Newton-Raphson ends at 1e-5 m and rad.
+/// KDL gets every advantage: set up once, single-axis joints, Eigen with the compiler's vectors, a
+/// start at the true answer of 10 ms earlier, no joint limits. Tolerances are no finer than needed:
+/// 1e-5 in m and rad, for Levenberg-Marquardt with a radian as 0.01 m.
 namespace verp::bench {
 namespace {
 

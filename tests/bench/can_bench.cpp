@@ -12,8 +12,7 @@
 #include "tests/target/can_run.hpp"
 
 /// can_bench [--ticks N] [BOARD...]: speed of the loop between an emulated board (default: each
-/// with CAN) and a robot on vcan0, without physics. One JSON line each. Run it inside
-/// tests/support/with-can.
+/// with CAN) and a robot on vcan0. One JSON line each. Run it inside tests/support/with-can.
 namespace {
 
 constexpr std::uint32_t kTicks = 1900;  // stands up, walks ten seconds, stops

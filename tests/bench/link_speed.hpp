@@ -6,14 +6,13 @@
 
 namespace verp::board {
 
-/// Without bus and physics. A tick is four frames of 200 bytes from the board, two answers of 200
-/// bytes, and one record.
+/// A tick is four frames of 200 bytes from the board, two such answers, and one record.
 struct LinkSpeed {
   double ticks_per_s = 0;
   double round_trips_per_s = 0;
 };
 
-/// `with_step`: the board runs the controller. Wall-clock time: repeat it and watch the load.
+/// `with_step`: the board runs the controller. Wall-clock time.
 LinkSpeed measure_link(const std::string& board, const Params& params, std::uint32_t ticks,
                        bool with_step);
 

@@ -9,7 +9,7 @@
 
 namespace verp::board {
 
-/// Exact instruction counts: QEMU has no meaningful clock.
+/// Exact instruction counts.
 struct TargetCost {
   std::uint64_t ticks = 0;
   double average = 0;  ///< of step(), digest included
@@ -31,8 +31,8 @@ TargetCost measure_target(const std::string& board, const Params& params,
 struct FunctionCost {
   std::string name;
   double calls_a_tick = 0;
-  double average_a_tick = 0;     ///< instructions, callees included
-  std::uint64_t worst_tick = 0;  ///< by all its calls in a tick
+  double average_a_tick = 0;
+  std::uint64_t worst_tick = 0;
 };
 
 /// The most expensive first. Throws BoardError.

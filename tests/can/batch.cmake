@@ -1,5 +1,4 @@
-# Tests that need CAN sockets share runs of tests/support/with-can, `can.start` and `can.slow`; then each reports
-# its own result.
+# Tests that need CAN sockets share runs of tests/support/with-can; then each reports its own result.
 #
 #   verp_can_test(START NAME PROGRAM ARGUMENT...)   PROGRAM may be a generator expression. START is
 #                                                     start: tests that wait for answers, however long they take

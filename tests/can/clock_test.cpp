@@ -9,7 +9,6 @@
 
 #include "host/os/link/system_clock.hpp"
 
-// quick_clock.cpp must agree with the kernel.
 namespace verp::test {
 namespace {
 

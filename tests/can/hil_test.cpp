@@ -67,7 +67,6 @@ TEST_F(HilOnCan, RefusesAnotherRobot) {
       << outcome.err;
 }
 
-// They would answer beside the twin's.
 TEST_F(HilOnCan, RefusesNodesThatAreThereAlready) {
   const std::uint8_t id = params().joint[3].servo_id;
   std::atomic<bool> over = false;

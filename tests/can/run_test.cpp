@@ -40,8 +40,7 @@ class RunOnCan : public Program {
   }
 };
 
-// On a busy core, `verp run` refuses with status 3, or missed periods make the robot hold or fall,
-// status 1. So repeat until it walked.
+// On a busy core `verp run` refuses with status 3, or the robot holds or falls, status 1: repeat.
 TEST_F(RunOnCan, DrivesTheRobotAndLetsItGo) {
   const std::string run = std::string(VERP_PROGRAM) +
                           " run generic21 --bus can --link can:vcan0 --yes --json "
@@ -70,8 +69,7 @@ TEST_F(RunOnCan, DrivesTheRobotAndLetsItGo) {
   EXPECT_EQ(replay.status, 0) << replay.err;
 }
 
-// Each drive is asked whether it let go. Ctrl-C ends the questions, and the report says what is
-// unknown.
+// Ctrl-C ends the questions whether drives let go; the report says what is unknown.
 TEST_F(RunOnCan, AnInterruptEndsTheQuestionsToSilentDrives) {
   const std::string run = std::string(VERP_PROGRAM) +
                           " run generic21 --bus can --link can:vcan0 --yes --json --period 20 "

@@ -12,8 +12,7 @@ using nlohmann::json;
 
 class WatchedRun : public Program {
  protected:
-  /// On vcan0 beside `verp run` and the twin. One core runs it all, so runs may end early and
-  /// repeat until `watch` is done.
+  /// One core runs all, so runs may end early and repeat until `watch` is done.
   Outcome run_beside(const std::string& watch) const {
     const std::string on_bus = " generic21 --bus can --json --link can:vcan0 ";
     return shell("verp=" VERP_PROGRAM "; watch() { " + watch +

@@ -17,7 +17,6 @@
 #include "tests/host/tool/link_controller.hpp"
 #include "tests/host/tool/program.hpp"
 
-// tshark's CANopen dissector reads what controller and twin sent.
 namespace verp::tool::test {
 namespace {
 
@@ -115,7 +114,6 @@ class CanTools : public Program {
   }
 };
 
-// All nodes are reset, set up and started.
 void CanTools::expect_commands(std::size_t end) const {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> told, wanted;
   for (const Decoded& each : some(0, end, "NMT: "))

@@ -178,7 +178,6 @@ TYPED_TEST(ByteLinkContract, TellsALossAfterWhatCameBefore) {
   this->expect_lost(1);
 }
 
-// Calls wait their time, without a signal or an exception.
 TYPED_TEST(ByteLinkContract, OutlivesALoss) {
   this->pair.cut();
   const Bytes bytes(100);

@@ -184,7 +184,6 @@ TYPED_TEST(CanBusContract, CountsNoErrorsWhereThereAreNone) {
   EXPECT_EQ(errors.dropped, 0u);
 }
 
-// At bus-off a backend drops waiting frames, reports it, refuses new ones, and recovers.
 TYPED_TEST(CanBusContract, ComesBackFromBusOffByItself) {
   TypeParam backend;
   if constexpr (TypeParam::kBusOff) {

@@ -18,7 +18,6 @@
 #include "tests/support/stm32/rig.hpp"
 #include "tests/support/stm32/usart_model.hpp"
 
-/// Drivers of hal/chip/stm32 on register models: on the PC, and on target for what emulators lack.
 namespace verp::test {
 
 using hal::stm32::Family;
@@ -28,7 +27,6 @@ using ChipIo = hal::stm32::test::Io;
 using ChipTimer = hal::stm32::test::Timer;
 using ChipDog = hal::stm32::IndependentWatchdog<ChipIo>;
 
-/// Its wire has no detect line: nothing shows that the far end is gone.
 class UsartPair {
   static constexpr std::uint32_t kBaud = 2'000'000;
   static constexpr std::uint32_t kStep_us = 50;

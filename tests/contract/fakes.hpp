@@ -17,9 +17,8 @@
 
 namespace verp::test {
 
-/// A FrameBus backend for `pings` pings of servo 1. It answers the e-Manual's status packet, except
-/// for the firmware version. kPlenty_us suffices for an answer. kSlack_us: its clock's error while
-/// it should stand; 0 in simulated time.
+/// A FrameBus backend for `pings` pings of servo 1, which kPlenty_us suffices to answer. kSlack_us:
+/// its clock's error while it should stand; 0 in simulated time.
 inline const std::vector<std::uint8_t> kPing = {0xFF, 0xFF, 0xFD, 0x00, 0x01,
                                                 0x03, 0x00, 0x01, 0x19, 0x4E};
 
@@ -51,7 +50,6 @@ struct ScriptedInPieces : Scripted {
 
 /// A CanBus backend: `bus` is one node, the test the other. far_send() sends once the wire is free;
 /// far_take() returns the next frame received there. kPlenty_us suffices for hal::kCanQueue frames.
-/// kBusOff: fill_and_bus_off() queues frames, then causes bus-off.
 struct ScriptedWire : SimulatedTime {
   static constexpr bool kBusOff = true;
   void far_send(const CanFrame& frame) { bus.inject(frame, bus.now_us() + 100); }
@@ -141,9 +139,8 @@ struct ScriptedLaser {
   bool broken = false;
 };
 
-/// A Camera backend. show() makes the next picture of kWidth by kHeight pixels. is(frame, n) checks
-/// that the bytes are picture n, from 0. break_it(yes) unplugs or replugs it; after wait() the next
-/// read looks for it.
+/// A Camera backend. show() makes the next picture; is(frame, n) checks that the bytes are picture
+/// n, from 0. break_it(yes) unplugs or replugs it; after wait() the next read looks for it.
 struct ScriptedEye {
   static constexpr std::uint32_t kWidth = 4, kHeight = 2;
   static constexpr bool kBreaks = true;

@@ -5,8 +5,8 @@
 
 namespace verp::test {
 
-/// Injected faults, those in the operator's registers, and the final mode. Both distances if the
-/// run must walk as far as without its fault.
+/// Injected faults, those in the operator's registers, the final mode; distances if the fault must
+/// not shorten the walk.
 struct CampaignRun {
   std::uint64_t injected = 0, counted = 0;
   int end = 0;
@@ -16,9 +16,9 @@ struct CampaignRun {
 /// VERP_RUNS may lower it.
 int wanted_runs(int runs);
 
-/// Runs seeds 1 to `runs`, or only VERP_SEED; a failure names its seed. Prints one row per kind.
-/// The ground's noise makes a walk of half a metre differ by up to 3.7 %, so all seeds together
-/// must walk within 2 % of the distance without the fault.
+/// Runs seeds 1 to `runs`, or only VERP_SEED; prints one row per kind. The ground's noise makes a
+/// walk of half a metre differ by up to 3.7 %, so all seeds together must walk within 2 % of the
+/// distance without the fault.
 void run_seeds(const std::string& name, int runs,
                const std::function<CampaignRun(std::uint32_t seed)>& run);
 

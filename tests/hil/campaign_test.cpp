@@ -8,7 +8,7 @@
 #include "tests/hil/fault_run.hpp"
 #include "tests/hil/promises.hpp"
 
-// 200 runs in bus time of a walking robot whose servo bus fails (README.md). To run one seed:
+// To run one seed:
 //
 //     VERP_SEED=7 build/host-release/tests/hil/hil_campaign --gtest_filter='*lost_0_1_percent*'
 //
@@ -105,8 +105,8 @@ constexpr LineFaults kAll{.lost = kPerMille / 2,
                           .delay_us = 12'000,
                           .bursts = 0.02};
 
-// On its stand the robot cannot fall, so each run ends as the table says. With physics it may fall
-// where no other promise holds, and must then be limp.
+// On its stand the robot cannot fall. With physics it may fall where no other promise holds, and
+// must then be limp.
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all = {
       {{"lost_0_1_percent_physics", 8, true, {.lost = kPerMille}}, {lost_few}, true},

@@ -7,7 +7,7 @@
 #include "tests/hil/campaign_table.hpp"
 #include "tests/hil/can_promises.hpp"
 
-// As campaign_test.cpp, on a CAN bus. To run one seed:
+// To run one seed:
 //
 //     VERP_SEED=7 build/host-release/tests/hil/hil_can_campaign --gtest_filter='*lost_1_percent*'
 namespace verp::test {

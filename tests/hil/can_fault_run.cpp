@@ -94,7 +94,6 @@ class CanFaultRun final : public FaultScene<Line, CanPlan, CanFaultResult> {
     }
   }
 
-  // A dip of the node's supply reboots it, and it loses its settings.
   void reboot(std::uint8_t id) {
     bus_.set_powered(id, false);
     bus_.set_powered(id, true);
@@ -154,7 +153,6 @@ class CanFaultRun final : public FaultScene<Line, CanPlan, CanFaultResult> {
       if ((unready_ >> j & 1) != 0) fault("a drive without power was thrown at its goal");
     }
   }
-  /// A drive stops when its controller is silent for the configured time.
   void watch_orders(std::uint64_t now_us) {
     const std::uint64_t patience_us = 1000u * canopen::plan::patience_ms(params_) + kLater_us;
     for (int j = 0; j < params_.joint_count; ++j) {

@@ -54,7 +54,6 @@ struct CanFaultResult : RunResult {
   std::uint32_t faults() const { return damage.faults() + events + intruder; }
 };
 
-/// Everything derives from `seed`.
 CanFaultResult run_can_fault(const Robot& robot, const CanPlan& plan, std::uint32_t seed);
 
 }  // namespace verp::test

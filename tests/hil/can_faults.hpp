@@ -30,7 +30,6 @@ struct CanDamage {
   }
 };
 
-/// All randomness comes from one seed.
 class CanTrouble final : public can::Interference {
  public:
   CanTrouble(can::VirtualCan& bus, std::uint32_t seed) : bus_(bus), random_(seed) {
@@ -80,7 +79,6 @@ class CanTrouble final : public can::Interference {
   bool decided_ = false;
 };
 
-/// A CanBus in bus time on a VirtualCan.
 class CanLine final : public hal::CanBus {
  public:
   CanLine(can::VirtualCan& bus, std::uint32_t seed) : trouble(bus, seed), bus_(bus) {

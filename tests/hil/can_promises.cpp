@@ -90,14 +90,12 @@ void many_reboot(const CanFaultResult& result) {
   let_go(result);
   EXPECT_GT(result.after.missed_reports(), 0u);
 }
-// Switching the servos' supply off and on sets all up again.
 void all_reboot(const CanFaultResult& result) {
   EXPECT_TRUE(was(result, kHolding));
   let_go(result);
   EXPECT_NE(result.before.fresh, 0u);
   EXPECT_EQ(result.after.fresh, result.before.fresh);
 }
-// Sensors are set up while the robot stands.
 void imu_reboots(const CanFaultResult& result) {
   EXPECT_NE(result.after.faults & safety::kFaultImuSilent, 0u);
   EXPECT_GT(result.after.errors[kImu], 0u);

@@ -7,8 +7,8 @@
 
 namespace verp::test {
 
-/// bxCAN's driver on its register model, whose wire has errors and bus-off. The other nodes are on
-/// a VirtualCan in the chip's time. Seeds alternate between the chips.
+/// bxCAN's driver on its register model; the other nodes are on a VirtualCan in the chip's time.
+/// Seeds alternate between the chips.
 class ChipLine final : public hal::CanBus {
  public:
   ChipLine(can::VirtualCan& bus, std::uint32_t seed)

@@ -3,8 +3,8 @@
 #include "common/protocol/control_table.hpp"
 #include "tests/hil/pty_devices.hpp"
 
-// The twin's servos and the controller on pseudo-terminals. All bytes are the examples of ROBOTIS
-// e-Manual, "DYNAMIXEL Protocol 2.0"; comments name the exceptions.
+// All bytes are the examples of ROBOTIS e-Manual, "DYNAMIXEL Protocol 2.0"; comments name the
+// exceptions.
 namespace verp::test {
 namespace {
 

@@ -38,7 +38,6 @@ struct FaultResult : RunResult {
   LineDamage damage;
 };
 
-/// Everything derives from `seed`.
 FaultResult run_fault(const Robot& robot, const FaultPlan& plan, std::uint32_t seed);
 
 }  // namespace verp::test

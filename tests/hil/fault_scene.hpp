@@ -62,7 +62,6 @@ class FaultScene {
   virtual void end() = 0;
   virtual void watched_tick() = 0;
   virtual void finish() = 0;
-  /// Called between two ticks.
   virtual void disturb() {}
   /// For a restarted controller's ticks; may be null.
   virtual std::vector<TickRecord>* trace() { return nullptr; }

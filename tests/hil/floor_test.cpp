@@ -13,8 +13,8 @@
 #include "host/twin/sim/random.hpp"
 #include "tests/hil/safe_table.hpp"
 
-// A robot in any pose is asked to get up and walk while something fails. Goals stay inside limits,
-// modes and torque inside the safe table. VERP_SEED=7 runs that seed alone.
+// Goals stay inside limits, modes and torque inside the safe table. VERP_SEED=7 runs that seed
+// alone.
 namespace verp::test {
 namespace {
 
@@ -45,7 +45,6 @@ enum class Trouble {
   kCount
 };
 
-/// From a random moment on, for a while.
 class Troubled {
  public:
   explicit Troubled(std::uint64_t seed)

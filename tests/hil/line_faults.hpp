@@ -28,7 +28,6 @@ struct LineDamage {
   std::uint32_t faults() const { return lost + doubled + flipped + delayed + bursts + cut_frames; }
 };
 
-/// A FrameBus in bus time around a VirtualBus. All randomness comes from one seed.
 class FaultyLine final : public hal::FrameBus {
  public:
   FaultyLine(bus::VirtualBus& bus, std::uint32_t seed) : bus_(bus), random_(seed) {

@@ -15,11 +15,9 @@ inline std::size_t row(const RunResult& result) {
 
 void keeps_walking(const RunResult& result);
 void walks_again(const RunResult& result);
-/// At the end all devices are well and the robot has torque.
 void gone_briefly(const RunResult& result);
 void let_go(const RunResult& result);
 void gone_for_good(const RunResult& result);
-/// One device repeats its position; only its own counter shows it.
 void repeats(const RunResult& result);
 void late(const RunResult& result);
 void cut(const RunResult& result);

@@ -13,7 +13,6 @@
 #include "tests/hil/modes.hpp"
 #include "tests/hil/safe_table.hpp"
 
-// A robot walks as fast as its servos allow; then its operator, or one servo, is silent.
 namespace verp::test {
 namespace {
 

@@ -10,7 +10,6 @@
 
 namespace verp::test {
 
-/// In ODE where falls matter, else on a stand.
 class RunBody {
  public:
   RunBody(const Robot& robot, bool physics, std::uint32_t seed) {

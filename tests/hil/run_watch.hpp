@@ -10,7 +10,6 @@
 
 namespace verp::test {
 
-/// For every bus and fault, besides the safe table.
 class RunWatch {
  public:
   static constexpr int kNobody = -1;
@@ -33,7 +32,6 @@ class RunWatch {
 
   /// A limp robot's servos are limp. Exceptions: all if `cut`, and servo `gone`.
   void watch_torque(const Outputs& outputs, std::uint64_t now_us, bool cut, int gone);
-  /// A robot on the floor is soon limp.
   void watch_fall(const Outputs& outputs, std::uint64_t now_us, bool lies);
 
  private:

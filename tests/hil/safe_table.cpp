@@ -82,7 +82,6 @@ void SafeTable::count_push(const Inputs& inputs) {
   unmoved_ = moved ? 0 : std::min(unmoved_ + periods, kForEver);
 }
 
-// Trouble is latched until it has ended and a relaxed robot was asked to relax.
 void SafeTable::count_trouble(const Inputs& inputs, int to) {
   const SafetyTuning& safety = params_.tuning.safety;
   if ((inputs.flags & kSlowFresh) != 0 && inputs.slow_joint < params_.joint_count) {

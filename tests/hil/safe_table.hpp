@@ -8,15 +8,14 @@
 
 namespace verp::test {
 
-/// Judges every tick's Inputs and Outputs; written from host/guide/safety.md, not from the code.
-/// One per run.
+/// Judges every tick of one run; written from host/guide/safety.md, not from the code.
 class SafeTable {
  public:
   explicit SafeTable(const Params& params);
 
   void tick(const Inputs& inputs, const Outputs& outputs);
 
-  /// The first broken rule and its time; empty if none.
+  /// The first broken rule; empty if none.
   const std::string& violation() const { return violation_; }
   int mode() const { return mode_; }
   /// Bit m: mode m.

@@ -3,7 +3,6 @@
 
 namespace {
 
-/// The compiler must name the missing member.
 struct Bus final : verp::hal::FrameBus {
   bool send(const std::uint8_t*, std::size_t) override { return true; }
 #ifndef BROKEN

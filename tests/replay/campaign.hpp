@@ -48,7 +48,6 @@ class Campaign {
  public:
   Campaign(const Params& params, std::uint32_t seed);
 
-  /// Returns the active Event bits.
   std::uint32_t advance(const Outputs& last, Inputs& in);
 
  private:

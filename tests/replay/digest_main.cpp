@@ -7,10 +7,9 @@
 #include "tests/replay/divergence.hpp"
 #include "tests/replay/trace_file.hpp"
 
-/// replay_digest FILE: runs the core over FILE's inputs. Prints the last link of each segment's
-/// digest chain, one for all, the core's version, and some leg goals. Exit status 1 if a digest
-/// differs from the recorded one; stderr names the first such tick and stage. Needs only the core
-/// and this file, so any compiler can build it.
+/// replay_digest FILE: runs the core over FILE's inputs. Prints digests, the core's version and
+/// some leg goals. Exit status 1 if a digest differs from the recorded one; stderr names the first
+/// such tick and stage. Needs only the core and this file, so any compiler can build it.
 namespace {
 
 using namespace verp;

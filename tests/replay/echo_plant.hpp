@@ -11,7 +11,6 @@ class EchoPlant {
  public:
   EchoPlant(const Params& params, std::uint32_t seed);
 
-  /// `events` are bits of Event.
   void sense(const Outputs& last, std::uint32_t events, Inputs& in);
 
  private:

@@ -6,11 +6,9 @@
 #include "common/model/params.hpp"
 #include "common/record/tick_record.hpp"
 
-/// Runs of several robots that together reach every gait phase, safety row and branch of step();
-/// unreached.txt lists exceptions.
+/// Runs of several robots that together reach step()'s branches, but those of unreached.txt.
 namespace verp::replay {
 
-/// Inputs follow from the controller's outputs and from integers.
 struct Segment {
   std::string name;
   Params params;

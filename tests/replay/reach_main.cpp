@@ -5,9 +5,9 @@
 #include "tests/replay/trace_file.hpp"
 #include "tests/unit/control/falling_loop.hpp"
 
-/// replay_reach FILE: runs a core that counts lines and branches over FILE's inputs. Prints how
-/// often each gait phase, mode, safety row and fault was reached. Exit status 1 if one never was,
-/// or if a digest differs.
+/// replay_reach FILE: counts how often FILE's inputs reach each line, branch, gait phase, mode,
+/// safety row and fault. Exit status 1 if a phase, mode, row or fault is not reached, or if a
+/// digest differs.
 ///
 /// --wrap of safety::next_mode makes the rows visible.
 namespace verp::replay {
@@ -85,8 +85,8 @@ void follow(control::test::Loop& loop, int ticks) {
   }
 }
 
-// It falls when toppled, gets up on request (first in vain), holds and rises when knocked. Then
-// robots lie on each side, with and without an action for it.
+// Toppled, it gets up on request (first in vain); knocked, it holds and rises. Then robots lie on
+// each side, with and without an action for it.
 void fall() {
   using control::test::FallingLoop;
   constexpr std::int16_t kOne = 8172, kKnock = 2830;

@@ -1,5 +1,4 @@
-# Every compiler and optimisation level that must agree. One more build counts the lines and branches that the trace
-# reaches.
+# Every compiler and optimisation level that must agree, and a build that counts lines and branches.
 get_target_property(core_sources verp_core SOURCES)
 list(FILTER core_sources EXCLUDE REGEX "/(protocol/.*|model/image|control/golden|control/self_test|control/boot_check|control/built_in_robot)\\.cpp$")
 get_target_property(contract verp_floating_point INTERFACE_COMPILE_OPTIONS)

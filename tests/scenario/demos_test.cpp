@@ -37,7 +37,6 @@ TEST(Demos, TwoBringABallToAGoal) {
 }
 #endif
 
-// The radio is what makes it work.
 TEST(Demos, FailWithoutRadio) {
   demos::Options options;
   options.robots = 2;

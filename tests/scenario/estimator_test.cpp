@@ -14,9 +14,8 @@ struct Errors {
   double roll_deg = 0, pitch_deg = 0, worst_velocity_m_s = 0, odometry_share = 0;
 };
 
-// Roll and pitch over all walks. Most of the error is the accelerometer's offset: 5 mg one sigma,
-// 0.3 degrees about each axis, of which a floor reveals a quarter. Another 0.15 degrees come and go
-// with the steps.
+// Most of the error is the accelerometer's offset: 5 mg one sigma, 0.3 degrees about each axis, of
+// which a floor reveals a quarter. Another 0.15 degrees come and go with the steps.
 Errors errors_of(int least_walks, const std::string& options) {
   const Walk seeds = walk("generic21 --velocity 0.25,0,0 --physics-step 2 " + options);
   Errors errors;

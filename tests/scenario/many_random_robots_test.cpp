@@ -1,7 +1,5 @@
 #include "tests/scenario/walk.hpp"
 
-// `verp test --full`: a hundred random robots of each kind, and a minute of the paper's walk and of
-// the fastest.
 namespace verp::scenario {
 namespace {
 

@@ -3,9 +3,8 @@
 
 #include "tests/scenario/walk.hpp"
 
-// Pushed at the trunk for 50 ms, generic21 steps where the push sends it. It withstands 1.2 N s
-// ahead and back and 0.8 N s sideways at any phase. These tests use four of 16 phases; `verp walk
-// --map push` tries all.
+// Pushed at the trunk for 50 ms, generic21 withstands 1.2 N s ahead and back and 0.8 N s sideways
+// at any phase; these tests use four of 16 phases.
 namespace verp::scenario {
 namespace {
 

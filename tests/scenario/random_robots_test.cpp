@@ -3,8 +3,8 @@
 namespace verp::scenario {
 namespace {
 
-// Many runs use this step at half the price. Steps of 0.5, 1 and 2 ms differ by 0.4 % of speed; it
-// may cost 1 % and 1 mm. Three seeds, because chance moves a walk's bias by a millimetre.
+// Steps of 0.5, 1 and 2 ms differ by 0.4 % of speed; the cheap step may cost 1 % and 1 mm. Three
+// seeds, because chance moves a walk's bias by a millimetre.
 TEST(PhysicsStep, TwoMillisecondsWalkLikeOne) {
   constexpr int kSeeds = 3;
   double speed_m_s[3] = {}, bias_mm[3] = {};  // by step in ms

@@ -7,12 +7,10 @@
 #include <cstdint>
 #include <ctime>
 
-/// with-can loads this into its commands in User-Mode Linux, where reading the clock is a system
-/// call of ten microseconds: half of an emulator's time. CLOCK_MONOTONIC comes from the time stamp
-/// counter, along a line through the kernel's answers.
-///
-/// Within a process the clock never runs backwards. A sleep may end some microseconds early by this
-/// clock. with-can checks that the counter runs evenly.
+/// with-can loads this into its commands in User-Mode Linux, where a look at the clock takes ten
+/// microseconds: half of an emulator's time. CLOCK_MONOTONIC then follows the time stamp counter,
+/// which with-can checks, along a line through the kernel's answers. Within a process it never runs
+/// backwards; a sleep may end some microseconds early.
 namespace {
 
 constexpr std::uint64_t kFirstLine = 200'000'000;  // minimum to measure a speed

@@ -8,11 +8,10 @@
 #include <cstdarg>
 #include <cstring>
 
-/// with-can loads this into Debian 12's User-Mode Linux, which keeps extended registers in 2696
-/// bytes (HOST_FP_SIZE, arch/x86/um/user-offsets.c of Linux 6.1): all before AMX. If the PC has
-/// more, ptrace accepts them only whole (xstateregs_set, arch/x86/kernel/fpu/regset.c), and the
-/// virtual machine ends at its first process. So its bytes are written over the process's whole
-/// set.
+/// with-can loads this into Debian 12's User-Mode Linux, which keeps 2696 bytes of extended
+/// registers (HOST_FP_SIZE, arch/x86/um/user-offsets.c of Linux 6.1): all before AMX. If the PC has
+/// more, ptrace accepts only the whole set (xstateregs_set, arch/x86/kernel/fpu/regset.c), and the
+/// virtual machine would end. So its bytes are written over the process's whole set.
 
 namespace {
 

@@ -11,8 +11,7 @@
 #include "host/boards/board/qemu.hpp"
 #include "host/os/link/can_port.hpp"
 
-// Run it inside tests/support/with-can. VERP_TEST_BOARD names the board; its image is
-// boards/mps2/can_main.cpp.
+// Run it inside tests/support/with-can; VERP_TEST_BOARD names the board.
 namespace verp::board {
 namespace {
 

@@ -16,8 +16,8 @@
 #include "host/twin/sim/world.hpp"
 #include "tests/target/can_run.hpp"
 
-// The loop is in the board, the drives in the twin, frames on vcan0. Run it inside
-// tests/support/with-can. VERP_TEST_BOARD names the board, VERP_TEST_TICKS the length.
+// Run it inside tests/support/with-can. VERP_TEST_BOARD names the board, VERP_TEST_TICKS the
+// length.
 namespace verp::board {
 namespace {
 
@@ -65,7 +65,6 @@ void expect_same_bits_live(const shadow::LiveCheck& check, std::uint32_t ticks) 
   EXPECT_GE(check.compared() + kFirstState, ticks) << "what the board tells of its ticks";
 }
 
-// Digests of every stage in every tick, their inputs, and those on the bus.
 TEST(CanLoop, WalksInTheTwinWithTheBitsOfSoftwareInTheLoop) {
   const std::string board = setting("VERP_TEST_BOARD"), length = setting("VERP_TEST_TICKS");
   ASSERT_FALSE(board.empty() || length.empty()) << "set VERP_TEST_BOARD and VERP_TEST_TICKS";

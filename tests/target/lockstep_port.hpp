@@ -10,7 +10,7 @@
 namespace verp::can {
 
 /// A lockstep controller behind a SocketCAN interface. This PC sleeps until the controller's clock
-/// message on a second socket. Answers leave in one call.
+/// message arrives on a second socket.
 class LockstepPort {
  public:
   /// Throws LinkError.

@@ -4,8 +4,7 @@
 
 #include "tests/target/serial_board.hpp"
 
-// In lockstep over a faulty cable. Lost data are requested again or lost on the simulated bus, and
-// both ends know which. VERP_TEST_BOARD and VERP_TEST_TICKS as in serial_loop_test.cpp.
+// In lockstep over a faulty cable. VERP_TEST_BOARD and VERP_TEST_TICKS as in serial_loop_test.cpp.
 namespace verp::test {
 namespace {
 

@@ -67,7 +67,6 @@ TEST(SerialLoop, TellsItsOperatorThatTheServoPortDoesNotOpen) {
   EXPECT_EQ(board.read("torque_enable"), 0u);
 }
 
-// Bus and orders have a USART each; every stage of every tick is compared.
 TEST(SerialLoop, WalksTheSameBitsThroughItsUsartsAndInThisProcess) {
   const std::uint32_t ticks = test_ticks();
   ASSERT_GT(ticks, 0u) << "set VERP_TEST_TICKS";
@@ -179,7 +178,6 @@ void wait_for_no_torque(SerialBoard& board) {
   }
 }
 
-// The twin stops in a debugger or for good, or its session ends.
 TEST(SerialLoop, UnlocksItsOperatorsDeskWhileTheTwinIsSilentAndGoesOnWithTheSameBits) {
   constexpr std::uint32_t kTicks = 400, kPause = 300;  // it stands up
   const Robot robot = load_robot("generic21");

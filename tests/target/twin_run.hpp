@@ -14,7 +14,6 @@
 #include "host/twin/sim/robot.hpp"
 #include "host/twin/sim/world.hpp"
 
-/// The operator follows the tick alone, so the run is the same with any controller.
 namespace verp::test {
 
 struct TwinRun {
@@ -25,8 +24,8 @@ struct TwinRun {
   bool fallen = false;
 };
 
-/// Stands up in six seconds, walks until three seconds before the end, then stands. 4 cm steps or,
-/// if `wandering`, another way every three seconds.
+/// Stands up, walks from six seconds after the start until three before the end, then stands. 4 cm
+/// steps or, if `wandering`, another way every three seconds.
 class ScriptedOperator {
  public:
   ScriptedOperator(const Params& params, std::uint32_t ticks, bool wandering)

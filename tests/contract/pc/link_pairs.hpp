@@ -11,7 +11,7 @@
 #include "host/os/link/link.hpp"
 #include "host/os/link/system_clock.hpp"
 
-/// Both ends of each ByteLink. near() is under test; cut() removes the far end, mend() restores it.
+/// As MemoryPair of fakes.hpp.
 namespace verp::test {
 
 class Folder {

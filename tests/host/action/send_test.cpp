@@ -10,8 +10,6 @@
 #include "tests/host/action/robots.hpp"
 #include "tests/host/action/running_board.hpp"
 
-// After any failure the board keeps its old actions, and the user learns why.
-
 namespace verp::action {
 namespace {
 
@@ -108,7 +106,6 @@ TEST_F(SendActions, ABoardThatFallsSilentInTheMiddleIsTold) {
   EXPECT_TRUE(board.holds(old_));
 }
 
-// A block has a CRC: damaged ones come again.
 TEST_F(SendActions, ABadCableCostsTimeOnly) {
   RunningBoard& board = start([](RunningBoard& its) { its.port.flips_per_million = 400; });
   EXPECT_EQ(send(fresh_), "");

@@ -108,7 +108,6 @@ TEST(ActionLibrary, IsWhatTheCoreTakesAndTheSameEveryTime) {
   EXPECT_EQ(frame.goal_tenth_mrad[0], 1745) << "10 degrees";
 }
 
-// Such an action would not do what it says.
 TEST(ActionLibrary, RefusesToMoveAFollowerElsewhereThanItsMotorDoes) {
   const Params params = verp::test::with_coupled_hips(generic21().params, -1);
   const auto refused = [&](const std::string& text) -> std::string {

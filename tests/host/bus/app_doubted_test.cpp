@@ -5,8 +5,7 @@ namespace {
 
 using DoubtedServos = AppLoop;
 
-// A servo that lost power is limp, with factory gains: torque would throw it at its goal. The loop
-// restores its registers after the robot has let go.
+// A servo that lost power is limp, with factory gains: torque would throw it at its goal.
 TEST_F(DoubtedServos, AServoThatLostItsPowerIsGoneUntilTheRobotHasLetGo) {
   ready();
   wanted.torque_enable = all();

@@ -204,7 +204,6 @@ TEST_F(AppLoop, AServosOwnLimitIsItsFullStrength) {
   EXPECT_EQ(plant.setpoint(1).pwm_limit, 200);
 }
 
-// For a first walk in a harness.
 TEST_F(AppLoop, TorqueIsLimitedInEveryModeIfSomebodySaysSo) {
   ready();
   app.limit_torque(30);

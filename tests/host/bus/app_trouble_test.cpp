@@ -161,7 +161,6 @@ TEST_F(AppInTrouble, AnImuOnTheBoardIsReadIfTheBusHasNone) {
   EXPECT_EQ(without.inputs().flags & kImuFresh, 0);
 }
 
-// Never while the robot has torque.
 TEST_F(AppInTrouble, TheChipOrTheBusSteersAsChosenBeforeTorqueComesOn) {
   ready();
   hal::ScriptedImu chip;

@@ -133,7 +133,6 @@ TEST_F(BusManners, ThePlaceOfAnIdInAPingToAllIsItsNumber) {
   EXPECT_GE(bus.now_us(), begun_us + 3000u * (test::kRightFootId - 20));
 }
 
-// The other servos still work.
 TEST_F(BusManners, TwoServosOfOneIdGarbleEachOther) {
   EXPECT_EQ(ids_in(write(2, at::kId, {3})), std::vector<int>{2});
   EXPECT_TRUE(ids_in(ping(3)).empty());

@@ -139,7 +139,6 @@ TEST(SetUpright, IsARegisterOfTheTwinsClock) {
   EXPECT_EQ(error_of(1), dxl::Error::kResultFail);
 }
 
-// The controller repeats its request.
 TEST_F(Lockstep, MakesGoodWhatTheLinkSpoilsOnTheWayToTheController) {
   const std::vector<TickRecord> expected = records_here(params);
   link.inbound = {.lost = 0.002, .doubled = 0.002, .flipped = 0.002};
@@ -151,7 +150,6 @@ TEST_F(Lockstep, MakesGoodWhatTheLinkSpoilsOnTheWayToTheController) {
   EXPECT_LE(server.counters().repeats, bus.counters().repeats);
 }
 
-// The loop goes on, and the PC's shadow still matches.
 TEST_F(Lockstep, LetsADamagedFrameBeLostOnTheBus) {
   link.outbound = {.lost = 0.001, .doubled = 0.001, .flipped = 0.001};
   run();

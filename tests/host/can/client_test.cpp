@@ -109,7 +109,6 @@ TEST_F(CanClient, WhatANodeRefusesIsNotTold) {
   EXPECT_EQ((nodes.asked[{19, {0x1018, 2}}]), 1) << "a refusal is an answer";
 }
 
-// Under load an answer may be lost.
 TEST_F(CanClient, WhatGotNoAnswerIsAskedOnceMore) {
   nodes.add(19);
   nodes.silent = [](const Object&, int times) { return times == 1; };
@@ -220,7 +219,6 @@ TEST_F(CanClient, ANode127WithoutThatChannelIsAskedByTheDefaultOne) {
   EXPECT_EQ(found->product, 0x200u + 127);
 }
 
-// The result is marked as incomplete.
 TEST_F(CanClient, AScanThatIsStoppedHasWhatItFoundSoFar) {
   for (const int node : {3, 19, 100}) nodes.add(static_cast<std::uint8_t>(node));
   bool over = false;

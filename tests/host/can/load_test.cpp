@@ -66,7 +66,6 @@ TEST(BusLoad, AnOwnImuIsToldInTwoFramesMore) {
   EXPECT_FALSE(plan::has_room_to_publish(params, true)) << "the device on the bus answers as well";
 }
 
-// Orders need room beside the ticks.
 TEST(BusLoad, NewOrdersInEachTickFitBesideTheLiveCheck) {
   const Params params = test::can_params(21);
   const plan::TickLoad load(params, {});

@@ -149,7 +149,6 @@ TEST_F(CanLoop, IsKnownBitByBitThoughBeginningsOfTicksAreLost) {
   expect_shadowed(operator_link.records);
 }
 
-// The shadow names the first such tick.
 TEST_F(CanLoop, FramesOfAnotherControllerAreNoticed) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   test::Walker walker;

@@ -10,7 +10,6 @@
 #include "tests/host/bus/fake_plant.hpp"
 #include "tests/host/can/served_can.hpp"
 
-// The bus may lose, double and reorder frames. The twin waits for the controller.
 namespace verp::can {
 namespace {
 
@@ -150,7 +149,6 @@ TEST(CanSetUpright, IsAMessageOfTheTwinsClock) {
   EXPECT_TRUE(server.unannounced().empty()) << "no frame of the robot's bus";
 }
 
-// The smallest receive FIFO holds a whole answer.
 TEST_F(CanLockstep, AnAnswerFitsAnSja1000) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   wire.most_room = 0;

@@ -61,7 +61,6 @@ TEST_F(CanRealTime, FramesReachTheBusWhenTheyCame) {
   EXPECT_EQ(begun_us[3], 59'000u);
 }
 
-// No SYNC may overtake.
 TEST_F(CanRealTime, FramesKeepTheirOrder) {
   std::vector<std::uint32_t> heard;
   bench.bus.set_listener([&](const CanFrame& frame, std::uint64_t, std::uint64_t) {

@@ -50,7 +50,6 @@ Seen what_they_are_told(const World& world) {
   return {told.all(), told.scans(), told.messages()};
 }
 
-// Objects out of sight change no bit of a brain's input; an object in sight does.
 TEST(NoTruth, WhatABrainCannotSenseChangesNothingThatItIsTold) {
   const Seen here = what_they_are_told(World("here", 60, 40));
   const Seen elsewhere = what_they_are_told(World("elsewhere", 70, 55));

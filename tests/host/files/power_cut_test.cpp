@@ -70,7 +70,6 @@ TEST(PowerCut, LeavesTheOldOrTheNewParamsWhole) {
   expect_whole(file, [&] { model::export_command("generic21", "", folder.path().string()); });
 }
 
-// The model of the disk must see what a careless writer loses.
 TEST(PowerCut, OfACarelessWriterIsSeen) {
   const TemporaryDirectory folder;
   const fs::path file = folder.path() / "a.bin", part = folder.path() / "a.part";

@@ -56,7 +56,6 @@ TEST_F(Deploy, StopsWhenTheCoreCannotReplay) {
   expect_stop(deploy("--no-build", "VERP_QEMU=./broken"), 3, "replay", "HardFault at 0x08000123");
 }
 
-// Also before there is an image.
 TEST_F(Deploy, ADryRunOnlySays) {
   for (const char* program : {"cmake", "flock", "qemu-system-arm", "openocd", "dfu-util"}) {
     script(program, "#!/bin/sh\ntouch ran\nexit 1\n");

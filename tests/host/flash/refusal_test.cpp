@@ -6,7 +6,6 @@ namespace {
 
 class Refusal : public Flash {
  protected:
-  /// Before the board is contacted.
   void expect_refused_file(const std::string& arguments, const std::string& needle) const {
     expect_refused("flash --board " + board_ + " " + arguments, needle);
   }

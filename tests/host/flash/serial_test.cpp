@@ -65,7 +65,6 @@ TEST_F(SerialFlash, RobotOrActionsAloneLeaveEverythingElse) {
   EXPECT_EQ(chip.flash, expected);
 }
 
-// As when the actions are flashed separately.
 TEST_F(SerialFlash, ARobotBringsItsActions) {
   RomBootLoader chip = used(this->chip());
   const Bytes own = actions();

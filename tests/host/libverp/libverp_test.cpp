@@ -26,7 +26,6 @@ TEST(Libverp, WalksAsASessionDoes) {
   EXPECT_STREQ(result.failure, "");
 }
 
-/// A session's view of a tick suffices to decide it again.
 TEST(Libverp, CoreDecidesWhatTheSessionDid) {
   Opened opened;
   opened.add();

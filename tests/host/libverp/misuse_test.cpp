@@ -156,7 +156,6 @@ TEST(LibverpMisuse, ViewsThatAreNone) {
                "verp_session_render", "view is null");
 }
 
-/// The error names it, the places searched, and its package.
 TEST(LibverpMisuse, ProgramThatDrawsIsMissing) {
   Opened opened;
   opened.add();
@@ -257,7 +256,6 @@ TEST(LibverpMisuse, RobotsInEachOther) {
   EXPECT_EQ(verp_session_add(opened.session, &robot, nullptr), VERP_OK) << verp_last_error();
 }
 
-/// Both get an error at once.
 TEST(LibverpMisuse, TwoThreadsAndACallback) {
   Opened opened;
   opened.add();

@@ -9,9 +9,6 @@
 
 #include "tests/host/live/viewer.hpp"
 
-// Messages come in order, from the last before a viewer joined. No slow or malformed viewer costs
-// others anything.
-
 namespace verp::live {
 namespace {
 

@@ -43,7 +43,6 @@ TEST(Buses, TheFirstIsUsedUnlessAnotherIsNamed) {
   EXPECT_EQ(params.servo[0].profile_ms, 0) << "60C2h follows the control period";
 }
 
-// Only the meaning of a count differs.
 TEST(Buses, DrivesOfTheSameJointsAreAsStiffAsTheServos) {
   const Params serial = make_params(load_robot(robot_file("generic21")));
   const Params can = make_params(load_robot(robot_file("generic21"), "can"));

@@ -5,7 +5,6 @@
 
 #include "tests/host/model/test_files.hpp"
 
-/// The error names the mistake's line, not where the parser gave up.
 namespace verp::model {
 namespace {
 

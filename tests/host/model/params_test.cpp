@@ -202,7 +202,6 @@ std::string servo_line(const std::string& text, const std::string& type) {
   return at == std::string::npos ? "" : text.substr(at, text.find('\n', at) - at);
 }
 
-// Scaled from other motors, within a band.
 TEST(Check, SaysWhichServosAreIdentifiedAndWhichAreScaledWithinABand) {
   std::string text = read_text(robot_file("generic21"));
   const std::string was = "type=\"xm430_w210\"";

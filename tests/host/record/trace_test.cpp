@@ -166,7 +166,6 @@ TEST_F(TraceFile, CompressedRecoversWholeChunksToo) {
   EXPECT_FALSE(replay(read_trace(file, Read::kRecover)).divergence);
 }
 
-// Every channel's, and what describes the run.
 TEST_F(TraceFile, RecoverKeepsEveryWholeMessage) {
   const fs::path file = folder_ / "run.mcap", mended = folder_ / "mended.mcap";
   for (const bool compress : {false, true}) {

@@ -58,9 +58,8 @@ inline void expect_same_account(const Json& result, const record::Trace& trace) 
   EXPECT_EQ(result.at("deadlines").at("skipped_periods"), skipped);
 }
 
-/// Equal digests prove equal outputs. A referee compares modes, causes, torque and goals with the
-/// written table, in time rather than ticks. Torque is off at the end. `seen` gets bit m for mode
-/// m.
+/// A referee compares modes, causes, torque and goals with the written table, in time rather than
+/// ticks. Torque is off at the end. `seen` gets bit m for mode m.
 inline void expect_table(const record::Trace& trace, std::uint32_t* seen = nullptr) {
   auto state = std::make_unique<State>();
   Outputs outputs;

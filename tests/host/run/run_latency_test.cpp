@@ -1,7 +1,5 @@
 #include "tests/host/run/run_bench.hpp"
 
-// Times are checked only against an injected delay's minimum, or as an equality of two counts: a
-// loaded machine may be late.
 namespace verp::tool::test {
 namespace {
 
@@ -15,8 +13,8 @@ double number_after(const std::string& words, const std::string& said) {
 
 class RunLatency : public RunBench {
  protected:
-  /// The latency fits a tick, but not always on a loaded machine: then the test tries again, in the
-  /// end with the offered period.
+  /// The latency fits a tick, but not always on a loaded machine: then it tries again, at last with
+  /// the offered period.
   Outcome run_when_it_fits(std::vector<std::string> words, double least_us) {
     words.insert(words.end(), {"--yes", "--record", "run.mcap"});
     Outcome outcome;
@@ -40,8 +38,7 @@ class RunLatency : public RunBench {
     words.insert(words.end(), {"--period", std::to_string(period_ms)});
   }
 
-  /// Only a skipped period excuses a missing walk: the robot may have held too long or fallen, with
-  /// status 1.
+  /// A missing walk is excused by skipped periods: the robot may have held too long or fallen.
   void expect_ran(const Outcome& outcome) {
     const Json result = Json::parse(outcome.out);
     EXPECT_EQ(result.at("ticks"), cable_->ticks()) << "as they came over the cable";

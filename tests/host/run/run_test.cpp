@@ -105,7 +105,6 @@ TEST_F(TimelyRobot, AnInterruptSitsTheRobotDown) {
   }
 }
 
-// Softly on request; the trace suffices for a replay.
 TEST_F(TimelyRobot, PlaysAnActionThenSitsDownAndLetsGo) {
   serve();
   plug({1000, 1000});
@@ -167,7 +166,6 @@ TEST_F(RealRobot, ASecondInterruptLetsGoAtOnce) {
   expect_table(trace());
 }
 
-// The robot holds, sits and lets go by itself.
 TEST_F(TimelyRobot, ALostCableIsNamedAndEndsByTheTable) {
   serve();
   plug({1000, 1000});
@@ -188,7 +186,6 @@ TEST_F(TimelyRobot, ALostCableIsNamedAndEndsByTheTable) {
   expect_table(trace());
 }
 
-// Ten ticks: the robot holds, rises and goes on.
 TEST_F(TimelyRobot, ACableThatComesBackGoesOn) {
   serve();
   plug({1000, 1000});

@@ -112,7 +112,6 @@ TEST_F(Setup, AReversedJointAndAFarZeroAreLeftToThePerson) {
   EXPECT_NE(outcome.out.find("to do: "), std::string::npos) << outcome.out;
 }
 
-// The end of input is no error.
 TEST_F(Setup, GoesOnWhereItEnded) {
   servos_.connect(kFromTheBox);
   auto first = setup({});
@@ -206,7 +205,6 @@ TEST_F(Setup, WhatAFullDiskDoesNotTakeIsPrinted) {
   EXPECT_EQ(shell("ls *.part *.trial").out, "");
 }
 
-// Before it asks for a servo.
 TEST_F(Setup, PlacesThatHoldNoReportAreRefusedFirst) {
   for (const char* place : {"/proc/x.json", "/tmp", "/proc/self/mem", "/dev/full"}) {
     const std::string words = std::string("bus setup --link unix:none --report ") + place;

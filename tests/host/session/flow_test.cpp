@@ -7,8 +7,6 @@
 #include <stdexcept>
 #include <string>
 
-// The loop runs only inside resume().
-
 namespace verp::session {
 namespace {
 

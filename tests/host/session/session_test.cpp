@@ -36,7 +36,6 @@ TEST(Session, RefusesARobotInsideAnother) {
   EXPECT_NO_THROW(session.add(plan_of("dxl", 1.2)));
 }
 
-// It refuses what a board refuses.
 TEST(Session, OrdersGoThroughTheOperatorsRegisters) {
   WalkPlan plan = plan_of("dxl");
   Hooks hooks;

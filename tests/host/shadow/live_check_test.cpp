@@ -172,7 +172,6 @@ struct CountingChip {
   int reads = 0;
 };
 
-// The controller publishes them.
 TEST(LiveCheck, KnowsTheCountsOfTheControllersOwnImu) {
   Params params = can_robot();
   params.imu.device_id = 0;

@@ -74,7 +74,6 @@ TEST_F(Polled, FindsABitThatFlipped) {
   EXPECT_EQ(check->divergence().fields[0].path, "zeros.leg[1].pitch_rad");
 }
 
-// Ticks that the controller dropped are no difference.
 TEST_F(Polled, SaysWhichTicksItLostAndGoesOn) {
   start(verp::test::bus_params(7), std::chrono::milliseconds(5));
   run(50);

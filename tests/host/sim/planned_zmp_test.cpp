@@ -66,7 +66,6 @@ bool inside(const std::vector<Vec2>& hull, const Vec2& point) {
   return true;
 }
 
-// Wherever it stands, the planned ZMP is at zmp_under().
 TEST(PlannedZmp, LiesUnderTheFootThatCarriesAlone) {
   Walker walker(verp::test::kRobot);
   walker.set_off({});

@@ -124,7 +124,6 @@ TEST(CanPort, ItsTimeBeginsWhenItIsOpened) {
   EXPECT_GE(node.port().now_us() - begun_us, 1000u);
 }
 
-// Watchers and clients need only the robot's bus.
 TEST(CanPort, TellsOfEachTickAndAnswersWhoAsksThere) {
   Chip chip;
   ASSERT_TRUE(Wiring::open(chip.port, chip.clocks, kBaud));

@@ -8,8 +8,7 @@
 #include "tests/host/stm32_drivers/rig.hpp"
 #include "tests/support/stm32/usb_rig.hpp"
 
-// On both cores, beyond the suite of hal/contract/byte_link.hpp: requests, hosts that change their
-// mind, stuck hardware.
+// Beyond the suite of hal/contract/byte_link.hpp.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -242,7 +241,6 @@ const Ending kEndings[] = {
      }},
 };
 
-// The reader gets earlier bytes and sees the loss once; queued bytes are dropped.
 TEST_P(UsbPort, OutlivesTheEndOfAConnectionAtAnyMoment) {
   meet();
   std::uint32_t losses = 0;

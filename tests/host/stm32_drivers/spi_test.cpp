@@ -6,7 +6,6 @@
 #include "tests/support/stm32/imu_rig.hpp"
 #include "tests/support/stm32/spi_model.hpp"
 
-// In order, at a clock that the device bears, selected only meanwhile; no wait is endless.
 namespace verp::hal::stm32::test {
 namespace {
 

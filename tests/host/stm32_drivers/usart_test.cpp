@@ -8,7 +8,6 @@
 #include "tests/support/stm32/gpio_model.hpp"
 #include "tests/support/stm32/usart_model.hpp"
 
-// Both kinds, by DMA and interrupts: hal/contract/byte_link.hpp, line errors, stuck hardware.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -115,7 +114,6 @@ TYPED_TEST(UsartDriver, SilenceCostsItsTimeoutAndNoMore) {
   EXPECT_LE(waited_us, 1520u);
 }
 
-// Longer than the ring, in many pieces.
 TYPED_TEST(UsartDriver, KeepsOrderAcrossManyTurnsOfTheRing) {
   this->open();
   Bytes all;

@@ -10,9 +10,8 @@
 #include "tests/support/stm32/otg_fs_model.hpp"
 #include "tests/support/stm32/usb_host.hpp"
 
-/// The least firmware by the manual's model, polled. Any IN request on endpoint 0 gets `answer`;
-/// SET_ADDRESS and SET_CONFIGURATION work. It keeps data of control writes, and endpoint 1's until
-/// the test sends.
+/// The least firmware by the manual's model, polled. Answers any IN request on endpoint 0 with
+/// `answer`; keeps data of control writes, and endpoint 1's until the test sends.
 namespace verp::hal::stm32::model {
 
 /// Neighbours differ.

@@ -2,8 +2,7 @@
 #include "tests/host/model/test_files.hpp"
 #include "tests/host/scene/meshes.hpp"
 
-/// Other makers' untouched files, through our wrappers. Our own robots have the same habits in
-/// host/model, host/edit and host/scene.
+/// Other makers' untouched files, through our wrappers.
 namespace verp {
 namespace {
 

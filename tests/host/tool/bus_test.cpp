@@ -138,7 +138,6 @@ class BusCable : public BusCommand {
   }
 };
 
-// Up to three times; the answer says how often.
 TEST_F(BusCable, LostRepliesAreAskedForAgain) {
   const auto line = cable({});
   for (const char* command : {"ping", "read --register robot_name", "write --register look_x 3"}) {

@@ -50,7 +50,6 @@ void expect_same(const Outcome& outcome, const json& expected) {
   EXPECT_GT(result.at("ticks_per_s").get<double>(), 0);
 }
 
-// Every tick is compared.
 TEST_F(Hil, WalksWithTheBitsOfSoftwareInTheLoopOnEveryKindOfLink) {
   const json expected = here("--for 3");
   const std::string port = std::to_string(20000 + ::getpid() % 20000);
@@ -72,7 +71,6 @@ TEST_F(Hil, WalksWithTheBitsOfSoftwareInTheLoopOnEveryKindOfLink) {
   }
 }
 
-// Corrupted bytes and a pulled cable cost time only.
 TEST_F(Hil, LosesNoBitOnABadCable) {
   const json expected = here("--for 3");
   LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"),
@@ -193,7 +191,6 @@ std::string story_of(const json& result) {
   return all;
 }
 
-// The bits are those of `verp walk`.
 TEST_F(Hil, ARobotThatIsPushedOverGetsUpByTheControllersActions) {
   const std::string words = "--for 3 --json --get-up --push '1: trunk -60,0,0 N for 0.15'";
   const json expected = here(words);

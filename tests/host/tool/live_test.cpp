@@ -10,8 +10,6 @@
 #include "tests/host/tool/program.hpp"
 #include "tests/support/mcap_file.hpp"
 
-// A viewer gets every message of the trace and does not change the run.
-
 namespace verp::tool::test {
 namespace {
 

@@ -42,8 +42,8 @@ class Program : public ::testing::Test {
   }
   ~Program() override { fs::remove_all(folder_); }
 
-  /// As in a shell; `name` separates parallel outputs. The twin has a physics step of 2 ms where
-  /// nothing states it: it takes half the time.
+  /// As in a shell; `name` separates parallel outputs. By default the twin has a physics step of 2
+  /// ms, which takes half the time.
   Outcome verp(const std::string& arguments, const std::string& name = "run") const {
     const auto says = [&](const char* word) { return arguments.find(word) != std::string::npos; };
     const std::string command = arguments.substr(0, arguments.find(' '));

@@ -9,8 +9,6 @@
 #include "host/os/process/child.hpp"
 #include "tests/host/tool/program.hpp"
 
-// Each robot walks as it does alone. One that loses its controller costs no other its result.
-
 namespace verp::tool::test {
 namespace {
 

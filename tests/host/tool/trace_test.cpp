@@ -126,7 +126,6 @@ TEST_F(TraceCommand, AMessageOfNoChannelOrAChunkOfGigabytesIsOneLine) {
   EXPECT_FALSE(fs::exists(folder_ / "b.mcap"));
 }
 
-// Every complete chunk remains.
 TEST_F(Program, AKilledWalkLeavesAFileThatOpens) {
   const Outcome killed = shell(
       VERP_PROGRAM

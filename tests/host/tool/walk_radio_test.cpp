@@ -7,8 +7,6 @@
 #include "tests/host/tool/program.hpp"
 #include "tests/support/mcap_file.hpp"
 
-// Plain Python programs drive robots of one walk and talk through the modems on their buses.
-
 namespace verp::tool::test {
 namespace {
 

@@ -86,7 +86,6 @@ TEST_F(Walk, SameSeedSameBitsOtherSeedOtherBits) {
   EXPECT_EQ(json::parse(other.out).at("divergence").at("stage"), "inputs");
 }
 
-// One line of error and a complete trace.
 TEST_F(Walk, WhatPhysicsCannotFollowKeepsItsTrace) {
   const Outcome torn =
       verp("walk --for 6 --json --record a.mcap --at '1: l_foot.torque_n_m.x=100000'");

@@ -33,7 +33,6 @@ class Bank {
   const Gate& gate() const { return gate_; }
   bool holds(std::uint32_t address) const { return address - base_ < window_; }
 
-  /// Width in bytes. Calls on_read or on_write after checks.
   std::uint32_t bus_read(std::uint32_t address, unsigned width);
   void bus_write(std::uint32_t address, std::uint32_t value, unsigned width);
 
@@ -45,9 +44,7 @@ class Bank {
   virtual void run() {}
   /// The bus clocks will change: counts up to now.
   virtual void rebase() {}
-  /// When it next has something to do.
   virtual Time next() const { return kNever; }
-  /// True if it wants a transfer now.
   virtual bool dma_request(bool /*transmit*/) const { return false; }
   virtual bool interrupt(unsigned) const { return false; }
 

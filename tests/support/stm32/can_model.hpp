@@ -7,9 +7,9 @@
 #include "hal/chip/stm32/registers/can.hpp"
 #include "tests/support/stm32/bank.hpp"
 
-/// bxCAN with the bus at its pins; the test scripts the other nodes. Frames take the time of their
-/// bits without stuffing; arbitration decides. Modelled: normal mode, classic frames, 32-bit
-/// filters, both FIFOs, the transmitter's error counters.
+/// bxCAN; the test scripts the other nodes. Frames take the time of their bits without stuffing.
+/// Modelled: normal mode, classic frames, 32-bit filters, both FIFOs, the transmitter's error
+/// counters.
 namespace verp::hal::stm32::model {
 
 class CanModel : public Bank {

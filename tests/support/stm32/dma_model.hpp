@@ -20,7 +20,6 @@ class DmaModel : public Bank {
   Script script[dma::kStreams];
 
   std::uint32_t transfers(unsigned stream) const { return streams_[stream].transfers; }
-  /// False if no transfer was requested.
   bool serve();
 
   void reset() override;

@@ -13,8 +13,7 @@
 #include "tests/support/stm32/time.hpp"
 
 /// A whole STM32, built from its reference manual. Time passes with each access
-/// (Options::access_cycles) or by advance(). Accesses against the manual are recorded: see
-/// violations().
+/// (Options::access_cycles) or by advance().
 namespace verp::hal::stm32::model {
 
 class Machine;

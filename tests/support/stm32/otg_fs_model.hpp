@@ -46,7 +46,6 @@ class OtgFsModel : public Bank {
   UsbAnswer setup(unsigned address, const std::uint8_t (&request)[8]);
   UsbAnswer out(unsigned address, unsigned endpoint, bool data1, const std::uint8_t* bytes,
                 std::size_t count);
-  /// `acknowledged`: the host's ACK arrives.
   UsbPacket in(unsigned address, unsigned endpoint, bool acknowledged);
   void idle();    ///< no frames: suspend follows
   void resume();  ///< frames start again

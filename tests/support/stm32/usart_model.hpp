@@ -9,9 +9,8 @@
 #include "tests/support/stm32/bank.hpp"
 #include "tests/support/stm32/gpio_model.hpp"
 
-/// A USART with the line at its pins. Bytes take the time that registers and clock give. Received
-/// bytes come at the sender's baud rate. Modelled: 8 data bits without parity (9 bits as 8 with one
-/// more on the line), half duplex.
+/// A USART with the line at its pins. Received bytes come at the sender's baud rate. Modelled: 8
+/// data bits without parity (9 bits as 8 with one more on the line), half duplex.
 namespace verp::hal::stm32::model {
 
 class UsartModel : public Bank {

@@ -7,8 +7,8 @@
 #include "tests/support/stm32/machine.hpp"
 #include "tests/support/stm32/otg_fs_model.hpp"
 
-/// The PC at the cable builds transfers from tokens, in the machine's time. Calls return when the
-/// transfer is over or abandoned; meanwhile interrupts and `firmware` run.
+/// The PC at the cable, in the machine's time. Calls return when the transfer is over or abandoned;
+/// meanwhile interrupts and `firmware` run.
 namespace verp::hal::stm32::model {
 
 /// USB 2.0, 9.3.

@@ -4,7 +4,6 @@
 
 #include "tests/unit/support/test_robot.hpp"
 
-// An emergency stop cuts the servos' power after it sends torque off.
 namespace verp::app {
 namespace {
 

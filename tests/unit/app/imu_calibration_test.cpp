@@ -251,8 +251,7 @@ TEST(CalibratedImu, OfAnotherVersionOrSizeIsNotTaken) {
   EXPECT_TRUE(Life(memory, params).imu.state() == Outcome::kDropped);
 }
 
-// A bias belongs to a scale, a turn to a mounting. A robot that differs in either drops the
-// measurement; the robot that measured it finds it again.
+// A bias belongs to a scale, a turn to a mounting.
 TEST(CalibratedImu, MeasuredInAnotherScaleOrMountingIsDroppedAndSaid) {
   hal::MemoryStore memory;
   const ImuParams params = upright();

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-// The buzzer announces each fault once, a low supply until it recovers.
 namespace verp::app {
 namespace {
 

@@ -7,7 +7,6 @@ namespace {
 
 using namespace verp::test;
 
-// The reference sums over all links.
 TEST(Estimator, CentreOfMassOfAStillRobotIsThatOfItsLinks) {
   Led& led = led_robot();
   led.turned = math::rot_y(0.1F) * math::rot_x(-0.05F);
@@ -113,7 +112,6 @@ TEST(Estimator, LiftedRobotComesToRest) {
   EXPECT_LT(distance(led.believed_m(), at_m), 0.05F);
 }
 
-// The other leg serves meanwhile.
 TEST(Estimator, SilentJointsNeitherStopNorThrowIt) {
   Led& led = led_robot();
   const Vec3 speed(0.05F, 0, 0);

@@ -49,7 +49,6 @@ TEST(EstimatorUp, AFloorStoodOnTakesAwayPartOfTheAccelerometersOffset) {
   }
 }
 
-// Up stays within a tenth of a degree.
 TEST(EstimatorUp, ARampIsNotTakenForLevel) {
   for (const float slope_rad : {0.045F, 0.087F, -0.2F}) {
     Led& led = led_robot();

@@ -35,7 +35,6 @@ Sag sag_of(const Params& params, const LegParams& leg, const float* pose_rad, fl
   return sag;
 }
 
-// Servos yield under the weight, so goals lift the body by its sag.
 TEST(Gravity, GoalsOfACarryingLegLiftTheBody) {
   for (const LegParams& leg : kRobot.leg) {
     const Sag sag = sag_of(kRobot, leg, kBent_rad, 30);
@@ -101,7 +100,6 @@ TEST(Gravity, SagIsTorqueTimesCompliance) {
   EXPECT_NEAR(leg_rad[3], 0.5F * 0.0263F, 1e-5F);
 }
 
-// Friction grows with load.
 TEST(Gravity, FrictionAndInertiaAreFedForward) {
   static const Params massless = test::make_massless_legs_robot();
   Params geared = massless;

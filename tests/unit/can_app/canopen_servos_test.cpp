@@ -55,7 +55,6 @@ TEST(CanopenServos, TakesExactlyOnePeriodForATick) {
   }
 }
 
-// Strength and goals go first, then all drives get torque together.
 TEST(CanopenServos, GivesTorqueInTheThirdTickAndOnlyWithGoalsKnown) {
   Loop& loop = test::new_can_loop();
   loop.up();
@@ -107,7 +106,6 @@ TEST(CanopenServos, TakesTorqueAtOnceAndOnlyFromWhomItIsTold) {
   EXPECT_TRUE(loop.all_in(State::kSwitchOnDisabled));
 }
 
-// A changed frame is sent in three ticks; all frames repeat in turn.
 TEST(CanopenServos, ALostControlwordNeitherLeavesADriveStiffNorLimp) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -266,7 +264,6 @@ TEST(CanopenServos, HoldsByItselfWhenTheControllerIsGone) {
   EXPECT_TRUE(loop.all_in(State::kOperationEnabled)) << "and goes on when it is back";
 }
 
-// The loop and export count on it.
 TEST(CanSchedule, CoversTheBitsOfEveryTick) {
   Loop& loop = test::new_can_loop();
   loop.enable();

@@ -3,8 +3,6 @@
 #include "firmware/app/sync_round.hpp"
 #include "tests/unit/can_app/can_loop.hpp"
 
-// A doubled or lost SYNC shifts a node's answers.
-
 namespace verp::app {
 namespace {
 

@@ -41,8 +41,7 @@ TEST(Footsteps, FeetTakeTurns) {
   }
 }
 
-// The gyro is read once per period and must not always see the same moment of a landing. Over the
-// period, the mean angle of landing vanishes.
+// The gyro is read once per period and must not always see the same moment of a landing.
 TEST(Footsteps, EachFootLandsInBothHalvesOfAControlPeriod) {
   Walk walk;
   walk.tuning.cycle_s = 0.45F;

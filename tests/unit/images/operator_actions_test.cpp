@@ -4,9 +4,6 @@
 
 #include "tests/unit/app/operator_bench.hpp"
 
-// The board takes whole blocks of its own robot, refuses others with a reason, and keeps its old
-// ones.
-
 namespace verp::app::test {
 namespace {
 

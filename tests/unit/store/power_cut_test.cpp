@@ -5,8 +5,7 @@
 #include "firmware/store/flash_store.hpp"
 #include "hal/fake/fake_flash.hpp"
 
-// A power cut may come at any write, even within a word or an erase. Every value is then the old or
-// the new one, at every later start.
+// A power cut may come at any write, even within a word or an erase.
 
 namespace verp {
 namespace {

@@ -7,8 +7,7 @@
 #include "firmware/store/flash_store.hpp"
 #include "hal/fake/fake_flash.hpp"
 
-// A robot and its actions share a page and are replaced together or not at all. A replacement never
-// costs the log a value.
+// A robot and its actions are replaced together or not at all; the log never loses a value.
 
 namespace verp {
 namespace {

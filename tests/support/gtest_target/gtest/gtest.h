@@ -7,9 +7,8 @@
 #include <initializer_list>
 #include <type_traits>
 
-/// The part of GoogleTest that the tests use, for microcontrollers. There are no exceptions; only
-/// typed tests have fixtures and need a heap. The program supplies testing::put() and calls
-/// testing::run_all().
+/// The part of GoogleTest that the tests use, without exceptions. The program supplies
+/// testing::put() and calls testing::run_all(); only typed tests have fixtures and need a heap.
 namespace testing {
 
 /// `text` may hold part of a line.
