@@ -14,7 +14,6 @@ class OwnError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Messages name the controller by its folder.
 class Loaded {
  public:
   /// `file`: the folder's controller.so. Throws OwnError.

@@ -10,7 +10,6 @@
 #include "host/trace/record/mcap_format.hpp"
 #include "host/twin/sim/world.hpp"
 
-/// From a Scenario to a session's plans.
 namespace verp::scenario {
 
 /// An invalid value; `where` is its path, such as "robots[0].tuning".

@@ -11,8 +11,7 @@
 #include "host/twin/radio/radio.hpp"
 #include "host/twin/sim/robot.hpp"
 
-/// One run as plain data: a world, its robots and its length. Command line, window, library, demos
-/// and tests describe runs by it.
+/// One run as plain data: a world, its robots and its length.
 ///
 ///     scenario::Scenario scenario;  // generic21 walks 20 s on a level floor
 ///     scenario.robots[0].orders = scenario::Velocity{0.1, 0, 0.2};

@@ -5,7 +5,6 @@
 #include "common/model/params.hpp"
 #include "host/twin/sim/metrics.hpp"
 
-/// Judges a walk's distance and turn by its order.
 namespace verp::session {
 
 /// Ideal path of a body in the frame of its start: x ahead, y left. A turn makes it an arc.
@@ -22,9 +21,8 @@ struct Reach {
 };
 Reach within_reach(const Command& velocity, double walk_s, const GaitTuning& gait);
 
-/// Why an upright walk failed: it made less than half of the ordered way or turn in the time, less
-/// its first and last steps (two seconds at least). Without time left, less than half of what is
-/// within reach. Empty: the walk passed.
+/// Why an upright walk failed: it made less than half of the ordered way or turn, or, in a walk
+/// hardly longer than its first and last steps, of what is within reach. Empty: it passed.
 std::string shortfall(const Command& velocity, const sim::WalkMetrics& walked,
                       const GaitTuning& gait = {});
 /// A remark on a passed walk that was too short for the gait to reach the velocity. Empty: at least

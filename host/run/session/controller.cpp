@@ -20,9 +20,8 @@
 namespace verp::session {
 namespace {
 
-/// Source of orders for a controller in this process. As on a board, the controller is device 200
-/// and orders are register writes, so it rejects the same. Implements the loop's OperatorLink and
-/// Recorder.
+/// As on a board, the controller is device 200 and orders are register writes, so it rejects the
+/// same.
 class OperatorConsole {
  public:
   explicit OperatorConsole(Robot& robot);

@@ -19,9 +19,8 @@ class Controller {
   virtual double wall_s(double session_s) const { return session_s; }
 };
 
-/// The controller that robot.plan() asks for: the firmware/app loop in this process, or on an
-/// emulated board. For a board, the core also runs here, for State and Outputs and to compare
-/// digests.
+/// The firmware/app loop in this process, or on an emulated board; for a board the core also runs
+/// here, for State and Outputs and to compare digests.
 std::unique_ptr<Controller> make_controller(Robot& robot);
 
 using MakeController = std::function<std::unique_ptr<Controller>(Robot& robot)>;

@@ -5,7 +5,6 @@
 #include "common/control/state.hpp"
 #include "host/twin/sim/truth.hpp"
 
-/// Controller's estimates against the twin's truth.
 namespace verp::session {
 
 /// Errors over the gait up to a fall: root mean squares and maxima.

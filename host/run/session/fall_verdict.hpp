@@ -2,12 +2,12 @@
 
 namespace verp::session {
 
-/// Decides whether a lying robot fell or was released. It knows only which servos have torque. A
-/// controller that foresees its fall and cuts the torque has fallen.
+/// Decides whether a lying robot fell or was released. A controller that foresees its fall and cuts
+/// the torque has fallen.
 class FallVerdict {
  public:
-  /// Leaning further when torque goes off is falling. Half of the twin's limit (1 rad), below any
-  /// controller's (fall_tilt_rad is 0.8), and more than a robot that stands, sits or crouches.
+  /// Half of the twin's limit (1 rad), below any controller's (fall_tilt_rad is 0.8), and more than
+  /// a robot that stands, sits or crouches.
   static constexpr double kTipping_rad = 0.5;
 
   /// Call once per tick. `torque`: any servo has torque. `tilt_rad`: from the world's up.

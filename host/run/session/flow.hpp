@@ -8,9 +8,9 @@
 
 namespace verp::session {
 
-/// A coroutine: its body runs only inside resume(), until pause(). It has its own stack but the
-/// caller's thread: nothing runs concurrently. A switch costs two calls; with a thread, four robots
-/// took 59 s for 13 s of work on a busy PC. Do not call pause() in an exception handler.
+/// A coroutine on its own stack: its body runs only inside resume(), until pause(), in the caller's
+/// thread. A switch costs two calls; with a thread, four robots took 59 s for 13 s of work on a
+/// busy PC. Do not call pause() in an exception handler.
 class Flow {
  public:
   explicit Flow(std::function<void(Flow&)> body) : body_(std::move(body)) {}

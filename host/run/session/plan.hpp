@@ -15,8 +15,6 @@
 #include "host/twin/sim/metrics.hpp"
 #include "host/twin/sim/robot.hpp"
 
-/// One run: a world and robots, each with bus, controller, operator, meter and trace. Without
-/// command lines, terminals or signals.
 namespace verp::session {
 
 /// One tick of a controller in this process: Outputs for the robot, State for the trace.
@@ -66,8 +64,8 @@ struct RunEvent {
   std::string what;
 };
 
-/// Callbacks for one robot's run; all may be empty. Called in the thread of Session::tick(), one at
-/// a time. With several robots, `order` and `amend` run on the robot's own stack (Flow).
+/// Callbacks for one robot's run; all may be empty. Called in the thread of Session::tick(). With
+/// several robots, `order` and `amend` run on the robot's own stack (Flow).
 struct Hooks {
   /// Replaces the walk's operator, once per tick. `tick`: last begun tick.
   std::function<app::OperatorOrder(std::uint32_t tick)> order;

@@ -12,8 +12,7 @@ namespace verp::session {
 void place_frames(record::TraceWriter& trace, const model::Entity& entity, const Params& params);
 
 /// New readings of force-torque, contact and truth sensors, one channel each. Messages are at
-/// `tick_ns`, which is now_us in the twin; headers hold the measurement's time. Omits those from
-/// before the trace.
+/// `tick_ns`; headers hold the measurement's time. Omits those from before the trace.
 void append(record::TraceWriter& trace, const model::Entity& entity,
             const sim::ProbeReadings& readings, std::uint64_t tick_ns, std::uint64_t now_us);
 

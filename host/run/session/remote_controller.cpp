@@ -117,8 +117,7 @@ void RemoteController::begins() {
   ++resets_;
   say(fmt::format("the controller began anew at {:.2f} s; the servos hold what they were told last",
                   robot_.simulated_s()));
-  // In lockstep no time passes while a controller is away; on a robot it does, and the servos'
-  // watchdogs act.
+  // On a robot time passes meanwhile, and the servos' watchdogs act.
   robot_.let_pass(kRestart_us);
   if (!shadow_) return;
   begin_shadow();

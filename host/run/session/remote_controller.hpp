@@ -60,9 +60,9 @@ struct RemoteResult {
   std::optional<CanFrames> can;  ///< CAN in real time
 };
 
-/// The twin's side of a link to a controller. With an operator link, the robot walks as with a
-/// local controller, and this PC compares every tick. Without one, the twin serves plan.walk_s from
-/// the first torque on (Robot::watch) and is scored by its motion.
+/// The twin's side of a link to a controller. With an operator link, this PC compares every tick.
+/// Without one, the twin serves plan.walk_s from the first torque on (Robot::watch) and is scored
+/// by its motion.
 class RemoteController : public Controller {
  public:
   bool tick() final;

@@ -57,9 +57,9 @@ class Robot {
     take(tick, state, outputs);
     see();
   }
-  /// One tick without reports: scores only the twin's motion. The run lasts plan.walk_s from the
-  /// first torque on; a scan for servos does not start it. A fall ends it early unless plan.get_ups
-  /// allows recovery. Lying down without torque is no fall (FallVerdict).
+  /// One tick without reports. The run lasts plan.walk_s from the first torque on; a scan for
+  /// servos does not start it. A fall ends it early unless plan.get_ups allows recovery. Lying down
+  /// without torque is no fall (FallVerdict).
   void watch();
 
   /// Sets the source of the world's quantities; call it before the first tick.
@@ -77,7 +77,6 @@ class Robot {
   std::uint32_t tick() const { return tick_.inputs.tick; }
   double simulated_s() const;
   bool has_torque();
-  /// Elapsed part of plan.walk_s.
   double gone_s() const;
   bool fallen() const { return twin_.fallen(); }
   const FallVerdict& verdict() const { return verdict_; }

@@ -11,8 +11,8 @@
 
 namespace verp::session {
 
-/// A robot and controller in the world's time. A single robot's bus advances the world. With
-/// several, each controller is a Flow that pauses where its bus requests a time.
+/// A single robot's bus advances the world. With several, each controller is a Flow that pauses
+/// where its bus requests a time.
 struct Session::Seat final : sim::TimeSource {
   Seat(Session& session, const WalkPlan& plan, Hooks hooks, const MakeController& make)
       : world(session.world_),

@@ -32,10 +32,10 @@ class NoRoom : public std::invalid_argument {
 ///     }
 ///     const WalkResult result = session.result(0);
 ///
-/// One simulation step advances all robots. Each robot's bus waits until the world reaches its
-/// requested time. The world advances when all buses have requested a time at least as late, so no
-/// robot acts in another's past. Deterministic: equal plans in equal order give equal bits,
-/// whatever the calls' timing. Exceptions end the run of the robot that caused them.
+/// Each robot's bus waits until the world reaches its requested time. The world advances when all
+/// buses have requested a time at least as late, so no robot acts in another's past. Equal plans in
+/// equal order give equal bits, whatever the calls' timing. Exceptions end the run of the robot
+/// that caused them.
 class Session {
  public:
   explicit Session(Options options = {});
@@ -61,7 +61,7 @@ class Session {
   std::size_t size() const { return seats_.size(); }
   Robot& robot(std::size_t index);
   std::size_t index_of(const Robot& robot) const;
-  /// Result of a robot; call it once, at the end.
+  /// Call it once, at the end.
   WalkResult result(std::size_t index);
 
  private:

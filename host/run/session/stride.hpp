@@ -4,8 +4,8 @@
 #include "common/io/io.hpp"
 #include "common/model/params.hpp"
 
-/// Strides that the servos can follow, planned without a robot. The planner knows reach and ZMP but
-/// ignores servo speed. Beyond that speed, joints lag until the robot falls.
+/// Strides that the servos can follow: the planner ignores servo speed, and beyond it joints lag
+/// until the robot falls.
 namespace verp::session {
 
 /// The fastest joint of a steady walk, as a share of its speed limit.

@@ -76,7 +76,6 @@ double WalkOperator::lead_s(const State& state, bool one_more) const {
   return 1e-6 * rest_us;
 }
 
-/// Stops before the step that would exceed walk_s.
 void WalkOperator::stop_in_time(const State& state) {
   if (state.gait.queued == 0 || state.gait.queue[state.gait.queued - 1].ends_walk()) return;
   if (walked_s_ + lead_s(state, true) <= walk_s_) {

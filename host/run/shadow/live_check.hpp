@@ -16,10 +16,9 @@ namespace verp::shadow {
 /// the heard Inputs and compares each digest. At the first difference it reads the controller's
 /// held State and last ticks, and names tick, stage and field.
 ///
-/// Ticks during that reading are compared afterwards; a difference there is unsettled.
-///
-/// An incompletely heard tick is a gap, not a difference: the State is requested again. It uses no
-/// interface and no clock; times are monotonic microseconds.
+/// Ticks during that reading are compared afterwards; a difference there is unsettled. An
+/// incompletely heard tick is a gap: the State is requested again. Times are monotonic
+/// microseconds.
 class LiveCheck final : public Check {
  public:
   explicit LiveCheck(const Params& params, const action::Library& own = {});

@@ -50,9 +50,9 @@ class TickPort {
   app::ImageKind window_ = app::ImageKind::kNone;  ///< kNone: unknown
 };
 
-/// Shadow of a controller at a serial link beside its servo bus. This PC fetches the controller's
-/// last ticks (firmware/app/tick_log.hpp) at its own pace; the controller never waits. Dropped
-/// ticks are a gap: its State is read again.
+/// Shadow of a controller at a serial link. This PC fetches its last ticks
+/// (firmware/app/tick_log.hpp) at its own pace; the controller never waits. Dropped ticks are a
+/// gap: its State is read again.
 class PolledCheck final : public Check {
  public:
   /// The caller keeps both arguments alive.

@@ -11,7 +11,7 @@
 namespace verp::live {
 
 /// The server's end of a WebSocket; it owns the socket. Never blocks: the owner polls socket() for
-/// events() and calls ready(). wslay frames; this class does handshake and I/O.
+/// events() and calls ready().
 class Connection {
  public:
   using Clock = std::chrono::steady_clock;

@@ -19,7 +19,7 @@ std::size_t head_length(std::string_view bytes);
 HandshakeAnswer answer_handshake(std::string_view head, std::span<const std::string> origins = {});
 
 /// May a page of that origin ("https://app.foxglove.dev") connect? This PC's, Foxglove's and those
-/// in `more` may. Otherwise any web page open on this PC could read the stream. Desktop programs
+/// in `more` may; others could read the stream from any web page open on this PC. Desktop programs
 /// send no origin or their own scheme.
 bool is_welcome(std::string_view origin, std::span<const std::string> more);
 

@@ -33,8 +33,8 @@ struct Counts {
 };
 
 /// Streams to viewers on this PC by Foxglove's WebSocket protocol, from its own thread. A sender
-/// never waits, and viewers cannot affect it. A new subscriber first gets the channel's last
-/// message, so that descriptions reach it. Any thread may call it.
+/// never waits. A new subscriber first gets the channel's last message, so that descriptions reach
+/// it. Any thread may call it.
 class Server {
  public:
   /// Listens on 127.0.0.1:port; 0: any free port. Throws LiveError if it is not available.
@@ -52,8 +52,8 @@ class Server {
   /// Gives the server's thread SCHED_FIFO `priority`, below the sender's. Otherwise it could be
   /// preempted while it holds, for microseconds, a lock that senders need. False: denied.
   bool run_before_others(int priority);
-  /// Waits until a viewer subscribed and then paused for 0.3 s, or `given_up`, which must not call
-  /// the server. A viewer that subscribes channel by channel would miss messages otherwise.
+  /// Waits until a viewer subscribed and then paused for 0.3 s, because it may subscribe channel by
+  /// channel; or until `given_up`, which must not call the server.
   void wait_for_viewer(const std::function<bool()>& given_up);
   /// Sends queued messages while viewers read them, then closes. Later ones are not sent.
   void finish();

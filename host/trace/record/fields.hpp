@@ -11,8 +11,7 @@
 
 #include "common/base/fields.hpp"
 
-/// Names and text of any VERP_FIELDS struct. This is the digest's list: every hashed field is
-/// visible.
+/// Names and text of any VERP_FIELDS struct.
 namespace verp::record {
 
 /// A differing scalar; `path` reads like the source: "gait.step[1].x_m".

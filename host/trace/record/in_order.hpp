@@ -10,8 +10,8 @@
 
 namespace verp::record {
 
-/// Messages of some files by time; those of one time in the order of the files and of their
-/// records. Holds the chunks that overlap in time; throws TraceError if these take too much.
+/// Messages of some files by time, then by file and record. Holds the chunks that overlap in time;
+/// throws TraceError if these take too much.
 class InOrder {
  public:
   struct Source {

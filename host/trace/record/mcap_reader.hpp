@@ -56,10 +56,10 @@ struct File {
 
 using OnMessage = std::function<void(const File& so_far, const Message& message)>;
 
-/// Total: any bytes give a File, with a flaw unless they are an intact file of our Writer. Covers
-/// every byte: CRCs of chunks and attachments locate damage, those of data section and summary
-/// detect it. Our writer always writes CRCs and compresses only by zstd: anything else is a flaw.
-/// Holds one record and one chunk, of at most kMostRecord bytes each, and File's texts, of as many.
+/// Total: any bytes give a File, with a flaw unless they are an intact file of our Writer. CRCs of
+/// chunks and attachments locate damage, those of data section and summary detect it. Our writer
+/// always writes CRCs and compresses only by zstd: anything else is a flaw. Holds one record and
+/// one chunk, of at most kMostRecord bytes each, and File's texts, of as many.
 class Reader {
  public:
   /// Seekable.

@@ -27,7 +27,7 @@ int writer_of(const std::filesystem::path& path);
 
 /// An append-only MCAP file: chunks with CRC and message indexes, summary and footer. A crash loses
 /// only the open chunk. It grows as `part_path()` and is renamed in close(): writers of one path
-/// never mix, and readers find no partial file. Members throw TraceError on a disk error.
+/// never mix. Members throw TraceError on a disk error.
 class Writer {
  public:
   /// kZstd compresses chunks that become shorter. Without `path` all goes to the listener, which

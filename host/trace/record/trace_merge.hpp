@@ -14,8 +14,8 @@ struct NamedTrace {
 };
 
 /// Several robots' traces in one file for viewers, on one time axis. Topics /ROBOT/..., frames
-/// ROBOT/frame; "world" is shared. All transforms are on /tf, as in ROS. World objects: the first
-/// trace's that has any. Returns the number of messages. Throws TraceError.
+/// ROBOT/frame; "world" is shared. World objects: the first trace's that has any. Returns the
+/// number of messages. Throws TraceError.
 std::size_t merge_traces(const std::vector<NamedTrace>& traces, const std::filesystem::path& output,
                          mcap::Compression compression = mcap::Compression::kNone);
 

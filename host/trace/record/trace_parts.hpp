@@ -6,7 +6,6 @@
 #include "host/trace/record/mcap_reader.hpp"
 #include "host/trace/record/trace.hpp"
 
-/// Parts of read_trace(), for who reads a trace of any length.
 namespace verp::record {
 
 /// Throws TraceError for a missing file, a folder, a device.

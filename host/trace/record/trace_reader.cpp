@@ -132,7 +132,6 @@ class Head {
   Trace trace_;
 };
 
-/// Gives a trace's messages as what they are.
 class Pass {
  public:
   Pass(const fs::path& path, const mcap::File& file, const TraceRecords& to)

@@ -8,9 +8,9 @@
 
 namespace verp::bus {
 
-/// Imu for a robot without one: it reports an upright, still body. The robot then walks without
-/// balance and does not detect a fall. The z gyro alternates by one count: the core treats a
-/// constant IMU as dead.
+/// Imu of an upright, still body, for a robot without one: it then walks without balance and
+/// detects no fall. The z gyro alternates by one count, because the core treats a constant IMU as
+/// dead.
 class AssumedImu {
  public:
   explicit AssumedImu(const ImuParams& imu) {

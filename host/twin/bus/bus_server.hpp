@@ -24,7 +24,7 @@ struct ByteStreams {
 /// Members may be empty.
 struct ServerHooks {
   std::function<app::OperatorOrder(std::uint32_t tick)> order;  ///< at the start of each tick
-  /// Called in this order within a tick; `record` ends the tick. `state` is not sent in every tick.
+  /// Called in this order within a tick. `state` is not sent in every tick.
   std::function<void(const State&)> state;
   std::function<void(const Outputs&)> outputs;
   std::function<void(const TickRecord&)> record;

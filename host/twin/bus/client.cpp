@@ -98,7 +98,7 @@ std::optional<Client::Answer> Client::ask(std::uint8_t id, std::size_t frame, st
   return answer;
 }
 
-/// Waits for late replies as long as for the requests; later ones count as lost.
+/// Later ones count as lost.
 void Client::drop_late() {
   dxl::Parser late;
   std::uint8_t bytes[256];

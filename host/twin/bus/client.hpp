@@ -33,9 +33,9 @@ struct Identity {
   std::uint8_t firmware = 0;
 };
 
-/// Client for Dynamixel devices; one request at a time, repeated without an answer. A late reply
-/// does not name its request: the client knows it by device and length, and waits for it before a
-/// similar request. Methods throw DeviceError; the constructor throws LinkError.
+/// Client for Dynamixel devices; one request at a time. A late reply does not name its request: the
+/// client knows it by device and length, and waits for it before a similar request. Methods throw
+/// DeviceError; the constructor throws LinkError.
 class Client {
  public:
   static constexpr int kAttempts = 3;  ///< per unanswered request
@@ -51,7 +51,7 @@ class Client {
   std::vector<std::uint8_t> read(std::uint8_t id, std::uint16_t address, std::uint16_t length);
   void write(std::uint8_t id, std::uint16_t address, const std::vector<std::uint8_t>& data);
 
-  /// One read without a retry; false: it failed.
+  /// Without a retry; false: it failed.
   bool read_once(std::uint8_t id, std::uint16_t address, std::uint16_t length);
 
   int tries() const { return tries_; }

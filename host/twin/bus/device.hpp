@@ -9,7 +9,6 @@
 
 namespace verp::bus {
 
-/// Base of every device; VirtualBus owns time and the wire.
 class Device {
  public:
   virtual ~Device() = default;

@@ -140,9 +140,8 @@ void VirtualBus::identify(std::uint8_t id) {
   });
 }
 
-// Devices answer a broadcast Ping in the order of their ids (e-Manual). The spacing follows the
-// vendor's SDK, which waits 3 ms per id plus 16 ms. Dynamixel2Arduino issue 106: with a 10 ms wait,
-// ids 1 and 2 are found and id 5 is not.
+// In the order of their ids (e-Manual), 3 ms apart as in the vendor's SDK. Dynamixel2Arduino issue
+// 106: with a 10 ms wait, ids 1 and 2 are found and id 5 is not.
 void VirtualBus::ping(std::uint8_t id) {
   if (id != dxl::kBroadcast) return identify(id);
   const std::uint64_t end_ns = wire_free_ns_;

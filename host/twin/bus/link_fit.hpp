@@ -7,8 +7,6 @@
 #include "common/model/params.hpp"
 #include "host/twin/bus/client.hpp"
 
-/// Checks whether a robot's traffic fits its period on a link that delays bytes, such as a USB
-/// adapter.
 namespace verp::bus {
 
 /// Smallest element with at least `share` of them at or below it; 0 if empty.
@@ -20,12 +18,11 @@ struct LinkDelay {
   double median_us = 0, p90_us = 0, worst_us = 0;
 };
 
-/// Reads one servo repeatedly. `give_up` ends it early. Throws DeviceError if no servo answers, or
-/// fewer than half of the reads.
+/// Reads one servo repeatedly until `give_up`. Throws DeviceError if no servo answers, or fewer
+/// than half of the reads.
 LinkDelay measure_delay(Client& client, const Params& params, const std::function<bool()>& give_up);
 
-/// With any `read`: it returns whether it was answered and takes `wire_us` on the wire. Fewer than
-/// half may be answered.
+/// With any `read`, which returns whether it was answered. Fewer than half may be answered.
 LinkDelay measure_delay(const std::function<bool()>& read, double wire_us,
                         const std::function<bool()>& give_up);
 
@@ -58,8 +55,7 @@ LinkFit fit(const Params& params, const LinkDelay& delay);
 std::string remedy(const LinkFit& fit, const Params& params, const link::Endpoint& endpoint,
                    const std::string& system_folder = "/sys");
 
-/// For the twin as device: one line with a remedy if the adapter delays bytes too long, otherwise
-/// empty.
+/// For the twin: one line with a remedy if the adapter delays bytes too long, else empty.
 std::string adapter_too_slow(const Params& params, const link::Endpoint& endpoint,
                              const std::string& system_folder = "/sys");
 

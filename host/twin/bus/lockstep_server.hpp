@@ -17,8 +17,7 @@ struct LockstepHooks : SessionHooks {
   std::function<void(std::span<const std::uint8_t> bytes, std::uint64_t now_us)> polled;
 };
 
-/// PC side of firmware/app/lockstep_messages.hpp. It uses no link and no clock: the same bytes give
-/// the same answers at any speed.
+/// PC side of firmware/app/lockstep_messages.hpp, without link and clock.
 class LockstepServer : public LockstepSession {
  public:
   /// `bus` must outlive the server.

@@ -14,8 +14,7 @@ struct SessionHooks {
   std::function<void()> greeted;
   /// A controller was refused; the text names what differs.
   std::function<void(const std::string&)> refused;
-  /// All frames of a tick (first: of the bring-up) are sent; the plant has not advanced. False: the
-  /// controller must stop.
+  /// All frames of a tick (first: of the bring-up) are sent. False: the controller must stop.
   std::function<bool()> tick_ends;
   /// Tick `tick` has begun and the controller does not know it yet: time for orders.
   std::function<void(std::uint32_t tick)> tick_begins;

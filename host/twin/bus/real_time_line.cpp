@@ -3,7 +3,6 @@
 
 #include "host/twin/bus/virtual_bus.hpp"
 
-// The half-duplex wire in real time: the master may transmit at any time.
 namespace verp::bus {
 namespace {
 

@@ -100,8 +100,7 @@ void configure(SetupLine& line, FoundServo& servo, std::uint8_t id, std::uint32_
   const Setting settings[] = {{"status_return_level", at::kStatusReturnLevel, kAllReplies},
                               {"torque_enable", at::kTorqueEnable, 0},
                               {"return_delay", at::kReturnDelay, 0},
-                              // As in the control loop, because the zero and the direction depend
-                              // on them.
+                              // The zero and the direction depend on them.
                               {"drive_mode", at::kDriveMode, dxl::kTimeBasedProfile},
                               {"operating_mode", at::kOperatingMode, dxl::kPositionMode}};
   if (!dry_run) make_it_answer(*client, from, changed);

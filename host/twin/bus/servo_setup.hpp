@@ -17,7 +17,6 @@ struct FoundServo {
   std::uint32_t baud = 0;
 };
 
-/// A register that was changed, or would be in a dry run.
 struct Change {
   std::string name;
   std::int64_t before = 0, after = 0;
@@ -42,8 +41,8 @@ class SetupLine {
 
 using Changed = std::function<void(const Change&)>;
 
-/// Sets torque off, all replies on and no return delay, then `id` and `baud`; reads back. Calls
-/// `changed` for each difference; `dry_run` writes nothing. Updates `servo`. Throws DeviceError.
+/// Sets torque off, all replies on, no return delay, `id` and `baud`; reads back. Calls `changed`
+/// for each difference; `dry_run` writes nothing. Throws DeviceError.
 void configure(SetupLine& line, FoundServo& servo, std::uint8_t id, std::uint32_t baud,
                bool dry_run, const Changed& changed);
 

@@ -4,7 +4,6 @@
 #include "host/twin/bus/servo_device.hpp"
 #include "host/twin/bus/servo_registers.hpp"
 
-// The settings that a servo keeps without power, and what it does at power-on.
 namespace verp::bus {
 
 using namespace servo;

@@ -91,13 +91,12 @@ class Shadow {
   /// The order holds from the next poll on; flags hold for one tick.
   virtual void ordered(const app::OperatorOrder& order) = 0;
   virtual void catch_up() = 0;
-  /// First difference between the two controllers' frames; empty: none.
+  /// Empty: the frames are equal.
   virtual const std::string& difference() const = 0;
 };
 
-/// Repeats the remote controller's loop locally, one tick behind, with the same bytes, times and
-/// orders. It recovers Inputs, State and Outputs, which no link carries, and compares the sent
-/// frames.
+/// Repeats the remote controller's loop locally, one tick behind. It recovers Inputs, State and
+/// Outputs, which no link carries, and compares the sent frames.
 template <class Tape>
 class ShadowLoopOver final : public Shadow {
  public:
@@ -159,9 +158,9 @@ class ShadowLoopOver final : public Shadow {
     const bool ready = loop_->bring_up().status == app::BringUpStatus::kReady;
     tape_.ticking = ready && !tape_.torn;
   }
-  /// Like run(); false and no change at the end of the tape. Polls do not show a tick's end: after
-  /// an error, the next tick begins with a poll that clears the line. So the loop retries when more
-  /// polls are known.
+  /// Like run(); false and no change at the end of the tape. Polls do not show a tick's end, and
+  /// after an error the next tick begins with a poll that clears the line: so the loop retries when
+  /// more polls are known.
   bool try_to_run() {
     const Loop before(*loop_);
     const typename Tape::Mark mark = tape_.here;

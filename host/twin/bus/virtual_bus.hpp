@@ -15,16 +15,16 @@
 
 namespace verp::bus {
 
-/// A FrameBus in memory with devices on a plant, in simulated time.
+/// A FrameBus in memory with devices on a plant, in simulated time: the same frames give the same
+/// replies at the same times.
 ///
-/// Lockstep: a broadcast (Fast) Sync Read that covers Present Position begins a tick. It waits on
-/// the wire for the next multiple of the control period. Otherwise only bytes, reply delays and
-/// poll's timeouts advance time. Registers are sampled when a reply begins; writes apply when their
-/// last byte arrives.
+/// In lockstep a broadcast (Fast) Sync Read of Present Position begins a tick and waits on the wire
+/// for the next multiple of the control period. Otherwise only bytes, reply delays and poll's
+/// timeouts advance time. Registers are sampled when a reply begins; writes apply when their last
+/// byte arrives.
 ///
 /// In a Sync or Bulk Read a silent device silences those behind it. Replies of devices with the
 /// same id collide (collision.hpp). A device at another baud rate neither hears nor answers.
-/// Deterministic: the same frames give the same replies at the same times.
 class VirtualBus final : public hal::FrameBus {
  public:
   /// The plant must outlive the bus and be at time 0.
@@ -50,7 +50,6 @@ class VirtualBus final : public hal::FrameBus {
   /// loses bytes that the master sends before an answer is over (real_time_line.cpp). An incomplete
   /// packet ends at the next header or after a pause.
   void set_real_time(bool real_time) { real_time_ = real_time; }
-  /// Baud rate of the master's port; devices at another rate neither hear nor answer.
   void set_baud(std::uint32_t baud);
   /// Holds the plant: only bytes advance time.
   void hold_plant() { held_ = true; }
@@ -97,12 +96,10 @@ class VirtualBus final : public hal::FrameBus {
   void talk(const std::uint8_t* data, std::size_t size);
   /// True if an answer is in progress; `byte` then corrupts the part of it on the line.
   bool jams(std::uint8_t byte, std::uint64_t start_ns, std::uint64_t end_ns);
-  /// True if the device is connected and at the master's baud rate.
   bool hears(const Device& device) const;
   /// Advances the plant, and runs the devices' own actions on the way.
   void advance_plant(std::uint64_t time_us);
   void wait_us(std::uint32_t delay_us);
-  /// Each speaker sends the result of `say`, after the shortest delay or at once.
   template <class Say>
   void speak(const std::vector<Device*>& speakers, bool at_once, Say&& say);
   void put_on_wire(std::vector<std::uint8_t> bytes);

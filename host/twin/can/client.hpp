@@ -56,12 +56,10 @@ class ClientBus : public hal::CanBus {
 /// "6064:0", the usual form of an object's address; both parts are hexadecimal.
 std::string to_text(canopen::Address at);
 
-/// SDO client for the CANopen nodes on an interface, one transfer at a time. The PC has no node id.
-/// It repeats a request without an answer within `timeout_us`. Throws bus::DeviceError with the
-/// abort's reason, SilentError without an answer; the constructor throws LinkError.
-///
-/// It asks the controller's node over its separate channel (plan::kToolSdo), apart from clients of
-/// the default channel.
+/// SDO client for the nodes on an interface, one transfer at a time. It repeats a request without
+/// an answer within `timeout_us`. Throws bus::DeviceError with the abort's reason, SilentError
+/// without an answer; the constructor throws LinkError. It asks the controller's node over a
+/// channel of its own (plan::kToolSdo).
 class Client {
  public:
   static constexpr int kAttempts = 3;  ///< per unanswered transfer

@@ -26,8 +26,7 @@ struct DriveNews {
   bool any = false;
 };
 
-/// CiA 402 drive of one joint: its objects from 2000h up (a canopen::Application) and its state
-/// machine.
+/// CiA 402 drive of one joint: its objects from 2000h up and its state machine.
 ///
 /// Mode 8 only. A target, limited by 607Dh, takes effect when written. Straight lines of 60C2h join
 /// the targets. Without a target since torque-on, the drive holds its position. 6072h limits the

@@ -21,9 +21,9 @@ struct LoadRow {
   std::optional<int> no_room;            ///< first joint whose drive does not fit
 };
 
-/// 100, 125, 200 and 250 Hz; one and two buses; classic and FD. FD frames switch to `data_baud`.
-/// Two buses halve the drives in joint order; the IMU is on the first, the feet on the second. Only
-/// one classic bus can run today; the other rows are arithmetic on the same frames.
+/// 100, 125, 200 and 250 Hz; one and two buses; classic and FD (`data_baud`). Two buses halve the
+/// drives in joint order; the IMU is on the first, the feet on the second. Only one classic bus can
+/// run today.
 std::vector<LoadRow> load_table(const Params& params, std::uint32_t data_baud);
 
 }  // namespace verp::can

@@ -19,9 +19,8 @@ struct LockstepHooks : bus::SessionHooks {
   std::function<void(const std::vector<CanFrame>& burst, std::uint64_t now_us)> polled;
 };
 
-/// PC side of firmware/app/lockstep_can_messages.hpp. It uses no interface and no clock: the same
-/// frames give the same answers at any speed. Frames that no controller sends do not reach the bus;
-/// foreign requests and commands do, and count as damage.
+/// PC side of firmware/app/lockstep_can_messages.hpp, without interface and clock. Frames that no
+/// controller sends do not reach the bus; foreign requests and commands do, and count as damage.
 class LockstepServer : public bus::LockstepSession {
  public:
   /// `bus` must outlive the server.

@@ -6,10 +6,8 @@
 
 namespace verp::can {
 
-/// Detects another device that acts as a node of the twin's robot: the robot itself or another
-/// twin.
-///
-/// Proof: five heartbeats, TPDOs or SDO answers of one node. Random frames hardly ever give five
+/// Detects another device that acts as a node of the twin's robot. Proof: five heartbeats, TPDOs or
+/// SDO answers of one node; random frames hardly ever give five
 /// (tests/host/can/other_nodes_test.cpp).
 class OtherNodes {
  public:

@@ -13,7 +13,6 @@ void RealtimeServer::hear(std::span<const ReceivedFrame> frames, std::uint64_t c
     in_step_since_us_ = frames.front().came_us;
     bus_.set_real_time(true);
   }
-  // Follow the clock, not the frames: on a slow PC each frame is older than the one before.
   skip(clock_us);
   const std::uint64_t least_us = clock_us - std::min(clock_us, kMostBehind_us / 2);
   for (const ReceivedFrame& each : frames) {

@@ -31,8 +31,8 @@ class RealtimeServer {
   explicit RealtimeServer(VirtualCan& bus) : bus_(bus) {}
 
   /// Handles all waiting frames: advances to each arrival (at most kMostBehind_us / 2 before
-  /// `clock_us`) and appends the bus's frames to `answer`. It skips once for all frames; otherwise
-  /// answers to a fast master would come later and later.
+  /// `clock_us`) and appends the bus's frames to `answer`. It skips once for all, or answers to a
+  /// fast master would come later and later.
   void hear(std::span<const ReceivedFrame> frames, std::uint64_t clock_us,
             std::vector<CanFrame>& answer);
   /// Advances to `clock_us` without a frame; does nothing before the first frame.
@@ -45,8 +45,7 @@ class RealtimeServer {
   const Counters& counters() const { return counters_; }
 
  private:
-  /// Target time of the bus; never before its present time, because frames may be older than a
-  /// skip.
+  /// Never before the bus's present time, because frames may be older than a skip.
   std::uint64_t due_us(std::uint64_t clock_us) const;
   void skip(std::uint64_t clock_us);
   void go_on(std::uint64_t clock_us, std::vector<CanFrame>& answer);

@@ -30,14 +30,14 @@ class Interference {
   Interference() = default;
 };
 
-/// A CanBus in memory with CANopen nodes on a plant, in simulated time.
+/// A CanBus in memory with CANopen nodes on a plant, in simulated time: the same frames give the
+/// same answers at the same times.
 ///
-/// Lockstep: a SYNC with counter 1 begins a tick. Earlier frames go first; then the SYNC waits on
-/// the wire for the next multiple of the control period. Otherwise only frames and poll's timeouts
-/// advance time. A frame takes its exact bits, with stuff bits. The lowest waiting identifier goes
-/// first. A node samples for a SYNC when that ends, applies a target when its frame has arrived,
-/// and works once a millisecond. Deterministic: the same frames give the same answers at the same
-/// times.
+/// In lockstep a SYNC with counter 1 begins a tick: earlier frames go first, then it waits on the
+/// wire for the next multiple of the control period. Otherwise only frames and poll's timeouts
+/// advance time. A frame takes its exact bits; the lowest waiting identifier goes first. A node
+/// samples for a SYNC when that ends, applies a target when its frame has arrived, and works once a
+/// millisecond.
 class VirtualCan final : public hal::CanBus {
  public:
   /// The plant must outlive the bus and be at time 0.
@@ -128,7 +128,6 @@ class VirtualCan final : public hal::CanBus {
   /// kNever_ns if no frame waits.
   std::uint64_t next_begin_ns() const;
   void transmit(std::uint64_t begin_ns);
-  /// Takes the winner from its queue; null: the controller's frame.
   Place* arbitrate(std::uint64_t begin_ns, Waiting& winner);
   void deliver(const CanFrame& frame, const Place* sender, std::uint64_t end_ns);
   void arrive(const CanFrame& frame, std::uint64_t end_ns);

@@ -6,7 +6,6 @@
 
 #include "common/protocol/canopen/communication.hpp"
 
-/// Electronic data sheets (EDS, CiA 306) for tools of other makers.
 namespace verp::eds {
 
 /// Data type numbers of CiA 301.

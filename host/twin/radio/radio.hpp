@@ -57,9 +57,8 @@ struct Outcome {
 
 /// Broadcast or addressed messages, without acknowledgement or repeat. A station listens before it
 /// sends. Two messages collide where both are heard if they begin within kBlind_us of each other or
-/// their senders do not hear each other. A sending station hears nothing. Random draws depend only
-/// on the seed, the message number and the two stations: equal runs are equal, and another station
-/// changes no other draw.
+/// their senders do not hear each other. Random draws depend only on the seed, the message number
+/// and the two stations.
 class Radio {
  public:
   /// Throws as check() does.
@@ -71,7 +70,6 @@ class Radio {
 
   /// Time must not go backwards, here or in advance().
   Sent send(int from, int to, std::string data, std::uint64_t now_us);
-  /// Ends all messages that are over by now; `places` are the antenna positions of the stations.
   void advance(std::uint64_t now_us, std::span<const Place> places);
   /// Messages in order of arrival, up to the last advance().
   std::vector<ReceivedMessage> take(int station);

@@ -282,7 +282,7 @@ void Body::meter(int joint) {
   dJointSetFeedback(hinge, &feedback_.emplace_back());
 }
 
-/// Force and torque on the joint's child link, which ODE refers to its centre of mass.
+/// ODE refers them to the link's centre of mass.
 JointLoad Body::load(int joint) const {
   const dJointFeedback* given = dJointGetFeedback(hinges_[index_of(joint)]);
   if (given == nullptr) return {};

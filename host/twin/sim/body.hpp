@@ -6,16 +6,14 @@
 #include "host/twin/sim/servo.hpp"
 #include "host/twin/sim/world.hpp"
 
-/// Links and hinges in the physics engine. Joint j moves node j + 1; node 0 is the body.
+/// Joint j moves node j + 1; node 0 is the body.
 namespace verp::sim {
 
-/// World pose of every node's link frame.
 std::vector<Transform> link_poses(const model::Entity& entity, const Transform& body_world,
                                   const std::vector<double>& joint_rad);
 
-/// Body pose of a standing robot. Soles level (their mean), midpoint over start_m, mean heading
-/// along yaw, lowest point of any shape gap_m above the ground. Without legs: body level, over
-/// start_m.
+/// Soles level (their mean), their midpoint over start_m, mean heading along yaw, lowest point
+/// gap_m above the ground. Without legs: body level, over start_m.
 Transform standing_pose(const model::Entity& entity, const std::vector<double>& joint_rad,
                         const Vec3& start_m, double yaw_rad, double gap_m);
 

@@ -26,8 +26,7 @@ struct WalkMetrics {
   std::optional<double> speed_mean_m_s;  ///< distance_m / walk_s
   /// Transition phase without its first and last two cycles.
   std::optional<double> speed_steady_m_s;
-  /// Part of it due to the carrying sole's slip; the remaining error comes from steps that end off
-  /// plan.
+  /// Part of it due to the carrying sole's slip.
   std::optional<double> slip_steady_m_s;
   double ahead_m = 0;          ///< along the first heading; backward is negative
   double lateral_drift_m = 0;  ///< to the left of that heading

@@ -6,10 +6,9 @@
 
 namespace verp::sim {
 
-/// The planned ZMP in the twin's world. `gait`: the controller's state after its tick. The carrying
-/// foot aligns the plan's walk frame: the result lies relative to the true sole as the plan lies
-/// relative to the foothold. Without a swing foot, the midpoint of both soles aligns it. Nothing
-/// while the gait stands.
+/// `gait`: the controller's state after its tick. The carrying foot aligns the plan's walk frame
+/// with the world; without a swing foot the midpoint of both soles does. Nothing while the gait
+/// stands.
 std::optional<Vec2> planned_zmp_world_m(const Tuning& tuning, const gait::GaitState& gait,
                                         const Truth& truth);
 

@@ -62,8 +62,7 @@ struct ImuMeasurement {
 };
 
 /// One robot in a world. Joints are indexed as in Entity and Params. Time is simulated microseconds
-/// since the world began. A bus requests a time with advance_to(), alone or together with other
-/// buses.
+/// since the world began.
 class Plant {
  public:
   virtual ~Plant() = default;

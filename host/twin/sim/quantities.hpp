@@ -8,8 +8,7 @@
 #include "host/twin/sim/scenery.hpp"
 #include "host/twin/sim/world.hpp"
 
-/// Named access to a running world's physics, and external pushes. Reading changes nothing; a new
-/// value acts from the next step on.
+/// A new value acts from the next step on.
 namespace verp::sim {
 
 /// A named number of the physics: `body.mass_kg`, `world.gravity_m_s2`. Only the world's thread may
@@ -70,7 +69,6 @@ class Quantities final : private Actor {
   /// These throw std::invalid_argument with the valid names or range.
   double read(const std::string& name) const;
   void set(const std::string& name, double value);
-  /// Throws as set() does, but sets nothing.
   void check(const std::string& name, double value) const;
   /// Pushes at the centre of mass, in world axes, from the next step on.
   void push(const std::string& thing, const Vec3& force_world_n, double for_s);

@@ -55,15 +55,14 @@ struct TwinOptions {
   /// not walk yet.
   double cradle_s = 1.2;
   std::optional<double> supply_v = {};  ///< unloaded; none: nominal
-  /// Internal resistance of battery and harness. An estimate for 12 V: 3 LiPo cells of about 10
-  /// mOhm (hobby packs of 1 to 2 Ah), plug, fuse and the first metre of daisy chain. For other
-  /// servos it scales with the voltage squared: equal power loses an equal share.
+  /// Battery and harness. An estimate for 12 V: 3 LiPo cells of about 10 mOhm (hobby packs of 1 to
+  /// 2 Ah), plug, fuse, first metre of daisy chain. It scales with the voltage squared: equal power
+  /// loses an equal share.
   double supply_ohm = 0.1;
   bool cameras = false;  ///< cameras are rendered: take_exposures()
 };
 
-/// One robot in a World: links, servos, sensors. Plant is for the controller, in counts; truth()
-/// for the referee. The world must outlive the robot.
+/// One robot in a World. Plant is for the controller, in counts; truth() for the referee.
 class TwinRobot final : public Plant, private Actor {
  public:
   /// Throws std::invalid_argument with the link or joint.

@@ -21,9 +21,8 @@ class LowPass {
   bool started_ = false;
 };
 
-/// As hal/chip/invensense reads it: bandwidth 23.9 Hz (InvenSense ICM-20648, DLPF 4). It reports
-/// the mean of one control period: the jolt of a landing is shorter, and single samples would add
-/// false rotation.
+/// As hal/chip/invensense reads it: bandwidth 23.9 Hz (InvenSense ICM-20648, DLPF 4), mean of one
+/// control period.
 class ImuModel {
  public:
   /// mean_s: averaging time; 0: newest sample only. gyro_bias_rad_s adds to the drawn bias.

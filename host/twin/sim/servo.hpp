@@ -6,9 +6,9 @@
 #include "host/twin/sim/profile.hpp"
 #include "host/twin/sim/random.hpp"
 
-/// A position servo: encoder, position loop, DC motor, gearbox, housing temperature. Independent of
-/// the physics engine: before a step it converts the joint's state to a line in the torque-speed
-/// plane, for any engine with an implicit velocity motor; the caller passes back the new speed.
+/// A position servo: encoder, position loop, DC motor, gearbox, housing temperature. Before a step
+/// it gives a line in the torque-speed plane, for any engine with an implicit velocity motor; the
+/// caller passes back the new speed.
 namespace verp::sim {
 
 /// One physics step's drive: a line over the joint's new speed, hence stable at any stiffness and

@@ -3,13 +3,12 @@
 #include <span>
 #include <string_view>
 
-/// Replacements for three loops of ODE's solver, most of a world's time. They process several
-/// numbers at a time and skip zeros at the start of rows. Each result sums the same terms in the
-/// same order, so no bit differs (tests/host/sim/solver_test.cpp).
+/// Replacements for three loops of ODE's solver, which take most of a world's time. They process
+/// several numbers at a time and skip zeros at the start of rows; the same terms in the same order
+/// give the same bits (tests/host/sim/solver_test.cpp).
 ///
-/// A program linked with this file uses them: the dynamic linker binds ODE's calls to the first
-/// definition, which a shared library must export (host/apps/libverp/exported.map). On another
-/// processor or ODE, ODE's own loops run.
+/// The dynamic linker binds ODE's calls to the first definition, which a shared library must export
+/// (host/apps/libverp/exported.map). On another processor or ODE, ODE's own loops run.
 
 namespace verp::sim {
 

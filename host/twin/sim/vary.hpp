@@ -33,9 +33,9 @@ struct Varied {
   std::vector<std::pair<std::string, double>> drawn;
 };
 
-/// Pure: equal arguments give an equal robot. A new kind of draw changes no other (random.hpp).
-/// Rotor inertia and gearbox friction are drawn once per robot, within each servo type's band: its
-/// servos are of one make. `twin` and `world` give the rest; twin.seed is the only seed.
+/// A new kind of draw changes no other (random.hpp). Rotor inertia and gearbox friction are drawn
+/// once per robot, within each servo type's band: its servos are of one make. `twin` and `world`
+/// give the rest; twin.seed is the only seed.
 Varied vary(const model::Entity& entity, const TwinOptions& twin, const WorldOptions& world,
             const VaryBands& bands = {});
 

@@ -12,8 +12,8 @@
 #include "host/robot/model/entity.hpp"
 #include "host/robot/model/world.hpp"
 
-/// The physics engine: ODE in double precision. Only the calling thread steps it, at a fixed
-/// interval. The state is a function of the calls alone: equal runs are equal to the last bit.
+/// ODE in double precision, stepped by the calling thread at a fixed interval: equal calls give
+/// equal bits.
 namespace verp::sim {
 
 using model::Mat3;
