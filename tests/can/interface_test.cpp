@@ -16,7 +16,6 @@
 #include "tests/hil/promises.hpp"
 #include "tests/hil/software_board.hpp"
 
-// The fault campaign for a real interface, in wall time: vcan goes down and up under a walk.
 namespace verp::test {
 namespace {
 

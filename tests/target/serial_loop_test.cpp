@@ -26,7 +26,6 @@ std::uint32_t test_ticks() {
   return ticks == nullptr ? 0 : static_cast<std::uint32_t>(std::strtoul(ticks, nullptr, 10));
 }
 
-// After the boot check the port reports how the start went.
 TEST(SerialLoop, AnswersItsOperatorAsDevice200) {
   SerialBoard board(test_board(), params_image(load_robot("generic21")));
   const auto identity = board.operator_port().ping(dxl::controller::kDefaultId);

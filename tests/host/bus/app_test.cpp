@@ -217,7 +217,6 @@ TEST_F(AppLoop, TorqueIsLimitedInEveryModeIfSomebodySaysSo) {
   }
 }
 
-// An obstacle never meets full strength, not even for a tick.
 TEST_F(AppLoop, ARiseIsTorqueLimitedFromBeforeTorqueUntilItsEnd) {
   params.rise_torque_percent = 40;
   ready();

@@ -78,7 +78,6 @@ TEST(Compare, RunsThatBeganAtDifferentTimesAreLaidTogetherByWhatTheControllerBeg
   EXPECT_NEAR(*ordered.delay_s, 0, 1e-3);
 }
 
-// A twin with its own noise, not an edited copy.
 TEST(Compare, ATwinWhoseServosActLaterIsLateByThat) {
   session::WalkPlan plan = plan_of(5, 2);
   plan.twin.goal_delay_s = 0.010;

@@ -50,7 +50,6 @@ std::vector<Radio> radio_of(const fs::path& file) {
   return out;
 }
 
-// A message is in the traces of its speaker and its hearers.
 TEST(Trace, OfADemoReplaysAndHasWhatWasSaid) {
   const Folder folder;
   Options options;

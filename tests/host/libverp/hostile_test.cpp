@@ -16,7 +16,6 @@
 #include "tests/host/libverp/opened.hpp"
 #include "tests/support/leak.hpp"
 
-/// Attacks: cut texts, endless sizes, other threads.
 namespace verp::abi::test {
 namespace {
 

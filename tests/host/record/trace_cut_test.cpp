@@ -16,7 +16,6 @@ class TraceCut : public TraceFolder {
   const fs::path whole_ = folder_ / "whole.mcap", part_ = folder_ / "part.mcap";
 };
 
-// From the last State before the cut; also a cut of a cut.
 TEST_F(TraceCut, IsATraceThatReplaysToTheSameBits) {
   const Trace whole = read_trace(whole_);
   struct Row {

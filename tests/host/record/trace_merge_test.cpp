@@ -30,7 +30,6 @@ class TraceMerge : public TraceFolder {
   }
 };
 
-// A message that is read and written again has the same bytes.
 TEST_F(TraceMerge, KnowsEveryTypeOfMessageByItsDefinition) {
   write("a.mcap", 40);
   const std::string bytes = slurp(folder_ / "a.mcap");

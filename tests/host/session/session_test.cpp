@@ -9,9 +9,6 @@
 #include "host/twin/bus/order_sink.hpp"
 #include "tests/host/session/plans.hpp"
 
-// A robot's run in a shared world depends only on the plans, not on how ticks are called or on
-// robots that it does not touch.
-
 namespace verp::session::test {
 namespace {
 

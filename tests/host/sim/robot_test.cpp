@@ -382,7 +382,6 @@ TEST(Random, NormalHasMeanZeroAndDeviationOne) {
   EXPECT_NEAR(squares / kDraws, 1, 0.01);
 }
 
-// They share no random numbers or state.
 TEST(World, TwoRobotsStandSideBySide) {
   World world;
   const model::Entity entity = test::biped();

@@ -84,7 +84,6 @@ TEST(Vary, EqualSeedsGiveEqualRobotsAndOthersDiffer) {
   }
 }
 
-// Nor does the number of joints change a draw.
 TEST(Vary, DrawsAreIndependent) {
   std::map<std::string, std::vector<double>> drawn;
   for (std::uint64_t seed = 1; seed <= kRobots; ++seed) {

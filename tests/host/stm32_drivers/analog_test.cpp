@@ -4,7 +4,6 @@
 #include "tests/support/stm32/adc_model.hpp"
 #include "tests/support/stm32/gpio_model.hpp"
 
-// Right within a count, smooth, never waited for, missing if the converter stops.
 namespace verp::hal::stm32::test {
 namespace {
 

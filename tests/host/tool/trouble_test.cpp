@@ -135,7 +135,6 @@ TEST_F(Trouble, ReaderThatLeavesAtOnceCostsNothing) {
   EXPECT_TRUE(fs::exists(folder_ / "out/index.html"));
 }
 
-// No trace on standard output, and a full stderr ends no walk.
 TEST_F(Trouble, StreamsThatAreClosedOrFullCostNothingElse) {
   const struct {
     const char* streams;

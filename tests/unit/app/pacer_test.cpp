@@ -27,7 +27,6 @@ TEST(Pacer, ALoopInTimeMissesNothing) {
   EXPECT_EQ(pacer.deadlines().worst_late_us, 0u);
 }
 
-// Every tick counts for the period in which it began.
 TEST(Pacer, TheAccountIsTrueForTicksOfAnyLength) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     hal::ManualClock clock;

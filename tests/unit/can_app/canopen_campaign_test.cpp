@@ -4,8 +4,6 @@
 
 #include "tests/unit/can_app/can_loop.hpp"
 
-// All kinds of trouble at once, in an order drawn from a seed.
-
 namespace verp::app {
 namespace {
 
