@@ -12,9 +12,8 @@
 #include "law.hpp"
 
 /// loop_<board> JOB RECORDS: the robot's control loop over the board's own CAN bus, with a twin in
-/// lockstep at the far end. JOB holds the robot and the operator's orders (can_loop_job.hpp); each
-/// tick goes to RECORDS. The controller is also a node that publishes each tick, but takes no
-/// orders.
+/// lockstep at the far end. JOB: can_loop_job.hpp; each tick goes to RECORDS. The controller is
+/// also a node, which takes no orders.
 namespace {
 
 using verp::hal::semihosting::File;

@@ -6,9 +6,8 @@
 #include "firmware/store/shared_page.hpp"
 #include "hal/chip/stm32/flash_pages.hpp"
 
-/// The board's own flash, sectors that every memory.ld leaves free. One holds the robot, with its
-/// actions in the second half. Two hold a log of settings; a new robot or new actions wait in the
-/// one without a log.
+/// Sectors that every memory.ld leaves free. One holds the robot, with its actions in the second
+/// half. Two hold a log of settings; a new robot or new actions wait in the one without a log.
 namespace verp::board {
 
 class Kept {

@@ -22,11 +22,11 @@
 #include "firmware/boot/crash.hpp"
 #include "law.hpp"
 
-/// loop_<board>: the robot's control loop over the board's ports; loop_can_<board>: the same on CAN
-/// (robot_port.hpp of serial/ and can/). The far end may be servos, or a twin that answers the
-/// greeting (firmware/app/lockstep_messages.hpp and its CAN counterpart); the image tries both in
-/// turn. Torque is off until one answers. At the operator's port the controller is a Dynamixel
-/// device from the start, whatever the boot check found.
+/// loop_<board>: the robot's control loop over the board's ports; loop_can_<board>: the same on
+/// CAN. The far end may be servos, or a twin that answers the greeting
+/// (firmware/app/lockstep_messages.hpp and its CAN counterpart); the image tries both in turn.
+/// Torque is off until one answers. At the operator's port the controller is a Dynamixel device
+/// from the start.
 extern "C" const std::uint8_t verp_params_begin[];
 extern "C" const std::uint8_t verp_params_bytes[];  ///< the address is the size (memory.ld)
 extern "C" const std::uint8_t verp_actions_begin[];

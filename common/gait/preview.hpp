@@ -4,8 +4,8 @@
 
 /// The body's key points. A *head* runs ahead of the robot: it advances the pendulum's CoM, solves
 /// the legs and weighs every link. A ring keeps the misses between the planned ZMP and that of all
-/// links. Before the robot gets there, the pendulum turns the misses ahead into a CoM correction
-/// (second stage of preview control) and the key point is fixed.
+/// links. Before the robot gets there, the pendulum turns them into a CoM correction (second stage
+/// of preview control) and the key point is fixed.
 namespace verp::gait {
 
 inline constexpr int kRing = 32;     ///< key points, robot to head, and spare

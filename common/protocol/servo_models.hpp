@@ -5,10 +5,8 @@
 #include "common/protocol/control_table.hpp"
 
 /// The control tables of the servos' models, as far as they differ. Source: ROBOTIS e-Manual, the
-/// page of each model (docs/en/dxl/x, docs/en/dxl/mx), with its includes. Older versions of the
-/// pages have other Velocity Limits (44): XM430-W350 350, XM540-W150 380, XH430-W210 360, MX-28
-/// 380, MX-64 435, MX-106 360; and other Drive Modes (10) of the X-series: up to 5, before
-/// firmware 45.
+/// page of each model (docs/en/dxl/x, docs/en/dxl/mx), with its includes.
+/// tests/dynamixel/control_tables.txt lists where older pages differ.
 namespace verp::dxl {
 
 enum ServoFeature : std::uint16_t {

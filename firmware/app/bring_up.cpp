@@ -51,7 +51,6 @@ class BringUp {
     return false;
   }
 
-  /// Repeats an unanswered request; copies exactly `size` reply bytes.
   bool transact(std::size_t frame, std::uint8_t id, std::uint16_t address, std::uint8_t* data,
                 std::size_t size) {
     const std::uint32_t timeout =
@@ -94,7 +93,6 @@ class BringUp {
     return transact(frame, id, address, nullptr, 0);
   }
 
-  // Makes `size` registers hold `data`; writes only if they differ.
   bool establish(std::uint8_t id, std::uint16_t address, const std::uint8_t* data,
                  std::size_t size) {
     std::uint8_t found[kMostBytes];

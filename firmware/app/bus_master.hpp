@@ -115,7 +115,7 @@ class ReadChain {
     return -1;
   }
   bool ended() const { return next_ == count_; }
-  /// Call after the read. True if all answered; otherwise moves the first device missed to the end.
+  /// Call after the read. True if all answered.
   bool complete() {
     if (next_ < count_) note_missed();
     if (missed_ < 0) return true;

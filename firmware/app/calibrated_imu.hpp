@@ -10,8 +10,7 @@ namespace verp::app {
 
 inline constexpr std::uint16_t kImuCalibrationKey = 2;  ///< in the board's Store
 
-/// An Imu that corrects samples with the calibration in the board's Store, and can measure a new
-/// one.
+/// An Imu that corrects samples by the calibration in the board's Store, and can measure a new one.
 template <hal::Imu Chip, hal::Store Memory>
 class CalibratedImu {
  public:

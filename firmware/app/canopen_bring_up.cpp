@@ -51,7 +51,6 @@ class CanopenBringUp {
     return false;
   }
 
-  // Each node needs a unique id that CANopen allows.
   bool sound_ids() {
     for (int slot = 0; slot < kCanNodes; ++slot) {
       const std::uint8_t id = node_id(params_, slot);

@@ -51,8 +51,7 @@ class CanopenServos {
   static constexpr std::uint16_t kLongSilence = 5000;  ///< ticks; the count stops here
   static_assert(most_sent(kMaxJoints) <= hal::kCanQueue);
 
-  // Drops stale frames: those after the last tick. Waiting frames cost no time; those
-  // that arrive while ours wait for the wire do.
+  // Drops frames that came after the last tick.
   void forget_stale(Inputs& inputs);
 
   // A flooded bus delays the SYNC and so its timeout: frames of this tick may use up the time of

@@ -18,7 +18,6 @@ class DrivePower {
  public:
   enum class Step : std::uint8_t { kOn, kOff, kAnew };
 
-  /// Ticks in which torque off is sent.
   static constexpr std::uint8_t kTorqueFirst = 3;
 
   /// `pressed`: a stop was pressed in this tick or still blocks the power; `mode`: the core's.

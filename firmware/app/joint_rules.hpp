@@ -28,7 +28,6 @@ class JointStrength {
   void set_full(const std::uint16_t (&full)[kMaxJoints]) {
     for (int j = 0; j < kMaxJoints; ++j) full_[j] = full[j];
   }
-  /// Limits strength in every mode; 1 to 100.
   void limit_torque(std::uint8_t percent) { most_percent_ = percent; }
 
  protected:

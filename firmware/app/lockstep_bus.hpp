@@ -36,9 +36,8 @@ concept IdleHook = requires(Idle& idle) {
   { idle() } -> std::same_as<bool>;
 };
 
-/// The controller's end of lockstep_messages.hpp: a FrameBus in the twin's time over any byte
-/// stream. Call greet() first. A slow, paused or unplugged PC makes it wait as long as `idle`
-/// allows, but never causes a timeout.
+/// The controller's end of lockstep_messages.hpp: a FrameBus in the twin's time. Call greet()
+/// first. A slow, paused or unplugged PC makes it wait as long as `idle` allows, without a timeout.
 template <std::derived_from<hal::ByteLink> Link, IdleHook Idle>
 class LockstepBus final : public hal::FrameBus {
  public:
@@ -96,7 +95,7 @@ class LockstepBus final : public hal::FrameBus {
   std::uint64_t now_us() override { return answer_.now_us; }
 
  private:
-  /// The twin sent kStop, maybe in the middle of a tick: nothing waits for it.
+  /// The twin sent kStop, maybe in the middle of a tick.
   bool over() const { return (answer_.flags & lockstep::kStop) != 0; }
 
   static constexpr std::size_t kOutbox = 2 * hal::kMaxFrame;

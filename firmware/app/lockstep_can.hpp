@@ -10,8 +10,7 @@
 
 namespace verp::app {
 
-/// The controller's end of lockstep_can_messages.hpp: a CanBus in the twin's time over another
-/// CanBus. Like LockstepBus it waits as long as `idle` allows, without a timeout. The time of `Bus`
+/// The controller's end of lockstep_can_messages.hpp; waits like LockstepBus. The time of `Bus`
 /// only decides when to ask again.
 template <std::derived_from<hal::CanBus> Bus, IdleHook Idle>
 class LockstepCan final : public hal::CanBus {

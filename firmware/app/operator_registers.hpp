@@ -59,7 +59,6 @@ class OperatorRegisters {
   table::ImuCalibrationOrder take_calibration_order();
   /// `request` 0 was written; returned once.
   bool take_relax() { return standing_.take_relax(); }
-  /// `count`: what action_request accepts; `fault`: why stored ones are not available.
   void offer_actions(int count, action::KeptFault fault = action::KeptFault::kNone);
   TickReport& report() { return report_; }
   /// Whether a write there may have its effect (OperatorSetup).

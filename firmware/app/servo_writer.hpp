@@ -13,7 +13,7 @@ namespace verp::app {
 /// The core's outputs as Sync Writes. These have no reply, so every change except goals is sent in
 /// kRepeats ticks, and each servo's state again in turn: one lost frame leaves no limp robot stiff
 /// and no walking one with a slack joint. Strength is Goal PWM; a servo refuses more than
-/// set_full()'s value. It is copied with its loop and holds no reference into it.
+/// set_full()'s value.
 class ServoWriter : public JointStrength {
  public:
   using JointStrength::JointStrength;

@@ -27,7 +27,6 @@ struct LoopHealth {
   const JointEffort* efforts = nullptr;  ///< null: not on this bus
 };
 
-/// A tick's values in the register image.
 class TickReport {
  public:
   TickReport(const Params& params, RegisterImage& image);

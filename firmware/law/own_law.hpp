@@ -9,10 +9,9 @@
 
 namespace verp::app {
 
-/// A user's controller, on a board as on the PC. In each tick the core's step() decides first. Then
-/// `Controller` is called with Params, the core's State, Inputs and the core's Outputs, and changes
-/// the goals. Its other memory is its own. Last, control::guard() decides what is sent, so no
-/// controller keeps torque through an emergency stop. The digest covers what is sent.
+/// A user's controller, on a board as on the PC. In each tick the core's step() decides first; then
+/// `Controller` changes the goals. Last, control::guard() decides what is sent, so no controller
+/// keeps torque through an emergency stop. The digest covers what is sent.
 template <class Controller>
 class OwnLaw {
  public:

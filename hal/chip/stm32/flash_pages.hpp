@@ -7,9 +7,9 @@
 #include "hal/chip/stm32/registers/memory_map.hpp"
 #include "hal/contract/flash_pages.hpp"
 
-/// Two sectors of the chip's own flash as FlashPages. An erase stalls the processor: the watchdog
-/// gets its longest timeout, and received bytes may be lost. Programming 32-bit words needs 2.7 to
-/// 3.6 V. `Timer` is a TickTimer, `Dog` an IndependentWatchdog.
+/// Two sectors of the chip's own flash as FlashPages. An erase stalls the processor: received bytes
+/// may be lost. Programming 32-bit words needs 2.7 to 3.6 V. `Timer` is a TickTimer, `Dog` an
+/// IndependentWatchdog.
 namespace verp::hal::stm32 {
 
 template <Io Access, class Timer, class Dog>

@@ -8,8 +8,8 @@
 #include "hal/contract/tick_source.hpp"
 
 /// TIM2 or TIM5 counts microseconds: the board's clock and TickSource. The processor sleeps while
-/// it waits. A compare interrupt ends the wait on time; SysTick ends it after a millisecond at most
-/// if that interrupt fails.
+/// it waits; a compare interrupt ends the wait, or SysTick after a millisecond at most if that
+/// interrupt fails.
 ///
 /// wait() is late by the interrupt's latency, well under 10 us; without compare interrupts (QEMU)
 /// by up to a millisecond. The board's vectors call on_timer(); SysTick's handler may be empty.
