@@ -7,8 +7,7 @@
 
 namespace verp::cli {
 
-/// Commands in programs of their own, which `verp` starts: walking needs neither their code nor
-/// their libraries. Declares one of them with its description, in `verp` and in its own program.
+/// Declares a command of another program, with its description, in `verp` and in that program.
 CLI::App* declare_other(CLI::App& root, const std::string& word);
 
 /// For `verp`: the command starts its program.

@@ -3,7 +3,6 @@
 
 namespace verp::demos {
 
-/// Two robots bring a ball into a goal.
 Demo ball_demo();
 
 }  // namespace verp::demos

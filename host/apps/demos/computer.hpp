@@ -16,9 +16,8 @@
 
 namespace verp::demos {
 
-/// The computer on a robot's back that runs the brain. It connects the brain with the operator
-/// link, the laser, the camera and the radio. It receives only what they report, never the twin or
-/// its ground truth.
+/// The computer on a robot's back: it connects the brain with the operator link, laser, camera and
+/// radio, never with the twin's ground truth.
 class Computer {
  public:
   /// The caller keeps `entity` and `params` alive. A laser must be on the trunk.
@@ -39,7 +38,6 @@ class Computer {
   /// Runs the brain; `spy` sees its inputs first. The new orders stand until the next call.
   const brain::Orders& think(const std::function<void(const brain::Senses&)>& spy = {});
   const brain::Orders& orders() const { return orders_; }
-  /// The next order on the operator link.
   app::OperatorOrder order(std::uint32_t tick);
 
   /// As the robot estimates it.

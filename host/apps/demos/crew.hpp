@@ -13,7 +13,6 @@
 
 namespace verp::demos {
 
-/// One robot of a demo: its plan, its computer and its records.
 class Member {
  public:
   Member(const Demo& demo, const Options& options, int number, int robots);

@@ -3,7 +3,6 @@
 
 namespace verp::demos {
 
-/// One robot finds its way through unknown rooms.
 Demo goal_demo();
 
 }  // namespace verp::demos

@@ -115,7 +115,6 @@ constexpr double kAfterFall_s = 0.5;  // shows the outcome in a picture
 constexpr double kAfterDone_s = 1.5;
 constexpr std::uint32_t kWatchTicks = 5;
 
-/// A demo's world, robots, radio and referee.
 class Stage {
  public:
   Stage(const Demo& demo, const Options& options)

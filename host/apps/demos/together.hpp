@@ -3,9 +3,7 @@
 
 namespace verp::demos {
 
-/// One robot leads, the others follow.
 Demo follow_demo();
-/// A column, two abreast, walks and wheels.
 Demo column_demo();
 
 }  // namespace verp::demos

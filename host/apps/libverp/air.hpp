@@ -11,7 +11,6 @@ namespace verp::abi {
 
 struct Run;
 
-/// Radios of a session's robots, with queues of received messages.
 class Air {
  public:
   /// Throws Failure that names the invalid number.

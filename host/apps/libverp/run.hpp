@@ -16,7 +16,6 @@
 
 namespace verp::abi {
 
-/// Keeps each camera's last time and poses, and draws on request.
 class Sight {
  public:
   explicit Sight(const sim::WorldOptions& world);

@@ -6,7 +6,7 @@
 
 namespace verp::tool {
 
-/// Throws ToolError if the interface has another bit rate than the robot's bus.
+/// Throws ToolError for another bit rate than the robot's bus.
 void check_bit_rate(const std::string& command, const link::CanInterface& interface,
                     const Params& params);
 

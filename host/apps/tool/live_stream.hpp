@@ -39,7 +39,7 @@ class LiveStream final : public session::Observer {
   void begin(session::Session&) override { wait_for_viewer(); }
   void end(session::Session&) override { finish(); }
 
-  /// Listener for a robot's trace; null without --live. `name`: empty for a single robot.
+  /// Null without --live. `name`: empty for a single robot.
   record::mcap::Listener* robot(const std::string& name = {});
   live::Server* server();
   /// With --live-wait, waits for a viewer's subscription or an interrupt. Call it when all channels

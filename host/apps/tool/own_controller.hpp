@@ -24,8 +24,7 @@ std::function<session::Decide()> own_controller(const std::string& folder, bool 
 std::string build_firmware_of(const std::string& folder, const std::string& board,
                               const std::string& target, cli::Progress& progress);
 
-/// Builds each robot's own controller, for this PC or its emulated board, and puts it into the
-/// plan.
+/// Builds each robot's own controller and puts it into the plan.
 void take_controllers(const scenario::Scenario& scenario, std::vector<session::WalkPlan>& plans,
                       bool show);
 

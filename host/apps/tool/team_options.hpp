@@ -11,7 +11,6 @@ class App;
 
 namespace verp::tool {
 
-/// Several robots in one world: --robots, --robot NAME=..., and lost controllers.
 struct TeamOptions {
   int robots = 0;  ///< 0: only named ones
   /// NAME=MODEL, NAME=ext:LINK, NAME=on:BOARD, or with a model NAME=MODEL,ext:LINK.

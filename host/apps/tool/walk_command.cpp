@@ -29,7 +29,7 @@
 namespace verp::tool {
 namespace {
 
-/// --cameras: pictures in the first robot's trace. A separate program renders (host/show/camera).
+/// Pictures in the first robot's trace, by host/show/camera.
 class WalkCameras final : public session::Observer {
  public:
   /// Throws ToolError without a camera, a trace or a renderer.
@@ -123,7 +123,7 @@ cli::Json WalkCameras::json() const {
           {"processor_s", seen_->rig->processor_s()}};
 }
 
-/// Refuses options for controllers elsewhere if no robot has one: the user expects something else.
+/// Refuses options for controllers elsewhere if no robot has one.
 void require_outside(const WalkOptions& options, const std::vector<WalkPlan>& plans) {
   const bool outside = std::any_of(plans.begin(), plans.end(),
                                    [](const WalkPlan& plan) { return !plan.link.empty(); });

@@ -5,7 +5,6 @@
 #include "host/apps/cli/json.hpp"
 #include "host/run/session/estimate_meter.hpp"
 
-/// Errors of the controller's estimates.
 namespace verp::tool {
 
 /// Empty: nothing was compared.

@@ -15,8 +15,8 @@ namespace verp::tool {
 /// Checked before a long walk. Throws ToolError.
 void make_folder(const std::filesystem::path& folder);
 
-/// The trace and the report of a walk. A write error before the walk ends the program; a later one
-/// is reported and loses only that file.
+/// A write error before the walk ends the program; a later one is reported and loses only that
+/// file.
 class WalkFiles {
  public:
   /// Opens the trace. Throws ToolError or TraceError. `listener`: receives the records, also

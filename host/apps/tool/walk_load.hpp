@@ -5,7 +5,6 @@
 #include "host/apps/tool/walk_run.hpp"
 #include "host/study/report/run_data.hpp"
 
-/// Load on servos and supply.
 namespace verp::tool {
 
 /// The joint with the highest average load.

@@ -13,7 +13,7 @@ namespace verp::tool {
 struct WalkOptions;
 struct Walk;
 
-/// Options for many walks that make one map (host/study/survey): --map, --map-grid.
+/// --map and --map-grid (host/study/survey).
 struct MapOptions {
   std::string kind;           ///< push or stability; empty: one walk
   int grid = 0;               ///< 0: each map's default

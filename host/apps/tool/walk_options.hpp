@@ -70,7 +70,6 @@ std::vector<std::pair<std::string, std::string>> changed_options(const CLI::App&
 /// Names of the typed options that describe the run, also with their default value.
 std::vector<std::string> typed_options(const CLI::App& app);
 
-/// Declares the options for the robot and the length of its walk.
 void declare_gait(CLI::App& app, WalkOptions& options);
 
 void declare_tuning(CLI::App& app, WalkOptions& options);

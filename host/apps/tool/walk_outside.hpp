@@ -4,7 +4,6 @@
 #include "host/apps/cli/json.hpp"
 #include "host/run/session/plan.hpp"
 
-/// A robot with a controller elsewhere: only its motion is known.
 namespace verp::tool {
 
 /// The controller's place: this PC, a board or a link.

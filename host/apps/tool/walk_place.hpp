@@ -12,7 +12,6 @@ class App;
 
 namespace verp::tool {
 
-/// Options for the world and the robots' start poses: --world, --at-pose.
 struct PlaceOptions {
   std::string world;
   std::vector<std::string> poses;  ///< with several robots NAME=X,Y,YAW

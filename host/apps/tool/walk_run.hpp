@@ -5,7 +5,6 @@
 #include "host/run/session/plan.hpp"
 #include "host/run/session/session.hpp"
 
-/// Sessions that show their progress and that Ctrl-C ends.
 namespace verp::tool {
 
 using session::WalkPlan;

@@ -7,7 +7,6 @@
 #include "host/apps/tool/walk_options.hpp"
 #include "host/run/scenario/expand.hpp"
 
-/// Turns the command line into a Scenario; errors name the wrong option.
 namespace verp::tool {
 
 /// Throws ToolError.

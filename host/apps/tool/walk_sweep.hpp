@@ -16,8 +16,7 @@ struct Sweep {
   bool good() const { return failure.empty() && !interrupted; }
 };
 
-/// Walks each step length of --sweep-step with and without the multibody correction. Without it a
-/// walk may fall.
+/// Walks each step length with and without the multibody correction. Without it a walk may fall.
 Sweep sweep(const WalkPlan& plan, const WalkOptions& options, cli::Progress& progress);
 
 }  // namespace verp::tool

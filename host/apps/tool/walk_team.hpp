@@ -8,7 +8,6 @@
 #include "host/apps/tool/walk_scenario.hpp"
 #include "host/os/link/system_clock.hpp"
 
-/// The robots of one `verp walk`, their files and reports.
 namespace verp::tool {
 
 /// A trace for each local robot, the first at the given path and the others beside it; and the

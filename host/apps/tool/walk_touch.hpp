@@ -12,7 +12,6 @@ class App;
 
 namespace verp::tool {
 
-/// Options for the user's interventions in a walk: --push, --at, --list-quantities.
 struct TouchOptions {
   std::vector<std::string> pushes, settings;
   bool list = false;

@@ -14,7 +14,6 @@ inline constexpr const char* kLineWords[] = {
     "cubic",      "balance", "stance",  "over",   "body", "joint", "left_foot",
     "right_foot", "stiff",   "exit",    "repeat", "wait"};
 
-/// A line, word by word; errors name file and line.
 class Words {
  public:
   Words(const std::filesystem::path& file, int line, const std::string& text)

@@ -18,7 +18,6 @@ Edit set(const Document& document, const std::string& path, const std::string& v
 /// limbs, and angles in poses.
 Edit remove(const Document& document, int element);
 
-/// Renames the part and every mention of it.
 Edit rename(const Document& document, int element, const std::string& name);
 
 /// Inserts `block` as the last child of `parent`, or behind child `after`. `block` has two spaces a

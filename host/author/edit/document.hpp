@@ -26,7 +26,6 @@ struct Edit {
 
 // Errors are model::LoadError: one line with the remedy.
 
-/// Text, elements, and the content read from the disk.
 class Document {
  public:
   /// Throws model::LoadError for an unreadable or malformed file. An empty file becomes an empty

@@ -5,8 +5,7 @@
 
 namespace verp::model {
 
-/// `verp check` of a robot: limbs, links, masses, limits, servos, leg solver, bus load; as text or
-/// one JSON object.
+/// As text or one JSON object.
 std::string describe(const Entity& entity);
 std::string describe_json(const Entity& entity);
 

@@ -24,8 +24,7 @@ void join_followers(const Facts& facts, Entity& entity);
 /// Else throws LoadError.
 void check_coupled_legs(const Facts& facts, const Entity& entity);
 
-/// Sets followers' standing and sitting angles from their drivers. Throws LoadError on a
-/// contradiction.
+/// Throws LoadError on a contradiction.
 void pose_followers(const Facts& facts, Entity& entity);
 
 /// One line per coupling: "r_hip_yaw follows l_hip_yaw: -1 times its angle".

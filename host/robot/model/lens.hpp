@@ -13,7 +13,7 @@ Eigen::Vector2d pixel_of(const CameraSensor& camera, const Eigen::Vector2d& dire
 std::optional<Eigen::Vector2d> direction_of(const CameraSensor& camera,
                                             const Eigen::Vector2d& pixel);
 
-/// True for a plain pinhole: square pixels, centred, no distortion.
+/// Square pixels, centred, no distortion.
 bool is_plain(const CameraSensor& camera);
 
 /// From the link frame to lens axes: x right, y down, z ahead.

@@ -19,7 +19,6 @@ Color to_color(const ignition::math::Color& c) {
           static_cast<double>(c.A())};
 }
 
-/// Reads libsdformat's classes, or the XML where it lacks one.
 class WorldLoader {
  public:
   explicit WorldLoader(const std::string& path) : xml_(path) { out_.file = path; }

@@ -266,7 +266,7 @@ class Settler {
                         kHipShare * leg_m_));
   }
 
-  /// Checks the file's pose: soles level, and both on one floor.
+  /// Soles level, and both on one floor.
   void check_pose() const {
     const PoseFact* const fact = poses_leg("stand");
     if (!fact) return;

@@ -21,8 +21,9 @@ struct Reach {
 };
 Reach within_reach(const Command& velocity, double walk_s, const GaitTuning& gait);
 
-/// Why an upright walk failed: it made less than half of the ordered way or turn, or, in a walk
-/// hardly longer than its first and last steps, of what is within reach. Empty: it passed.
+/// Why an upright walk failed: it made less than half of the ordered way or turn in the time, less
+/// its first and last steps (two seconds at least); without time left, of what is within reach.
+/// Empty: it passed.
 std::string shortfall(const Command& velocity, const sim::WalkMetrics& walked,
                       const GaitTuning& gait = {});
 /// A remark on a passed walk that was too short for the gait to reach the velocity. Empty: at least

@@ -6,7 +6,6 @@
 #include "host/show/scene/snapshot.hpp"
 #include "host/twin/sim/truth.hpp"
 
-/// Values of the robot's sensors, where the truth is unknown.
 namespace verp::scene {
 
 std::string text_of(const char (&name)[kNameLength]);

@@ -4,7 +4,6 @@
 
 #include "host/robot/model/entity.hpp"
 
-/// A replay for any browser, without a server.
 namespace verp::web {
 
 struct Replay {

@@ -6,7 +6,7 @@
 #include "host/study/compare/motion.hpp"
 #include "host/trace/record/trace.hpp"
 
-/// Compares two runs of one command, joint by joint; A is the reference.
+/// A is the reference.
 namespace verp::compare {
 
 struct Options {

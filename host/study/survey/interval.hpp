@@ -3,7 +3,6 @@
 
 namespace verp::survey {
 
-/// A 95 % confidence interval.
 struct Interval {
   double low = 0, high = 1;
 };

@@ -157,7 +157,6 @@ class Player final : public Brain {
     if (seen) ball_ = {out_of(about_.placed, *seen), picture.time_s};
   }
 
-  /// The robot's own sighting; without one, the other robot's.
   std::optional<Point> known_ball(double now_s) const {
     if (now_s - ball_.seen_s < kOld_s) return ball_.at_m;
     if (now_s - mate_.heard_s < kOld_s && now_s - mate_.ball.seen_s < kOld_s)
@@ -178,7 +177,7 @@ class Player final : public Brain {
            kOfTurn_m_rad * std::abs(wrapped(direction_rad(to_goal(ball)) - me_.yaw_rad));
   }
 
-  /// The robot with the shorter way attacks. The attacker keeps attacking unless it is much worse.
+  /// The attacker keeps attacking unless it is much worse.
   void decide(double now_s, bool knows) {
     constexpr double kKeep_m = 0.4;
     const bool alone = now_s - mate_.heard_s > 2 * kOld_s;

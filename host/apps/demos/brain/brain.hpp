@@ -54,7 +54,6 @@ struct ToSay {
   int to = -1;  ///< a robot's number; -1: all robots
 };
 
-/// A brain's outputs: operator orders and radio messages.
 struct Orders {
   bool walk = false;  ///< false: stand
   double vx_m_s = 0, vy_m_s = 0, wz_rad_s = 0;
@@ -63,7 +62,6 @@ struct Orders {
   bool done = false;  ///< this robot believes that its part is over
 };
 
-/// A robot's knowledge of itself at the start.
 struct About {
   int number = 0, robots = 1;  ///< own number, from 0; number of robots
   Pose placed;                 ///< start pose, as exactly as it was measured

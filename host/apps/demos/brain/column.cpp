@@ -17,7 +17,6 @@ constexpr double kOnItsWay_s = 0.01;  // approximate age of a message on arrival
 constexpr double kGetReady_s = 12;
 constexpr double kUnit = 1e-3;
 
-/// The guide's report: its progress, pose and speed.
 struct Told {
   double way_m = 0, speed_m_s = 0;
   Pose at;
@@ -96,7 +95,6 @@ class Guide final : public Brain {
   double next_s_ = 0;
 };
 
-/// Another robot's report of itself.
 struct Other {
   Pose at;
   double speed_m_s = 0, within_m = 0, heard_s = -1e9;

@@ -13,7 +13,6 @@ constexpr double kSay_s = 0.25;     // interval between reports
 constexpr double kPatience_s = 12;  // wait for the others to get ready
 constexpr double kSpeedStep_m_s = 1e-3;
 
-/// A robot's report of itself.
 struct Pace {
   double speed_m_s = 0;
   bool ready = false, over = false;

@@ -19,7 +19,6 @@ struct RecordWords {
 /// `verp action convert`: file names decide the formats. These return a one-line summary.
 std::string convert_actions(const ActionWords& words, const ConvertWords& convert);
 
-/// `verp action record`.
 std::string record_action(const RecordWords& words);
 
 /// `verp action export`: an image of all actions for a board's flash.

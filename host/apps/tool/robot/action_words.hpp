@@ -5,7 +5,6 @@
 #include "host/author/action/compile.hpp"
 #include "host/robot/model/entity.hpp"
 
-/// Options common to all subcommands of `verp action`, and the robot that they name.
 namespace verp::tool {
 
 struct ActionWords {

@@ -23,7 +23,7 @@ struct NodeObject {
   bus::NamedRegister as_register() const;
 };
 
-/// The objects that the EDS data names for this node; empty if it does not know the node.
+/// Empty if the EDS data does not know the node.
 std::vector<NodeObject> objects_of(const can::NodeIdentity& identity);
 
 /// The unit of a controller register or a CiA 402 object; else empty.

@@ -14,8 +14,6 @@ bus::LinkFit check_latency(link::CanPort& port, const RunPlan& plan);
 
 void check_imu(link::CanPort& port, const RunPlan& plan);
 
-/// The controller is also a node (firmware/app/operator_node.hpp): it reports each tick if the bus
-/// has room, and others can read its registers.
 RunResult drive(link::CanPort& port, const RunPlan& plan, const bus::LinkFit& fit,
                 record::TraceWriter* trace, cli::Progress& progress);
 

@@ -14,8 +14,8 @@
 
 namespace verp::tool {
 
-/// The operator of `verp run`: orders stand, walk (or act) and stop, then always sit down and
-/// torque off. Waits while the robot holds. Does not raise a robot that released torque by itself.
+/// Orders stand, walk (or act) and stop, then always sit down and torque off. Waits while the robot
+/// holds. Does not raise a robot that released torque by itself.
 class RunOperator {
  public:
   /// The robot's mode has changed. `story`: a fall in words, or empty. `silent`: the device that

@@ -14,8 +14,8 @@ struct SetupChoice {
   bool dry_run = false;  ///< write nothing
 };
 
-/// Guides the user through a robot's servos, joint by joint. It finds and configures the servo;
-/// then the user moves it by hand, torque off, to set zero and direction.
+/// Joint by joint it finds and configures the servo; then the user moves it by hand, torque off, to
+/// set zero and direction.
 class SetupGuide {
  public:
   SetupGuide(const Params& params, const link::Endpoint& endpoint, const SetupChoice& choice,

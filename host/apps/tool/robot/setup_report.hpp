@@ -6,8 +6,7 @@
 
 namespace verp::tool {
 
-/// Record of `verp bus setup`, joint by joint. Saved after each joint, so that the next run
-/// continues there.
+/// Saved after each joint, so that the next run continues there.
 class SetupReport {
  public:
   /// Reads `file` if it exists. `writes`: save changes. Throws ToolError for an invalid report,

@@ -30,8 +30,7 @@ struct RunSetup {
   const session::WalkPlan& plan() const { return run.plans.front(); }
 };
 
-/// A session in its own thread for a window. User actions reach it between two ticks: the window's
-/// speed changes no bit of the run.
+/// A session in its own thread for a window.
 class LiveRun {
  public:
   /// Starts paused.
