@@ -77,6 +77,13 @@ check 'with nobody to ask, it names what is missing and stops' 3 '' 'missing: g+
 check 'it says how big it is' 3 '' 'Need to get 5 MB'
 grep -q '^.* install -y' "$scratch/apt" && echo 'FAILED: installed without leave' && failed=1
 
+launch doctor
+check 'doctor names what a build lacks, and installs nothing' 1 "bad     packages run     missing for every command: g++
+        fix: sudo apt-get install --no-install-recommends g++" ''
+launch doctor --json
+[[ $status == 1 && $(python3 -m json.tool <<<"$output") == *'"good": false'* ]] || { echo "FAILED: doctor --json: $output" && failed=1; }
+grep -q '^.* install -y' "$scratch/apt" && echo 'FAILED: doctor installed' && failed=1
+
 launch walk --yes --for '2 0' --json
 check '--yes installs, builds, passes the other arguments on, keeps stdout pure' 7 'walk --for 2 0 --json' 'installing'
 launch walk

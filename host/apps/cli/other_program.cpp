@@ -57,6 +57,7 @@ constexpr Command kCommands[] = {
     {"bench", kStudy,
      "What a tick costs, here and on emulated microcontrollers, beside what is promised"},
     {"bus", kRobot, "Dynamixel devices and CANopen nodes: find them, read, write, measure"},
+    {"doctor", kRobot, "What this machine lacks for VERP, and how to mend it; changes nothing"},
     {"flash", kRobot, "Write firmware or a robot into a board, or start an emulated board"},
     {"deploy", kRobot,
      "From a model to a robot: build, walk in the twin, replay on an emulated core, flash"},

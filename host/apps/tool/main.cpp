@@ -30,6 +30,7 @@ std::vector<cli::Subcommand> all_commands(CLI::App& root) {
           add_other(root, "trace"),
           add_other(root, "bench"),
           add_other(root, "bus"),
+          add_other(root, "doctor"),
           add_other(root, "flash"),
           add_other(root, "deploy"),
           add_other(root, "debug"),

@@ -57,6 +57,14 @@ void read_can_data(const rtattr& data, CanInterface& interface) {
     if (one.rta_type == IFLA_CAN_RESTART_MS) interface.restart_ms = Attributes::number(one);
     // can_bittiming begins with the bit rate.
     if (one.rta_type == IFLA_CAN_BITTIMING) interface.bitrate = Attributes::number(one);
+    if (one.rta_type == IFLA_CAN_STATE) {
+      interface.bus_off = Attributes::number(one) == CAN_STATE_BUS_OFF;
+    }
+    if (one.rta_type == IFLA_CAN_BERR_COUNTER) {
+      const std::uint32_t both = Attributes::number(one);  // can_berr_counter: two u16
+      interface.send_errors = both & 0xFFFF;
+      interface.receive_errors = both >> 16;
+    }
   });
 }
 
@@ -145,13 +153,22 @@ CanInterface find_can_interface(const std::string& name) {
       throw LinkError(Kind::kUnsuitable, head + "is no CAN interface; " + can_interfaces_here());
     }
     if (each.up) return each;
-    throw LinkError(Kind::kUnsuitable,
-                    head + "the interface is down; sudo ip link set " + name + " up" +
-                        (each.is_virtual || each.bitrate != 0
-                             ? ""
-                             : " type can bitrate 1000000 restart-ms 100 (the rate of your bus)"));
+    throw LinkError(Kind::kUnsuitable, head + down_trouble(each));
   }
   throw LinkError(Kind::kNoDevice, head + "no such interface; " + how_to_make(name));
+}
+
+std::string down_trouble(const CanInterface& interface) {
+  const std::string set = "sudo ip link set " + interface.name;
+  if (!interface.up) {
+    const bool known = interface.is_virtual || interface.bitrate != 0;
+    return "the interface is down; " + set + " up" +
+           (known ? "" : " type can bitrate 1000000 restart-ms 100 (the rate of your bus)");
+  }
+  if (!interface.bus_off) return "";
+  return "the interface is off the bus after too many errors; check that CAN-H and CAN-L are not "
+         "swapped or shorted, two ends have 120 ohm, and all nodes have one bit rate, then: " +
+         set + " down && " + set + " up";
 }
 
 std::string advice(const CanInterface& interface) {

@@ -16,6 +16,8 @@ struct CanInterface {
   bool fd = false;
   std::uint32_t bitrate = 0;     ///< bit/s; 0: unknown or none
   std::uint32_t restart_ms = 0;  ///< delay after a bus-off; 0: no restart
+  bool bus_off = false;
+  std::uint32_t send_errors = 0, receive_errors = 0;  ///< of the controller; 0 to 256
 };
 
 /// This PC's interfaces, CAN or not. Throws LinkError if the kernel does not answer.
@@ -23,6 +25,9 @@ std::vector<CanInterface> network_interfaces();
 
 /// The interface, ready to be opened. Throws LinkError with the remedy if missing, down or not CAN.
 CanInterface find_can_interface(const std::string& name);
+
+/// Why the interface is off the bus, with the remedy; empty: it is on it.
+std::string down_trouble(const CanInterface& interface);
 
 /// Advice for a usable interface; may be empty.
 std::string advice(const CanInterface& interface);

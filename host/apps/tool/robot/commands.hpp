@@ -14,5 +14,6 @@ cli::Subcommand add_bus(CLI::App& root);
 cli::Subcommand add_flash(CLI::App& root);
 cli::Subcommand add_deploy(CLI::App& root);
 cli::Subcommand add_debug(CLI::App& root);
+cli::Subcommand add_doctor(CLI::App& root);
 
 }  // namespace verp::tool
