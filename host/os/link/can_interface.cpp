@@ -146,8 +146,12 @@ std::vector<CanInterface> network_interfaces() {
 }
 
 CanInterface find_can_interface(const std::string& name) {
+  return find_can_interface(name, network_interfaces());
+}
+
+CanInterface find_can_interface(const std::string& name, const std::vector<CanInterface>& all) {
   const std::string head = "can:" + name + ": ";
-  for (const CanInterface& each : network_interfaces()) {
+  for (const CanInterface& each : all) {
     if (each.name != name) continue;
     if (!each.is_can) {
       throw LinkError(Kind::kUnsuitable, head + "is no CAN interface; " + can_interfaces_here());

@@ -25,6 +25,7 @@ std::vector<CanInterface> network_interfaces();
 
 /// The interface, ready to be opened. Throws LinkError with the remedy if missing, down or not CAN.
 CanInterface find_can_interface(const std::string& name);
+CanInterface find_can_interface(const std::string& name, const std::vector<CanInterface>& all);
 
 /// Why the interface is off the bus, with the remedy; empty: it is on it.
 std::string down_trouble(const CanInterface& interface);

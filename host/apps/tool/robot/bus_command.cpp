@@ -107,6 +107,7 @@ cli::Subcommand add_bus(CLI::App& root) {
   measure->add_option("--size", options->size, "bytes of it")
       ->check(CLI::Range(1, 400))
       ->capture_default_str();
+  const cli::Subcommand doctor = add_bus_doctor(*app);
   const cli::Subcommand setup = add_bus_setup(*app);
   const cli::Subcommand checklist = add_bus_checklist(*app);
   const cli::Subcommand load = add_bus_load(*app);
@@ -135,7 +136,7 @@ cli::Subcommand add_bus(CLI::App& root) {
             if (show->parsed()) return can ? read_can(*options) : read_serial(*options);
             if (put->parsed()) return can ? write_can(*options) : write_serial(*options);
             if (measure->parsed()) return can ? bench_can(*options) : bench_serial(*options);
-            for (const cli::Subcommand& each : {setup, checklist, load, laser, camera}) {
+            for (const cli::Subcommand& each : {doctor, setup, checklist, load, laser, camera}) {
               if (each.app->parsed()) return each.run();
             }
             if (list->parsed()) cli::answer(bus::controller_document());

@@ -23,7 +23,8 @@ void check_can(const Machine& machine, Findings& found);
 
 Findings examine(const Machine& machine, const std::string& packages);
 
-/// Permission, holders and latency of one device; finds nothing if all is good.
-void check_device(const Machine& machine, const std::string& device, Findings& found);
+/// Permission, holders and latency of one device; finds nothing if all is good. False: it cannot be
+/// opened, or is another program's.
+bool check_device(const Machine& machine, const std::string& device, Findings& found);
 
 }  // namespace verp::tool

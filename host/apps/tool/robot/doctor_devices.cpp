@@ -44,15 +44,6 @@ const UsbDevice* known(const std::string& vendor, const std::string& product) {
   return found == std::end(kUsbDevices) ? nullptr : found;
 }
 
-std::string join_group(const Machine& machine, const std::string& path) {
-  const std::string group = machine.group_of(path);
-  if (machine.is_member(group)) {
-    return fmt::format("you are in group {} since your last login: log in again, or: newgrp {}",
-                       group, group);
-  }
-  return fmt::format("sudo usermod -aG {} {}, then log in again", group, machine.user());
-}
-
 /// Has the driver taken it? `folder`: in /sys.
 bool has_driver(const Machine& machine, const std::string& folder, Part part) {
   const std::string name = folder.substr(folder.rfind('/') + 1);
@@ -107,30 +98,30 @@ void check_board(const Machine& machine, const std::string& folder, const UsbDev
 void check_interface(const link::CanInterface& each, Findings& found) {
   const std::string down = link::down_trouble(each), advice = link::advice(each);
   if (!down.empty()) return found.bad(each.name, down);
-  if (!advice.empty()) {
-    const std::size_t end = advice.find("; ");
-    return found.advise(each.name, advice.substr(0, end), advice.substr(end + 2));
-  }
+  if (!advice.empty()) return found.advise(each.name, advice);
   found.good(each.name, each.bitrate == 0 ? "up" : fmt::format("up, {} bit/s", each.bitrate));
 }
 
 }  // namespace
 
-void check_device(const Machine& machine, const std::string& device, Findings& found) {
+bool check_device(const Machine& machine, const std::string& device, Findings& found) {
   if (!machine.may_use(device)) {
-    return found.bad(device, "no permission", join_group(machine, device));
+    found.bad(device, "no permission", machine.how_to_join(device));
+    return false;
   }
-  for (const RunningProgram& each : machine.holders(device)) {
+  const auto holders = machine.holders(device);
+  for (const RunningProgram& each : holders) {
     found.bad(device, fmt::format("{} (process {}) has it open", each.name, each.id),
               each.name == "ModemManager" ? "sudo systemctl disable --now ModemManager"
                                           : fmt::format("kill -INT {}", each.id));
   }
   const std::string slow =
       link::latency_advice(machine.at(device).string(), machine.at("/sys").string());
-  if (slow.empty()) return;
-  const std::size_t begin = slow.find(" keeps ") + 1, end = slow.find("; "),
-                    fix = slow.find("echo ");
-  found.bad(device, slow.substr(begin, end - begin), slow.substr(fix));
+  if (!slow.empty()) {
+    const std::size_t begin = slow.find(" keeps ") + 1, end = slow.find("; ");
+    found.bad(device, slow.substr(begin, end - begin), slow.substr(slow.find("echo ")));
+  }
+  return holders.empty();
 }
 
 void check_serial_ports(const Machine& machine, Findings& found) {
@@ -164,7 +155,7 @@ void check_i2c(const Machine& machine, Findings& found) {
   for (const std::string& each : devices) {
     if (machine.may_use(each)) continue;
     return found.advise("I2C", "no permission for " + each + "; only an IMU at this PC needs it",
-                        join_group(machine, each));
+                        machine.how_to_join(each));
   }
   if (devices.empty() && buses) {
     return found.advise("I2C", "its buses are not in /dev; only an IMU at this PC needs one",

@@ -15,18 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kGroupFields = 4;  // name, password, number, members
-
-Machine::Environment own_environment() {
-  Machine::Environment all;
-  for (char** each = environ; each != nullptr && *each != nullptr; ++each) {
-    const std::string line = *each;
-    const std::size_t sign = line.find('=');
-    if (sign != line.npos) all[line.substr(0, sign)] = line.substr(sign + 1);
-  }
-  return all;
-}
-
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
   std::istringstream stream(text);
@@ -50,15 +38,21 @@ int number_in(const fs::path& path) {
 
 }  // namespace
 
-Machine::Machine() : Machine("", own_environment()) {
+Machine::Machine() : Machine("", {}) {
   std::error_code error;
   current_folder = fs::current_path(error).string();
+  variable = [](const std::string& name) {
+    const char* value = std::getenv(name.c_str());
+    return std::string(value == nullptr ? "" : value);
+  };
 }
 
-Machine::Machine(fs::path root, Environment environment)
-    : free_bytes([this](const std::string& folder) { return free_bytes_in(at(folder)); }),
-      root_(std::move(root)),
-      environment_(std::move(environment)) {}
+Machine::Machine(fs::path root, const Environment& environment)
+    : variable([environment](const std::string& name) {
+        return environment.contains(name) ? environment.at(name) : "";
+      }),
+      free_bytes([this](const std::string& folder) { return free_bytes_in(at(folder)); }),
+      root_(std::move(root)) {}
 
 bool Machine::exists(const std::string& path) const {
   std::error_code error;
@@ -88,11 +82,6 @@ std::vector<std::string> Machine::list(const std::string& folder, const std::str
   return found;
 }
 
-std::string Machine::variable(const std::string& name) const {
-  const auto found = environment_.find(name);
-  return found == environment_.end() ? "" : found->second;
-}
-
 std::vector<long> Machine::own_numbers(const std::string& label) const {
   std::vector<long> numbers;
   for (const std::string& line : split(read("/proc/self/status"), '\n')) {
@@ -103,13 +92,30 @@ std::vector<long> Machine::own_numbers(const std::string& label) const {
   return numbers;
 }
 
+std::vector<std::string> Machine::fields_of(const std::string& path, long id) const {
+  for (const std::string& line : split(read(path), '\n')) {
+    auto fields = split(line, ':');
+    if (fields.size() > 2 && fields[2] == std::to_string(id)) return fields;
+  }
+  return {};
+}
+
 std::string Machine::user() const {
   const auto ids = own_numbers("Uid:");
-  for (const std::string& line : split(read("/etc/passwd"), '\n')) {
-    const auto fields = split(line, ':');
-    if (fields.size() > 2 && !ids.empty() && fields[2] == std::to_string(ids[0])) return fields[0];
+  const auto fields = fields_of("/etc/passwd", ids.empty() ? -1 : ids[0]);
+  return fields.empty() ? "$USER" : fields[0];
+}
+
+std::string Machine::how_to_join(const std::string& path) const {
+  struct stat status {};
+  ::stat(at(path).c_str(), &status);
+  const auto fields = fields_of("/etc/group", status.st_gid);
+  const std::string group = fields.empty() ? std::to_string(status.st_gid) : fields[0];
+  const auto members = split(fields.size() > 3 ? fields[3] : "", ',');
+  if (std::find(members.begin(), members.end(), user()) == members.end()) {
+    return "sudo usermod -aG " + group + " " + user() + ", then log in again";
   }
-  return "$USER";
+  return "you are in group " + group + " since your last login: log in again, or: newgrp " + group;
 }
 
 bool Machine::may_use(const std::string& path) const {
@@ -125,26 +131,6 @@ bool Machine::may_use(const std::string& path) const {
                                               : S_IROTH | S_IWOTH;
   if (user == 0 || (status.st_mode & both) == both) return true;
   return root_.empty() && ::access(path.c_str(), R_OK | W_OK) == 0;  // an access list may allow it
-}
-
-std::string Machine::group_of(const std::string& path) const {
-  struct stat status {};
-  if (::stat(at(path).c_str(), &status) != 0) return "";
-  for (const std::string& line : split(read("/etc/group"), '\n')) {
-    const auto fields = split(line, ':');
-    if (fields.size() > 2 && fields[2] == std::to_string(status.st_gid)) return fields[0];
-  }
-  return std::to_string(status.st_gid);
-}
-
-bool Machine::is_member(const std::string& group) const {
-  for (const std::string& line : split(read("/etc/group"), '\n')) {
-    const auto fields = split(line, ':');
-    if (fields.size() < kGroupFields || fields[0] != group) continue;
-    const auto members = split(fields[3], ',');
-    return std::find(members.begin(), members.end(), user()) != members.end();
-  }
-  return false;
 }
 
 RunningProgram Machine::program(int id) const {

@@ -25,7 +25,7 @@ class Machine {
 
   /// This PC.
   Machine();
-  Machine(std::filesystem::path root, Environment environment);
+  Machine(std::filesystem::path root, const Environment& environment);
   Machine(const Machine&) = delete;
   Machine& operator=(const Machine&) = delete;
 
@@ -37,14 +37,12 @@ class Machine {
   /// Paths in `folder` whose names begin so, sorted.
   std::vector<std::string> list(const std::string& folder, const std::string& begin = "") const;
 
-  std::string variable(const std::string& name) const;
   /// "$USER" if the system does not know it.
   std::string user() const;
   /// May this program read and write there?
   bool may_use(const std::string& path) const;
-  std::string group_of(const std::string& path) const;
-  /// True if the user is listed in the group, also since the last login.
-  bool is_member(const std::string& group) const;
+  /// How the user may get the rights of the file's group.
+  std::string how_to_join(const std::string& path) const;
 
   /// Without this one.
   std::vector<RunningProgram> programs() const;
@@ -52,6 +50,8 @@ class Machine {
   std::vector<RunningProgram> holders(const std::string& device) const;
 
   std::string current_folder;
+  /// Of the environment; empty: not set.
+  std::function<std::string(const std::string& name)> variable;
   std::function<std::vector<link::CanInterface>()> interfaces = link::network_interfaces;
   std::function<std::optional<std::uint64_t>(const std::string& folder)> free_bytes;
 
@@ -59,9 +59,10 @@ class Machine {
   /// Numbers after "Uid:" and the like.
   std::vector<long> own_numbers(const std::string& label) const;
   RunningProgram program(int id) const;
+  /// The line of a file like /etc/passwd whose third field is `id`.
+  std::vector<std::string> fields_of(const std::string& path, long id) const;
 
   std::filesystem::path root_;  ///< empty: this PC's
-  Environment environment_;
 };
 
 }  // namespace verp::tool

@@ -6,10 +6,9 @@
 
 namespace verp::tool {
 
-void Findings::bad(const std::string& check, const std::string& line) {
-  const std::size_t end = line.find("; ");
-  if (end == line.npos) return bad(check, line, "see `verp bus scan`");
-  bad(check, line.substr(0, end), line.substr(end + 2));
+void Findings::split(const char* state, const std::string& check, const std::string& line) {
+  const std::size_t end = std::min(line.find("; "), line.size());
+  add(state, check, line.substr(0, end), end == line.size() ? "" : line.substr(end + 2));
 }
 
 bool Findings::any_bad() const {

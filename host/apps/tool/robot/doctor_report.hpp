@@ -18,8 +18,9 @@ class Findings {
   void bad(const std::string& check, const std::string& text, const std::string& fix) {
     add("bad", check, text, fix);
   }
-  /// An error line "what; fix".
-  void bad(const std::string& check, const std::string& line);
+  /// From one line, "what; fix".
+  void advise(const std::string& check, const std::string& line) { split("advice", check, line); }
+  void bad(const std::string& check, const std::string& line) { split("bad", check, line); }
 
   std::size_t size() const { return all_.size(); }
   bool any_bad() const;
@@ -34,6 +35,7 @@ class Findings {
            const std::string& fix) {
     all_.push_back({state, check, text, fix});
   }
+  void split(const char* state, const std::string& check, const std::string& line);
   std::vector<Finding> all_;
 };
 

@@ -1,0 +1,312 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "common/protocol/servo_models.hpp"
+#include "host/apps/cli/console.hpp"
+#include "host/apps/tool/robot/doctor_bus.hpp"
+#include "host/apps/tool/robot/doctor_checks.hpp"
+#include "host/apps/tool/robot/doctor_line.hpp"
+#include "host/twin/bus/link_fit.hpp"
+#include "host/twin/bus/register_names.hpp"
+#include "host/twin/bus/servo_setup.hpp"
+
+namespace verp::tool {
+namespace {
+
+namespace at = dxl::address;
+
+constexpr std::uint32_t kQuiet_us = 60'000;      // three periods of the slowest master
+constexpr std::uint32_t kSomebody_us = 500'000;  // until the other end of a link appears
+constexpr int kPositionReads = 10;
+constexpr std::uint32_t kOldRates[] = {1'000'000, 57'600, 115'200};
+
+/// What the servos told, by kind of trouble.
+struct Ward {
+  std::set<int> present, damaged, slow, quiet;
+  int lowest_id = 0;
+  double lowest_v = 0, wanted_v = 0;
+};
+
+class SerialDoctor {
+ public:
+  SerialDoctor(const BusCase& bus, Findings& found) : bus_(bus), found_(found) {}
+
+  void examine();
+
+ private:
+  void examine_servos(link::Link& link, std::set<int> ids);
+  /// False: answers come damaged.
+  bool examine_servo(link::Link& link, bus::Client& client, const bus::Identity& servo);
+  void read_registers(bus::Client& client, const bus::Identity& servo,
+                      const dxl::ServoModel& model);
+  void judge_model(const bus::Identity& servo);
+  void judge_ward();
+  void judge_damaged();
+  void judge_link(bus::Client& client);
+  void judge_other_rates(std::set<int>& present);
+  void judge_silence();
+  bool answers_old() const;
+  std::string list(const std::set<int>& ids) const {
+    return fmt::format("{}", fmt::join(ids, " "));
+  }
+  /// Sets one register of all `ids` right.
+  std::string mend(const std::set<int>& ids, const char* name, int value) const;
+
+  const BusCase& bus_;
+  Findings& found_;
+  LineAnswer heard_;
+  Ward ward_;
+};
+
+void SerialDoctor::examine() {
+  bool silent = false;
+  {
+    link::Link link(bus_.endpoint);
+    if (!link.wait_connected(kSomebody_us)) {
+      return found_.bad("link", "nobody is at the other end", "start it, or check the cable");
+    }
+    const LineAnswer before = listen(link, kQuiet_us);
+    if (before.master || !before.ids.empty()) {
+      return found_.bad("bus", "another master talks on this bus; nothing was sent",
+                        "end it: `verp run`, a controller on the robot, or Dynamixel Wizard");
+    }
+    if (before.bytes > 0) {
+      found_.bad("noise", fmt::format("{} bytes came before anything was asked", before.bytes),
+                 "swap A and B (D+ and D-), and join the grounds of adapter and servos");
+    }
+    heard_ = ping_all(link);
+    if (heard_.echo) {
+      found_.bad("echo", "the adapter returns the bytes that it sends",
+                 "switch its receiver off while it sends (its jumper or switch), or use a U2D2");
+    }
+    silent = heard_.ids.empty() && heard_.damaged == 0;
+    if (!silent) examine_servos(link, heard_.ids);
+  }
+  std::set<int> present = ward_.present;
+  if (present.empty()) return judge_silence();
+  if (!bus_.robot) return;
+  const std::set<int> wanted = devices_of(bus_);
+  if (!std::includes(present.begin(), present.end(), wanted.begin(), wanted.end())) {
+    judge_other_rates(present);
+    judge_missing(bus_, present, found_);
+  }
+  judge_strangers(bus_, present, found_);
+}
+
+void SerialDoctor::examine_servos(link::Link& link, std::set<int> ids) {
+  bus::Client client(link, bus_.endpoint, bus_.timeout_us);
+  ids.merge(devices_of(bus_));
+  for (const int id : ids) {
+    const auto servo = client.ping(static_cast<std::uint8_t>(id), 2);
+    const bool clear = servo ? examine_servo(link, client, *servo)
+                             : ping_one(link, id, bus_.timeout_us).bytes == 0;
+    if (servo || !clear) ward_.present.insert(id);
+    if (!clear) ward_.damaged.insert(id);
+  }
+  judge_ward();
+  if (!found_.any_bad()) judge_link(client);
+}
+
+bool SerialDoctor::examine_servo(link::Link& link, bus::Client& client,
+                                 const bus::Identity& servo) {
+  judge_model(servo);
+  const dxl::ServoModel* model = dxl::find_servo_model(servo.model);
+  if (model == nullptr) return true;  // a sensor or the controller
+  const std::uint32_t before = client.crc_errors();
+  int good = 0, asked = 0;
+  while (asked < kPositionReads && (asked < 2 || good > 0)) {
+    ++asked;
+    if (client.read_once(servo.id, at::kPresentPosition, 4)) ++good;
+  }
+  if (client.crc_errors() != before) return false;
+  if (good == 0 && read_one(link, servo.id, bus_.timeout_us).bytes > 0) return false;
+  if (good == 0) ward_.quiet.insert(servo.id);  // it answers pings only
+  try {
+    if (good > 0) read_registers(client, servo, *model);
+  } catch (const bus::DeviceError& error) {
+    found_.bad(fmt::format("id {}", servo.id), error.what(), "check its cable and its plug");
+  }
+  return true;
+}
+
+void SerialDoctor::read_registers(bus::Client& client, const bus::Identity& servo,
+                                  const dxl::ServoModel& model) {
+  const auto byte = [&](std::uint16_t address) { return client.read(servo.id, address, 1)[0]; };
+  if (byte(at::kReturnDelay) != 0) ward_.slow.insert(servo.id);
+  if (byte(at::kStatusReturnLevel) != 2) ward_.quiet.insert(servo.id);
+  if (const unsigned errors = byte(at::kHardwareError); errors != 0) {
+    found_.bad(fmt::format("id {}", servo.id),
+               fmt::format("{} has a hardware error: {}", bus_.name_of(servo.id),
+                           bus::hardware_errors(errors)),
+               "cure it, then switch the servo off and on, which clears it");
+  }
+  const double supply_v = 0.1 * dxl::get_u16(client.read(servo.id, at::kPresentVoltage, 2).data());
+  const double wanted_v = bus_.params
+                              ? static_cast<double>(bus_.params->tuning.safety.voltage_low_v)
+                              : 0.1 * model.low_dv;
+  if (supply_v >= wanted_v || (ward_.lowest_id != 0 && supply_v >= ward_.lowest_v)) return;
+  ward_.lowest_id = servo.id;
+  ward_.lowest_v = supply_v;
+  ward_.wanted_v = wanted_v;
+}
+
+void SerialDoctor::judge_model(const bus::Identity& servo) {
+  if (!bus_.params) return;
+  for (int j = 0; j < bus_.params->servo_count(); ++j) {
+    const JointParams& joint = bus_.params->joint[j];
+    const std::uint16_t wanted = bus_.params->servo[joint.servo_profile].model_number;
+    if (joint.servo_id != servo.id || wanted == servo.model) continue;
+    found_.bad(fmt::format("id {}", servo.id),
+               fmt::format("{} is a {}, the robot's file says {}", bus_.name_of(servo.id),
+                           bus::model_name(servo.model), bus::model_name(wanted)),
+               "take the right servo, or correct type=\"...\" of its <verp:servo>: verp check " +
+                   bus_.model);
+  }
+}
+
+std::string SerialDoctor::mend(const std::set<int>& ids, const char* name, int value) const {
+  if (bus_.robot && ids.size() > 1) return bus_.set_up(-1, true);
+  if (bus_.robot) return bus_.set_up(*ids.begin(), true);
+  return fmt::format("for each: verp bus write --link {} --id {} --register {} {}", bus_.link,
+                     *ids.begin(), name, value);
+}
+
+void SerialDoctor::judge_ward() {
+  judge_damaged();
+  if (!ward_.quiet.empty()) {
+    found_.bad("status level", "not all requests are answered by ids " + list(ward_.quiet),
+               mend(ward_.quiet, "status_return_level", 2));
+  }
+  if (!ward_.slow.empty()) {
+    found_.advise(
+        "return delay",
+        "not 0, which wastes time of each tick: " + list(ward_.slow) + "; `verp run` sets it to 0",
+        mend(ward_.slow, "return_delay_time", 0));
+  }
+  if (ward_.lowest_id != 0) {
+    found_.bad(
+        "voltage",
+        fmt::format("{} measures {:.1f} V; {:.1f} V or more are needed",
+                    bus_.name_of(ward_.lowest_id), ward_.lowest_v, ward_.wanted_v),
+        "charge the battery, or raise the supply; then check plugs and cable cross-sections");
+  }
+}
+
+void SerialDoctor::judge_damaged() {
+  if (2 * ward_.damaged.size() > ward_.present.size() && ward_.damaged.size() > 1) {
+    return found_.bad("garbage",
+                      fmt::format("{} of {} devices answer damaged packets", ward_.damaged.size(),
+                                  ward_.present.size()),
+                      "check ground, shield and the longest cable; try a lower baud rate");
+  }
+  for (const int id : ward_.damaged) {
+    found_.bad(
+        fmt::format("id {}", id),
+        "two servos have id " + std::to_string(id) + ", or its cable is bad: answers come damaged",
+        "unplug one of them; connect each alone and give it its id: " + bus_.set_up(id, false));
+  }
+}
+
+void SerialDoctor::judge_link(bus::Client& client) {
+  found_.good("devices", fmt::format("{} answer", ward_.present.size()));
+  if (!bus_.params) return;
+  try {
+    const bus::LinkDelay delay = bus::measure_delay(client, *bus_.params, [] { return false; });
+    const bus::LinkFit fit = bus::fit(*bus_.params, delay);
+    const std::string text = fmt::format("an answer takes {:.2f} ms", 1e-3 * delay.median_us);
+    if (fit.fits()) return found_.good("latency", text);
+    found_.bad("latency",
+               fmt::format("{}; a tick of {:g} ms has no room for it", text, 1e-3 * fit.period_us),
+               bus::remedy(fit, *bus_.params, bus_.endpoint));
+  } catch (const bus::DeviceError& error) {
+    found_.bad("latency", error.what());
+  }
+}
+
+void SerialDoctor::judge_other_rates(std::set<int>& present) {
+  if (bus_.endpoint.kind != link::Endpoint::Kind::kSerial) return;
+  cli::complain("verp bus doctor: trying the other baud rates, 6 s");
+  std::map<std::uint32_t, std::set<int>> elsewhere;
+  bus::SetupLine line(bus_.endpoint, bus_.endpoint.baud);
+  for (const std::uint32_t rate : dxl::kBaudRates) {
+    if (rate == bus_.endpoint.baud) continue;
+    try {
+      for (const bus::Identity& each : line.at(rate).scan()) elsewhere[rate].insert(each.id);
+    } catch (const link::LinkError&) {  // not a rate of the adapter
+    }
+  }
+  for (const auto& [rate, ids] : elsewhere) {
+    found_.bad("baud rate",
+               fmt::format("at {} baud and not at {} these answer: ids {}", rate,
+                           bus_.endpoint.baud, list(ids)),
+               bus_.robot ? "connect each alone: " + bus_.set_up(*ids.begin(), false)
+                          : fmt::format("give --link serial:{}@{}", bus_.endpoint.place, rate));
+    present.insert(ids.begin(), ids.end());
+  }
+}
+
+bool SerialDoctor::answers_old() const {
+  link::Endpoint endpoint = bus_.endpoint;
+  std::vector<std::uint32_t> rates = {endpoint.baud};
+  if (endpoint.kind == link::Endpoint::Kind::kSerial) {
+    rates.insert(rates.end(), std::begin(kOldRates), std::end(kOldRates));
+  }
+  for (const std::uint32_t rate : rates) {
+    endpoint.baud = rate;
+    try {
+      link::Link link(endpoint);
+      if (link.wait_connected(kSomebody_us) && !ping_all_old(link).old_ids.empty()) return true;
+    } catch (const link::LinkError&) {  // not a rate of the adapter
+    }
+  }
+  return false;
+}
+
+void SerialDoctor::judge_silence() {
+  std::set<int> elsewhere;
+  judge_other_rates(elsewhere);
+  if (!elsewhere.empty()) return;
+  if (answers_old()) {
+    return found_.bad(
+        "protocol", "servos answer in Protocol 1, and not in Protocol 2",
+        "set Protocol Type (13) to 2 with Dynamixel Wizard; AX servos have Protocol 1 "
+        "only");
+  }
+  if (heard_.bytes > 0) {
+    return found_.bad("garbage",
+                      fmt::format("{} bytes came, and no packet at any baud rate", heard_.bytes),
+                      "see that these are Dynamixel servos, and that the grounds are joined");
+  }
+  const char* what = heard_.echo ? "only our own bytes come back" : "nothing answers";
+  found_.bad("silence", fmt::format("{}, at any baud rate", what),
+             "switch the servos' power on (each blinks once), swap A and B (D+ and D-), and check "
+             "the plug at the adapter");
+}
+
+}  // namespace
+
+void examine_serial_bus(const Machine& machine, const BusCase& bus, Findings& found) {
+  const bool serial = bus.endpoint.kind == link::Endpoint::Kind::kSerial;
+  if (serial && machine.exists(bus.endpoint.place) &&
+      !check_device(machine, bus.endpoint.place, found)) {
+    return;
+  }
+  try {
+    SerialDoctor(bus, found).examine();
+  } catch (const link::LinkError& error) {
+    const std::string line = error.what(), missing = "no such device; ";
+    const std::size_t at = line.find(missing);
+    found.bad("link", at == line.npos
+                          ? line
+                          : line.substr(0, at) + missing +
+                                "plug it in, or name another: " + line.substr(at + missing.size()));
+  } catch (const bus::DeviceError& error) {
+    found.bad("link", error.what());
+  }
+}
+
+}  // namespace verp::tool
