@@ -93,6 +93,14 @@ TEST_F(SilenceOnCan, AScanOfNodesThatAllFellSilentDoesNotSayThatNobodyAnswers) {
   EXPECT_FALSE(says(outcome.err, "no node answers")) << outcome.err;
 }
 
+TEST_F(SilenceOnCan, TheDoctorNamesANodeThatFellSilent) {
+  const Nodes nodes("can:" + bus.name, all_but_19);
+  const Outcome outcome = verp("bus doctor" + link);
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_TRUE(says(outcome.out, "id 19 answered, then fell silent")) << outcome.out;
+  EXPECT_FALSE(says(outcome.out, "id 5 answered")) << outcome.out;
+}
+
 TEST_F(SilenceOnCan, APingOfANodeThatFellSilentSaysSo) {
   const Nodes nodes("can:" + bus.name, all_but_19);
   const Outcome outcome = verp("bus ping --id 19" + link);

@@ -73,7 +73,7 @@ void check_packages(const Machine& machine, const std::string& list, Findings& f
   if (list.empty()) return found.good("packages", "VERP is installed with what it needs");
   if (machine.read("/etc/os-release").find("VERSION_CODENAME=bookworm") == std::string::npos) {
     found.advise("system", "this is not Debian 12; VERP is tested only there",
-                 "run VERP in Debian 12, for example: docker run -it debian:12");
+                 "docker run -it debian:12  # for example");
   }
   const std::set<std::string> installed = installed_packages(machine);
   if (installed.empty()) {
@@ -125,7 +125,7 @@ void check_disk(const Machine& machine, Findings& found) {
   if (!free) return found.good("disk", "its free space is not known");
   const std::uint64_t left_MB = *free / kMegabyte;
   const std::string text = fmt::format("{} MB are free in {}", left_MB, folder);
-  const char* fix = "make room: du -xh -d 1 ~ | sort -h | tail shows what is large";
+  const char* fix = "du -xh -d 1 ~ | sort -h | tail  # shows what is large";
   if (left_MB < kWalk_MB) return found.bad("disk", text + ": too few for a long walk", fix);
   if (left_MB < kBuild_MB) return found.advise("disk", text + ": too few for a build", fix);
   found.good("disk", text);

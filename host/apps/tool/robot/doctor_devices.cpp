@@ -67,7 +67,7 @@ void check_adapter(const Machine& machine, const std::string& folder, const UsbD
                   [](const RunningProgram& each) { return each.name == "brltty"; });
   if (device.part == Part::kSerial && braille) {
     return found.bad("USB", name + ", and brltty took it for a Braille display",
-                     "sudo apt-get remove brltty, then plug it in again");
+                     "sudo apt-get remove brltty  # then plug it in again");
   }
   found.bad("USB", name + ", and its driver is not loaded",
             fmt::format("sudo modprobe {}", device.driver));
@@ -180,7 +180,7 @@ void check_can(const Machine& machine, Findings& found) {
                    machine.read(modules + "/modules.builtin").find("/can.ko") != std::string::npos;
   if (can) return found.good("CAN", "no CAN interface is here");
   found.advise("CAN", "this kernel has no CAN; only robots on CAN need it",
-               "sudo apt-get install linux-image-$(dpkg --print-architecture), then restart");
+               "sudo apt-get install linux-image-$(dpkg --print-architecture)  # then restart");
 }
 
 }  // namespace verp::tool

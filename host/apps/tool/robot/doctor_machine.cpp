@@ -113,9 +113,9 @@ std::string Machine::how_to_join(const std::string& path) const {
   const std::string group = fields.empty() ? std::to_string(status.st_gid) : fields[0];
   const auto members = split(fields.size() > 3 ? fields[3] : "", ',');
   if (std::find(members.begin(), members.end(), user()) == members.end()) {
-    return "sudo usermod -aG " + group + " " + user() + ", then log in again";
+    return "sudo usermod -aG " + group + " " + user() + "  # then log in again";
   }
-  return "you are in group " + group + " since your last login: log in again, or: newgrp " + group;
+  return "newgrp " + group + "  # or log in again: you are in that group since your last login";
 }
 
 bool Machine::may_use(const std::string& path) const {

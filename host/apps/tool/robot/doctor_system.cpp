@@ -47,7 +47,7 @@ void check_other_programs(const Machine& machine, Findings& found) {
     const bool ours = each.name == "verp" || each.name.starts_with("verp_");
     if (!ours || each.name.find("test") != std::string::npos) continue;
     found.advise("other verp", fmt::format("process {} runs: {}", each.id, each.command),
-                 fmt::format("if it is not wanted: kill -INT {}", each.id));
+                 fmt::format("kill -INT {}  # if it is not wanted", each.id));
   }
   if (found.size() == before) found.good("other verp", "no other verp runs");
 }
@@ -56,7 +56,7 @@ void check_display(const Machine& machine, Findings& found) {
   const std::string trouble = display_trouble(machine);
   if (trouble.empty()) return found.good("display", "there is one for verp view");
   found.advise("display", trouble + "; only verp view needs one: walk, shot and video work without",
-               "for verp view log in at the desktop, or connect with: ssh -X HOST");
+               "ssh -X HOST  # or log in at the desktop");
 }
 
 void check_real_time(const Machine& machine, Findings& found) {
@@ -73,7 +73,7 @@ void check_real_time(const Machine& machine, Findings& found) {
                fmt::format("{} {} not allowed here: verp run and hil may miss ticks", which,
                            fast || memory == "unlimited" ? "is" : "are"),
                fmt::format("printf '@dialout - rtprio {}\\n@dialout - memlock unlimited\\n' | sudo "
-                           "tee /etc/security/limits.d/verp.conf && sudo usermod -aG dialout {}, "
+                           "tee /etc/security/limits.d/verp.conf && sudo usermod -aG dialout {}  # "
                            "then log in again",
                            cli::kLoopPriority, machine.user()));
 }
