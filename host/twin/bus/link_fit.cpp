@@ -26,9 +26,8 @@ std::optional<std::uint8_t> somebody(Client& client, const Params& params,
     if (client.ping(params.joint[j].servo_id, 1)) return params.joint[j].servo_id;
   }
   if (give_up()) return std::nullopt;
-  throw DeviceError(fmt::format(
-      "{}: no servo of {} answers; check power, wiring and baud rate, see `verp bus scan`",
-      client.place(), params.name));
+  throw DeviceError(fmt::format("{}: no servo of {} answers; `verp bus doctor` finds out why",
+                                client.place(), params.name));
 }
 
 [[noreturn]] void too_few(const Client& client, std::uint8_t id, const LinkDelay& delay) {

@@ -43,7 +43,7 @@ void tell_tries(const bus::Client& client, const BusOptions& options, cli::Json*
 
 [[noreturn]] void nobody(const std::string& what) {
   throw cli::ToolError(cli::kNoDevice,
-                       what + "; check power, wiring and baud rate, or raise --timeout");
+                       what + "; `verp bus doctor` finds out why, or raise --timeout");
 }
 
 bus::Identity identify(bus::Client& client, const BusOptions& options) {
