@@ -33,13 +33,14 @@ struct Action {
 };
 VERP_PACKED(Action);
 
-/// The controller starts these actions itself: a pose that bears a fall, and getting up from each
-/// side.
+/// The controller starts these actions itself: a pose that bears a fall, getting up from each side,
+/// and from the crouch to the floor, where torque may go.
 inline constexpr char kFallSafe[kNameLength] = "fall_safe";
 inline constexpr char kGetUpFront[kNameLength] = "get_up_front";
 inline constexpr char kGetUpBack[kNameLength] = "get_up_back";
 inline constexpr char kGetUpLeft[kNameLength] = "get_up_left";
 inline constexpr char kGetUpRight[kNameLength] = "get_up_right";
+inline constexpr char kLieDown[kNameLength] = "lie_down";
 
 /// As `next`, `otherwise` or `exit` of a frame: back to the stand.
 inline constexpr std::uint16_t kToStand = 0xFFFF;

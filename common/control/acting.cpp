@@ -14,13 +14,14 @@ using safety::Mode;
 constexpr float kPressed_n = 2.0F;  // more than an unloaded cell reports
 
 bool plays(Mode mode) {
-  return mode == Mode::kActing || mode == Mode::kFalling || mode == Mode::kGettingUp;
+  return mode == Mode::kActing || mode == Mode::kFalling || mode == Mode::kGettingUp ||
+         mode == Mode::kLyingDown;
 }
 
-// A stop leaves by the exit. A fall's action cannot be stopped.
+// A stop leaves by the exit. The actions of a fall and of lying down cannot be stopped.
 bool shall_stop(const State& state, const Inputs& inputs, const AdmitOut& admitted) {
   constexpr std::uint32_t kNoMore = safety::kAskRelax | safety::kOperatorQuiet | safety::kTrouble;
-  if (state.machine.mode == Mode::kFalling) return false;
+  if (state.machine.mode == Mode::kFalling || state.machine.mode == Mode::kLyingDown) return false;
   const bool another = state.machine.mode == Mode::kActing && inputs.action != state.action.number;
   return another || (admitted.conditions & kNoMore) != 0 ||
          (state.machine.faults & safety::kTroubleFaults) != 0;

@@ -49,6 +49,7 @@ void watch_fall(const Params& params, const action::Library& actions, State& sta
   if (state.machine.falling_ms > kConfirm_ms && actions.number_of(action::kFallSafe) != 0) {
     admitted.conditions |= safety::kFallSeen;
   }
+  if (actions.number_of(action::kLieDown) != 0) admitted.conditions |= safety::kLiesDown;
   if (inputs.command.request == Request::kGetUp && !safety::has_torque(state.machine.mode) &&
       state.machine.in_mode_us >= kLieStill_us && get_up_action(actions, state) != 0) {
     admitted.conditions |= safety::kAskGetUp;
@@ -56,8 +57,16 @@ void watch_fall(const Params& params, const action::Library& actions, State& sta
 }
 
 std::uint8_t own_action(const action::Library& actions, const State& state) {
-  if (state.machine.mode == Mode::kFalling) return actions.number_of(action::kFallSafe);
-  return state.machine.mode == Mode::kGettingUp ? get_up_action(actions, state) : std::uint8_t{0};
+  switch (state.machine.mode) {
+    case Mode::kFalling:
+      return actions.number_of(action::kFallSafe);
+    case Mode::kGettingUp:
+      return get_up_action(actions, state);
+    case Mode::kLyingDown:
+      return actions.number_of(action::kLieDown);
+    default:
+      return 0;
+  }
 }
 
 }  // namespace verp::control

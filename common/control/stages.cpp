@@ -42,7 +42,7 @@ balance::SteppingIn stepping_in(const Params& params, const State& state) {
 }
 
 bool lies(Mode mode) {
-  return mode == Mode::kFalling || mode == Mode::kFallen;
+  return mode == Mode::kFalling || mode == Mode::kFallen || mode == Mode::kLyingDown;
 }
 
 bool walks(const State& state, const AdmitOut& admitted) {
@@ -78,6 +78,8 @@ bool time_is_up(const State& state) {
     case Mode::kActing:
     case Mode::kGettingUp:
       return state.action.number == 0;
+    case Mode::kLyingDown:  // not back to the stand
+      return state.action.number == 0 || state.action.part == action::Part::kReturn;
     case Mode::kFalling:
       return machine.in_mode_us >= kFallLasts_us;
     default:
@@ -182,7 +184,7 @@ void locate(const Params& params, State& state, const Inputs& inputs, const Admi
   in.gyro_body_rad_s = admitted.gyro_body_rad_s;
   in.accel_body_m_s2 = admitted.accel_body_m_s2;
   in.standing = mode == Mode::kStanding;
-  in.on_feet = safety::has_torque(mode) && mode != Mode::kFalling && mode != Mode::kGettingUp;
+  in.on_feet = safety::has_torque(mode) && !lies(mode) && mode != Mode::kGettingUp;
   in.carrying = state.landing.carrying;
   balance::update(params, state.estimator, in);
 }

@@ -204,7 +204,7 @@ inline constexpr Register kTable[] = {
     r(128, "digest", u64, "", "chained digest of all ticks so far"),
     r(136, "tick", u32, "ticks", "control periods since power-up"),
     r(140, "faults", u32, "bits", "safety::Fault, latched until relaxed"),
-    r(144, "mode", u8, "", "0 relaxed, 1 rising, 2 standing, 3 walking, 4 holding, 5 sitting, 6 fallen, 7 stopped, 8 acting, 9 falling, 10 getting up"),
+    r(144, "mode", u8, "", "0 relaxed, 1 rising, 2 standing, 3 walking, 4 holding, 5 sitting, 6 fallen, 7 stopped, 8 acting, 9 falling, 10 getting up, 11 lying down"),
     r(145, "gait_phase", u8, "", "gait::Phase"),
     r(146, "gait_state", u8, "", "state within the cycle, 0 to 15"),
     r(147, "stance", u8, "", "foot that carries: 0 left, 1 right, 2 both"),

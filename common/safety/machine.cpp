@@ -38,7 +38,7 @@ constexpr Row kTable[] = {
     {bit(Mode::kWalking), kGaitOver, kAskWalk | kPushed, Mode::kStanding},
     {bit(Mode::kWalking), kGaitOver | kOperatorQuiet, 0, Mode::kStanding},
     {bit(Mode::kWalking), kGaitOver | kTrouble, 0, Mode::kStanding},
-    {bit(Mode::kSitting), kTimeUp, 0, Mode::kRelaxed},
+    {bit(Mode::kSitting), kTimeUp, kLiesDown, Mode::kRelaxed},
     // A stopped action first returns to the stand.
     {bit(Mode::kStanding), kAskAction | kCalibrated, kOperatorQuiet | kTrouble, Mode::kActing},
     {bit(Mode::kActing), kTimeUp, 0, Mode::kStanding},
@@ -50,6 +50,9 @@ constexpr Row kTable[] = {
      kStale | kOperatorQuiet | kTrouble | kJointBeyond, Mode::kGettingUp},
     {bit(Mode::kGettingUp), kTimeUp | kFell, 0, Mode::kFallen},
     {bit(Mode::kGettingUp), kTimeUp, 0, Mode::kStanding},
+    // On the floor torque may go.
+    {bit(Mode::kSitting), kTimeUp | kLiesDown, 0, Mode::kLyingDown},
+    {bit(Mode::kLyingDown), kTimeUp, 0, Mode::kRelaxed},
 };
 constexpr int kRows = sizeof(kTable) / sizeof(Row);
 

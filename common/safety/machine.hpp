@@ -13,17 +13,18 @@ enum class Mode : std::uint8_t {
   kStanding,
   kWalking,
   kHolding,  ///< a device went silent: goals frozen
-  kSitting,  ///< into the crouch that needs no torque
+  kSitting,  ///< into the crouch
   kFallen,   ///< limp until a relax request
   kStopped,  ///< e-stop: limp until released and relaxed
   kActing,
   kFalling,    ///< certain to fall: with little strength into a pose that bears it
   kGettingUp,  ///< from the floor to the stand, by an action
+  kLyingDown,  ///< from the crouch to the floor, by an action
 };
-inline constexpr int kModes = 11;
-inline constexpr const char* kModeNames[kModes] = {"relaxed", "rising",  "standing",  "walking",
-                                                   "holding", "sitting", "fallen",    "stopped",
-                                                   "acting",  "falling", "getting up"};
+inline constexpr int kModes = 12;
+inline constexpr const char* kModeNames[kModes] = {
+    "relaxed", "rising",  "standing", "walking", "holding",    "sitting",
+    "fallen",  "stopped", "acting",   "falling", "getting up", "lying down"};
 
 enum Condition : std::uint32_t {
   kAskRelax = 1 << 0,
@@ -45,6 +46,7 @@ enum Condition : std::uint32_t {
   kFallSeen = 1 << 16,       ///< certain to fall, and has a pose for it
   kAskGetUp = 1 << 17,       ///< lies still, and has an action for this side
   kPushed = 1 << 18,         ///< pushed beyond what ankles balance: has to step
+  kLiesDown = 1 << 19,       ///< has an action that lies down
 };
 
 /// Latched until the operator relaxes the robot. The upper half only reports.

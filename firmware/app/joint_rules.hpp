@@ -31,11 +31,12 @@ class JointStrength {
   void limit_torque(std::uint8_t percent) { most_percent_ = percent; }
 
  protected:
-  // A rising robot may touch anything, a hand too, and a falling one may strike it. Then servos
-  // push no harder than the entity's rise_torque_percent.
+  // A robot that rises or lies down may touch anything, a hand too, and a falling one may strike
+  // it. Then servos push no harder than the entity's rise_torque_percent.
   std::uint8_t percent_in(std::uint8_t mode) const {
     const auto is = [mode](safety::Mode each) { return mode == static_cast<std::uint8_t>(each); };
-    const bool gives_way = is(safety::Mode::kRising) || is(safety::Mode::kFalling);
+    const bool gives_way =
+        is(safety::Mode::kRising) || is(safety::Mode::kFalling) || is(safety::Mode::kLyingDown);
     return gives_way && params_.rise_torque_percent < most_percent_ ? params_.rise_torque_percent
                                                                     : most_percent_;
   }

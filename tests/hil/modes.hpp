@@ -14,10 +14,11 @@ enum Mode {
   kStopped,
   kActing,
   kFalling,
-  kGettingUp
+  kGettingUp,
+  kLyingDown
 };
-inline constexpr const char* kModeNames[] = {"relaxed", "rising",  "standing",  "walking",
-                                             "holding", "sitting", "fallen",    "stopped",
-                                             "acting",  "falling", "getting up"};
+inline constexpr const char* kModeNames[] = {
+    "relaxed", "rising",  "standing", "walking", "holding",    "sitting",
+    "fallen",  "stopped", "acting",   "falling", "getting up", "lying down"};
 
 }  // namespace verp::test

@@ -20,12 +20,13 @@ constexpr std::uint32_t kMayLeadTo[] = {
     /* standing */ bit(kWalking) | bit(kActing) | bit(kHolding) | bit(kSitting) | kDown,
     /* walking  */ bit(kStanding) | bit(kHolding) | kDown,
     /* holding  */ bit(kRising) | bit(kSitting) | bit(kFallen) | bit(kStopped),
-    /* sitting  */ bit(kRelaxed) | kDown,
+    /* sitting  */ bit(kRelaxed) | bit(kLyingDown) | kDown,
     /* fallen   */ bit(kRelaxed) | bit(kGettingUp) | bit(kStopped),
     /* stopped  */ bit(kRelaxed),
     /* acting   */ bit(kStanding) | bit(kHolding) | kDown,
     /* falling  */ bit(kHolding) | bit(kFallen) | bit(kStopped),
-    /* getting up */ bit(kStanding) | bit(kHolding) | bit(kFallen) | bit(kStopped)};
+    /* getting up */ bit(kStanding) | bit(kHolding) | bit(kFallen) | bit(kStopped),
+    /* lying down */ bit(kRelaxed) | bit(kStopped)};
 
 bool limp(int mode) {
   return mode == kRelaxed || mode == kFallen || mode == kStopped;
@@ -123,7 +124,8 @@ void SafeTable::check_trouble(int to) {
 // A minimum-jerk curve peaks at 15/8 of its average speed, which the joint must allow.
 void SafeTable::check_way(const Outputs& outputs, int to) {
   const bool begins = to != mode_ && (to == kRising || to == kSitting);
-  const bool ends = (mode_ == kRising && to == kStanding) || (mode_ == kSitting && to == kRelaxed);
+  const bool ends = (mode_ == kRising && to == kStanding) ||
+                    (mode_ == kSitting && (to == kRelaxed || to == kLyingDown));
   for (int j = 0; j < params_.joint_count; ++j) {
     if (begins) from_[j] = outputs.goal_count[j];
     if (!ends) continue;
@@ -179,6 +181,10 @@ void SafeTable::check_transition(const Inputs& inputs, int to) {
   if (mode_ == kFalling && to != kStopped &&
       !longer(static_cast<std::uint32_t>(in_mode_ticks_ + 1), kFalls_s)) {
     fault("fell too short");
+  }
+  if (to == kRelaxed && mode_ == kLyingDown &&
+      !longer(static_cast<std::uint32_t>(in_mode_ticks_ + 1), kLiesDown_s)) {
+    fault("lay down too fast");
   }
   if (to == kActing && request == Request::kRelax) fault("acted unasked");
   if ((to == kActing || to == kGettingUp) && nobody_watches()) {
@@ -247,7 +253,7 @@ void SafeTable::check_outputs(const Inputs& inputs, const Outputs& outputs, int 
 void SafeTable::tick(const Inputs& inputs, const Outputs& outputs) {
   if (begun_ && inputs.tick <= tick_) fault("time stands still");
   const int to = outputs.mode;
-  if (to > kGettingUp) return fault("no such mode");
+  if (to > kLyingDown) return fault("no such mode");
   count_silence(inputs);
   count_push(inputs);
   tick_ = inputs.tick;

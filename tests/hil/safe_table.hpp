@@ -53,6 +53,7 @@ class SafeTable {
   static constexpr double kPushed_s = 0.3;  ///< a pushed robot may step unasked for this long
   static constexpr double kLies_s = 1.0;    ///< limp before it gets up
   static constexpr double kFalls_s = 0.7;
+  static constexpr double kLiesDown_s = 1.0;  ///< no robot is on the floor sooner
   int servo_bad_[kMaxJoints] = {};  ///< consecutive readings
   int supply_low_ = 0;
   static constexpr int kHeld_s = 3, kFlutter_s = 12;

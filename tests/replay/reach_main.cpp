@@ -121,6 +121,18 @@ void fall() {
   }
 }
 
+// It sits, lies down by its action and lets go.
+void lie_down() {
+  action::test::Shelf shelf = control::test::falling_shelf();
+  __builtin_memcpy(shelf.action[0].name, action::kLieDown, kNameLength);
+  shelf.seal();
+  control::test::FallingLoop loop;
+  loop.actions = shelf.library();
+  follow(loop, 300);
+  loop.command.request = Request::kRelax;
+  follow(loop, 600);
+}
+
 // Its operator is quiet while it walks any way, with and without steps of one length; then a servo
 // is silent again and again.
 void silence() {
@@ -213,6 +225,7 @@ int main(int count, char** argument) {
   for (const replay::Segment& segment : trace) good = replay::run(segment) && good;
   replay::act();
   replay::fall();
+  replay::lie_down();
   replay::silence();
   constexpr const char* kPhases[] = {"idle", "start", "transition", "finalisation"};
   for (int i = 0; i < 4; ++i) {

@@ -166,6 +166,7 @@ class Checker {
 
   ActionCheck run(int number) {
     const Library library = made_.library();
+    const bool stays = number == library.number_of(kLieDown);  // it does not return to the stand
     PlayerState state;
     PlayerIn in;
     in.asked = static_cast<std::uint8_t>(number);
@@ -175,7 +176,7 @@ class Checker {
     for (tick_ = 0; tick_ < kMostTicks; ++tick_) {
       if (state.number != 0) fulfil(library.frame(state.frame).condition, in);
       const PlayerOut out = update(params_, library, state, in);
-      if (state.number == 0) break;
+      if (state.number == 0 || (stays && state.part == Part::kReturn)) break;
       enter(state.part == Part::kReturn ? -1 : state.frame);
       look(out);
       before_ = out;

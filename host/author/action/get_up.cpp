@@ -1,5 +1,6 @@
 #include "host/author/action/get_up.hpp"
 
+#include <filesystem>
 #include <utility>
 
 #include "host/author/action/compile.hpp"
@@ -25,10 +26,17 @@ std::string offer_get_up_actions(session::WalkPlan& plan) {
     CompiledActions made = make_library(plan.params, read_folder(folder));
     const bool both = made.number(kGetUpFront) != 0 && made.number(kGetUpBack) != 0;
     if (both) plan.actions = std::move(made.words);
+    take_lie_down(plan);
   } catch (const model::LoadError& error) {
     return error.what();
   }
   return "";
+}
+
+void take_lie_down(session::WalkPlan& plan) {
+  const auto file = folder_of(plan.entity.file) / (std::string(kLieDown) + ".action");
+  if (!plan.actions.empty() || !std::filesystem::exists(file)) return;
+  plan.actions = make_library(plan.params, read_with_linked(file)).words;
 }
 
 }  // namespace verp::action

@@ -310,16 +310,4 @@ std::string describe_json(const Entity& entity) {
   return out.dump(2) + "\n";
 }
 
-int check_command(const std::string& name_or_path, const std::string& bus, bool json) {
-  if (is_world(name_or_path)) {
-    const World world = load_world(find_world(name_or_path));
-    std::fputs((json ? describe_json(world) : describe(world)).c_str(), stdout);
-    return 0;
-  }
-  const Entity entity = load_robot(find_model(name_or_path), bus);
-  const std::string text = json ? describe_json(entity) : describe(entity);
-  std::fputs(text.c_str(), stdout);
-  return 0;
-}
-
 }  // namespace verp::model

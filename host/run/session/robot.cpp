@@ -217,7 +217,9 @@ void Robot::watch() {
   meter_.tick(seen, nothing);
   ++result_.ticks;
   const double up = std::clamp(seen.truth.body_world.linear()(2, 2), -1.0, 1.0);
-  verdict_.see(torque, std::acos(up), twin_.fallen());
+  const double tilt_rad = std::acos(up);
+  descent_.see(tilt_rad, seen.truth.com_world_m.z(), seen.truth.com_velocity_world_m_s.z());
+  verdict_.see(torque, tilt_rad, twin_.fallen(), descent_.gentle(world_.options().gravity_m_s2));
   const bool may_get_up = plan_.get_ups > 0;  // then only staying down is a fall
   if (may_get_up && twin_.forget_fall()) verdict_.forget();
   if (twin_.fallen() && !std::exchange(lies_, true) && may_get_up) {

@@ -120,6 +120,7 @@ class Robot {
   bool taken_ = false;                                    ///< take() was called, but see() not yet
   std::uint64_t bits_before_ = 0, bare_bits_before_ = 0;  ///< at the first tick
   FallVerdict verdict_;
+  Descent descent_;
   double begun_s_ = 0;  ///< simulated time of the first tick or torque
   double after_s_ = 0;
   bool over_ = false;

@@ -89,12 +89,7 @@ class Drawing {
     for (model::Joint& joint : out_.entity.joints) {
       model::Servo& servo = joint.servo;
       servo.gearbox.armature_kg_m2 *= 1 + servo.armature_band * rotor;
-      const double factor = 1 + servo.friction_band * friction;
-      for (double* part :
-           {&servo.gearbox.f_base_n_m, &servo.gearbox.f_strib_n_m, &servo.gearbox.l_base,
-            &servo.gearbox.l_strib, &servo.gearbox.f_visc_n_m_s}) {
-        *part *= factor;
-      }
+      scale_friction(friction, servo);
     }
     note("rotor_in_band", rotor);
     note("gear_friction_in_band", friction);
@@ -134,6 +129,14 @@ class Drawing {
 };
 
 }  // namespace
+
+void scale_friction(double in_band, model::Servo& servo) {
+  const double factor = 1 + servo.friction_band * in_band;
+  for (double* part : {&servo.gearbox.f_base_n_m, &servo.gearbox.f_strib_n_m, &servo.gearbox.l_base,
+                       &servo.gearbox.l_strib, &servo.gearbox.f_visc_n_m_s}) {
+    *part *= factor;
+  }
+}
 
 Varied vary(const model::Entity& entity, const TwinOptions& twin, const WorldOptions& world,
             const VaryBands& bands) {

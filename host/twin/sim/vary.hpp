@@ -25,6 +25,10 @@ struct VaryBands {
   double supply_low = 0.925, supply_high = 1.05;
 };
 
+/// Sets the gearbox's friction to a place in its servo type's band: -1 the least, 0 as identified,
+/// 1 the most.
+void scale_friction(double in_band, model::Servo& servo);
+
 struct Varied {
   model::Entity entity;
   TwinOptions twin;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace verp::session {
@@ -51,6 +52,20 @@ TEST(FallVerdict, ARobotThatIsLetGoUprightLiesDown) {
   EXPECT_FALSE(verdict.fell());
   verdict.see(true, kLying, true);  // ordered while it lies
   EXPECT_FALSE(verdict.fell());
+}
+
+TEST(FallVerdict, ARobotThatLiesDownGentlyWithTorqueDoesNotFall) {
+  const double height_m = 0.2, gravity_m_s2 = 9.8;
+  for (const double fastest_m_s : {0.4, 0.8}) {
+    FallVerdict verdict;
+    Descent descent;
+    for (double tilt = 0; tilt < 1.4; tilt += 0.1) {
+      descent.see(tilt, height_m * std::cos(tilt), tilt > 0.5 ? -fastest_m_s : 0);
+      verdict.see(true, tilt, tilt > 1, descent.gentle(gravity_m_s2));
+    }
+    EXPECT_EQ(verdict.fell(), fastest_m_s > 0.5) << fastest_m_s;
+    EXPECT_EQ(verdict.lay_down(), fastest_m_s < 0.5) << fastest_m_s;
+  }
 }
 
 TEST(FallVerdict, IsOneThingAndStaysThat) {

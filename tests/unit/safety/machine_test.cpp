@@ -6,7 +6,7 @@
 namespace verp::safety {
 namespace {
 
-constexpr std::uint32_t kAllConditions = 1u << 19;
+constexpr std::uint32_t kAllConditions = 1u << 20;
 
 constexpr std::uint32_t bit(Mode mode) {
   return 1u << static_cast<unsigned>(mode);
@@ -50,7 +50,7 @@ constexpr std::uint32_t kUpright = modes(Mode::kRising, Mode::kStanding, Mode::k
                                          Mode::kHolding, Mode::kSitting, Mode::kActing);
 
 TEST(SafetyTable, Row0EmergencyStopsEveryMode) {
-  expect_row(0, 0x7FFu & ~bit(Mode::kStopped), kEmergency, 0, Mode::kStopped);
+  expect_row(0, 0xFFFu & ~bit(Mode::kStopped), kEmergency, 0, Mode::kStopped);
 }
 TEST(SafetyTable, Row1StoppedRobotIsRelaxedOnceReleasedAndAsked) {
   expect_row(1, bit(Mode::kStopped), kAskRelax, kEmergency, Mode::kRelaxed);
@@ -111,8 +111,8 @@ TEST(SafetyTable, Row16WalkEndsOnBothFeetWhenPowerIsBad) {
   EXPECT_TRUE(next_mode(Mode::kWalking, kAskWalk | kTrouble) == Mode::kWalking);
   EXPECT_EQ(kTable[16].all_of, kGaitOver | kTrouble);
 }
-TEST(SafetyTable, Row17SittingRobotRelaxesWhenDown) {
-  expect_row(17, bit(Mode::kSitting), kTimeUp, 0, Mode::kRelaxed);
+TEST(SafetyTable, Row17RobotThatCannotLieDownRelaxesInTheCrouch) {
+  expect_row(17, bit(Mode::kSitting), kTimeUp, kLiesDown, Mode::kRelaxed);
 }
 TEST(SafetyTable, Row18ActsOnlyWhenAllIsWell) {
   expect_row(18, bit(Mode::kStanding), kAskAction | kCalibrated, kOperatorQuiet | kTrouble,
@@ -142,14 +142,32 @@ TEST(SafetyTable, Row24GettingUpThatEndsLyingIsAFall) {
 TEST(SafetyTable, Row25GettingUpEndsInTheStand) {
   expect_row(25, bit(Mode::kGettingUp), kTimeUp, 0, Mode::kStanding);
 }
+TEST(SafetyTable, Row26LiesDownFromTheCrouch) {
+  expect_row(26, bit(Mode::kSitting), kTimeUp | kLiesDown, 0, Mode::kLyingDown);
+}
+TEST(SafetyTable, Row27RobotThatLiesRelaxes) {
+  expect_row(27, bit(Mode::kLyingDown), kTimeUp, 0, Mode::kRelaxed);
+}
 TEST(SafetyTable, HasNoOtherRows) {
-  EXPECT_EQ(kRows, 26);
+  EXPECT_EQ(kRows, 28);
+}
+TEST(SafetyTable, OnlySittingLooksAtLyingDown) {
+  for (int i = 0; i < kRows; ++i) {
+    const bool looks = ((kTable[i].all_of | kTable[i].none_of) & kLiesDown) != 0;
+    EXPECT_TRUE(!looks || kTable[i].from == bit(Mode::kSitting)) << i;
+  }
+}
+
+// A condition that only sitting looks at (OnlySittingLooksAtLyingDown) is set for it alone.
+bool same_as_without(Mode from, std::uint32_t conditions) {
+  return (conditions & kLiesDown) != 0 && from != Mode::kSitting;
 }
 
 template <class Check>
 void for_all(Check check) {
   for (std::uint32_t conditions = 0; conditions < kAllConditions; ++conditions) {
     for (int m = 0; m < kModes; ++m) {
+      if (same_as_without(mode_of(m), conditions)) continue;
       check(mode_of(m), conditions, next_mode(mode_of(m), conditions));
     }
   }
@@ -165,7 +183,7 @@ TEST(SafetyMachine, EmergencyAlwaysWins) {
 
 // Except on the way down and the requested way up.
 TEST(SafetyMachine, FallenRobotNeverKeepsTorque) {
-  constexpr std::uint32_t kOnTheFloor = modes(Mode::kFalling, Mode::kGettingUp);
+  constexpr std::uint32_t kOnTheFloor = modes(Mode::kFalling, Mode::kGettingUp, Mode::kLyingDown);
   int wrong = 0;
   for_all([&](Mode from, std::uint32_t conditions, Mode to) {
     if ((conditions & kFell) == 0 || !has_torque(to) || (bit(to) & kOnTheFloor) != 0) return;
@@ -192,8 +210,20 @@ TEST(SafetyMachine, StandingRobotIsNeverDropped) {
   int wrong = 0;
   for_all([&](Mode from, std::uint32_t conditions, Mode to) {
     if (!has_torque(from) || has_torque(to)) return;
-    const bool why = (conditions & (kEmergency | kFell)) != 0 || from == Mode::kSitting;
+    const bool down = from == Mode::kSitting || from == Mode::kLyingDown;
+    const bool why = (conditions & (kEmergency | kFell)) != 0 || down;
     if (!why) ++wrong;
+  });
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(SafetyMachine, RobotLiesDownOnlyFromTheCrouchAndThenLetsGo) {
+  int wrong = 0;
+  for_all([&](Mode from, std::uint32_t conditions, Mode to) {
+    if (to == Mode::kLyingDown && from != to && from != Mode::kSitting) ++wrong;
+    if (from != Mode::kLyingDown || from == to) return;
+    const bool over = to == Mode::kRelaxed && (conditions & kTimeUp) != 0;
+    if (!over && to != Mode::kStopped) ++wrong;
   });
   EXPECT_EQ(wrong, 0);
 }
@@ -247,7 +277,7 @@ std::uint32_t reach(std::uint32_t from) {
 TEST(SafetyMachine, EveryModeIsReachedFromPowerUp) {
   std::uint32_t reached = bit(Mode::kRelaxed);
   for (int i = 0; i < 4; ++i) reached = reach(reached);
-  EXPECT_EQ(reached, 0x7FFu);
+  EXPECT_EQ(reached, 0xFFFu);
 }
 
 TEST(SafetyMachine, NoModeIsWithoutAWayOutBackToRelaxed) {

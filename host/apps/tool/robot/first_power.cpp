@@ -55,7 +55,9 @@ std::string first_power_checklist(const Params& params) {
       "  4. Torque is limited: give --torque 30 the first time, raise it when all moves right.\n"
       "  5. The supply gives {:g} V or more under load, and has a fuse or a current limit.\n"
       "  6. Cables have slack in every pose; no finger is near a joint.\n"
-      "  7. Ctrl-C once: it sits down, then lets go. Ctrl-C again: it lets go at once.\n"
+      "  7. Ctrl-C once: it sits, lies down on the floor before it (if it has the action "
+      "lie_down),\n"
+      "     then lets go. Ctrl-C again: it lets go at once.\n"
       "  8. If this PC falls silent, {}\n",
       params.name, joints_are_right(params),
       static_cast<double>(params.tuning.safety.voltage_low_v), when_silent(params));

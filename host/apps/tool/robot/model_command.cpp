@@ -1,12 +1,42 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "host/apps/cli/console.hpp"
+#include "host/apps/cli/exit_status.hpp"
 #include "host/apps/cli/other_program.hpp"
 #include "host/apps/tool/robot/commands.hpp"
+#include "host/author/action/let_go.hpp"
 #include "host/robot/model/check.hpp"
 #include "host/robot/model/export.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/load_world.hpp"
 
 namespace verp::tool {
+namespace {
+
+int check_world(const std::string& name, bool json) {
+  const model::World world = model::load_world(model::find_world(name));
+  cli::answer(json ? model::describe_json(world) : model::describe(world));
+  return cli::kGood;
+}
+
+int check_robot(const std::string& name, const std::string& bus, bool json) {
+  const model::Entity entity = model::load_robot(model::find_model(name), bus);
+  const action::LetGo ends = action::let_go(entity);
+  if (!json) {
+    cli::answer(model::describe(entity) + "letting go: " + ends.words() + "\n");
+    return cli::kGood;
+  }
+  cli::Json out = cli::Json::parse(model::describe_json(entity));
+  out["letting_go"] = {{"tried", ends.tried},         {"good", ends.good},
+                       {"by_action", ends.by_action}, {"ends", ends.ends},
+                       {"moved_rad", ends.moved_rad}, {"fall_percent", ends.fall_percent}};
+  cli::print_json(out);
+  return cli::kGood;
+}
+
+}  // namespace
 
 cli::Subcommand add_check(CLI::App& root) {
   struct Options {
@@ -18,8 +48,11 @@ cli::Subcommand add_check(CLI::App& root) {
   cli::add_model(*app, options->model)->required();
   cli::add_bus_option(*app, options->bus);
   cli::add_json_flag(*app, options->json);
-  return {app,
-          [options] { return model::check_command(options->model, options->bus, options->json); }};
+  return {app, [options] {
+            return model::is_world(options->model)
+                       ? check_world(options->model, options->json)
+                       : check_robot(options->model, options->bus, options->json);
+          }};
 }
 
 cli::Subcommand add_export(CLI::App& root) {

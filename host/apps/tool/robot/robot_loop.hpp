@@ -79,7 +79,7 @@ class RobotRun {
             params_, plan.walk.velocity, plan.walk.walk_s,
             [this](auto from, auto to, auto faults, const std::string& story,
                    const std::string& silent) { tell(from, to, faults, story, silent); },
-            plan.walk.get_ups),
+            plan.walk.get_ups, plan.walk.stands),
         keeper_{robot_, operator_, result_.walk, trace},
         app_(params_, robot_.bus(), operator_, keeper_, plan.has_imu ? nullptr : &imu_,
              app::Core{{plan.walk.actions.data(), 4 * plan.walk.actions.size()}}) {
@@ -222,6 +222,7 @@ class RobotRun {
     walk.simulated_s = 1e-6 * static_cast<double>(params_.period_us) *
                        static_cast<double>(result_.deadlines.ticks + result_.deadlines.skipped);
     walk.failure = operator_.failure();
+    result_.ended = plan_.has_imu ? operator_.ended() : "unknown: no IMU";
     walk.falls = operator_.falls();
     walk.get_ups = operator_.get_ups();
     if (walk.failure.empty() && !operator_.over()) walk.failure = "the twin's run ended before";

@@ -112,11 +112,9 @@ RunPlan make_plan(const RunWords& words) {
   }
   if (words.take_orders) require_followed_orders(walk.params);
   if (words.get_up) let_robot_get_up(words, walk);
-  if (!words.action.empty()) {
-    const action::CompiledActions made = make_actions(walk.entity, walk.params, words.action);
-    plan.action = require_action(walk.entity, made, words.action);
-    walk.actions = made.words;
-  }
+  const action::CompiledActions made = make_actions(walk.entity, walk.params, words.action);
+  if (!words.action.empty()) plan.action = require_action(walk.entity, made, words.action);
+  if (!made.documents.empty()) walk.actions = made.words;
   if (plan.link.kind == link::Endpoint::Kind::kSerial && plan.link.baud != walk.params.baud) {
     throw cli::ToolError(cli::kBadInput,
                          fmt::format("verp run: the link runs at {} baud, the bus of {} at "
@@ -149,6 +147,7 @@ cli::Json to_json(const RunPlan& plan, const RunResult& result) {
           {"wall_s", walk.wall_s},
           {"digest", fmt::format("0x{:016x}", walk.digest)},
           {"faults", session::fault_names(walk.faults)},
+          {"ended", result.ended},
           {"failure", walk.failure},
           {"interrupted", walk.interrupted},
           {"torque_percent", plan.torque_percent},
@@ -194,7 +193,7 @@ std::string real_time_text(const RunResult& result) {
 std::string to_text(const RunPlan& plan, const RunResult& result) {
   const bool acted = plan.action != 0;
   return fmt::format("{}: {} {:.1f} s on {}\n", plan.walk.params.name,
-                     acted ? "acted for" : "walked", acted ? result.played_s : result.walked_s,
+                     acted ? "acted for" : plan.walk.stands ? "stood for" : "walked", acted ? result.played_s : result.walked_s,
                      link::to_text(plan.link)) +
          row("ticks", fmt::format("{} of {:g} ms, digest 0x{:016x}", result.walk.ticks,
                                   1e-3 * plan.walk.params.period_us, result.walk.digest)) +
@@ -210,6 +209,7 @@ std::string to_text(const RunPlan& plan, const RunResult& result) {
                          result.link.overruns, result.link.losses)) +
          row("IMU", plan.has_imu ? fmt::format("device {}", plan.walk.params.imu.device_id)
                                  : "none: upright was assumed, balance was off") +
+         row("ended", result.ended) +
          row("torque", result.silent_servos + result.stiff_servos == 0
                            ? "off, said every servo"
                            : "NOT known to be off everywhere");

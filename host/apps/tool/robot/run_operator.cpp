@@ -1,5 +1,7 @@
 #include "host/apps/tool/robot/run_operator.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "host/run/session/fault_names.hpp"
@@ -9,9 +11,9 @@ namespace verp::tool {
 using safety::Mode;
 
 RunOperator::RunOperator(const Params& params, const Command& velocity, double walk_s, Told told,
-                         int get_ups)
+                         int get_ups, bool stands)
     : params_(params),
-      walker_(params, velocity, walk_s, get_ups),
+      walker_(params, velocity, walk_s, get_ups, stands),
       told_(std::move(told)),
       period_s_(1e-6 * params.period_us),
       most_s_(walk_s),
@@ -86,6 +88,13 @@ void RunOperator::observe(const State& state, const Outputs& outputs) {
   }
   const bool ending = sitting_ || limp_;
   quiet_ticks_ = ending && outputs.torque_enable == 0 ? quiet_ticks_ + 1 : 0;
+  ending_.observe(state, outputs, period_s_);
+  if (ending && !limp_ && ending_.fell()) {
+    fail(
+        fmt::format("{:.1f} s after torque went off it fell and {}: hold it at the end, or give "
+                    "it an action lie_down (manual: actions)",
+                    ending_.fell_s(), ending_.words()));
+  }
 }
 
 }  // namespace verp::tool

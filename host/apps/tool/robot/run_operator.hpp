@@ -8,6 +8,7 @@
 #include "common/control/state.hpp"
 #include "common/safety/machine.hpp"
 #include "firmware/app/contracts.hpp"
+#include "host/apps/tool/robot/run_ending.hpp"
 #include "host/author/action/play_operator.hpp"
 #include "host/run/session/fall_story.hpp"
 #include "host/run/session/walk_operator.hpp"
@@ -23,9 +24,10 @@ class RunOperator {
   using Told = std::function<void(safety::Mode from, safety::Mode to, std::uint32_t faults,
                                   const std::string& story, const std::string& silent)>;
 
-  /// `get_ups`: attempts in a row after a fall; 0: a fall ends the walk.
+  /// `get_ups`: attempts in a row after a fall; 0: a fall ends the walk. `stands`: instead of a
+  /// walk.
   RunOperator(const Params& params, const Command& velocity, double walk_s, Told told,
-              int get_ups = 0);
+              int get_ups = 0, bool stands = false);
 
   app::OperatorOrder order(std::uint32_t tick);
   void observe(const State& state, const Outputs& outputs);
@@ -42,8 +44,12 @@ class RunOperator {
   /// From now on: no torque.
   void let_go() { limp_ = true; }
 
-  /// Torque has been off long enough for every servo to receive that.
-  bool over() const { return quiet_ticks_ >= kQuietTicks; }
+  /// Torque has been off long enough for every servo to receive that, and for a fall to be seen.
+  bool over() const {
+    return quiet_ticks_ >= kQuietTicks && (limp_ || ending_.limp_s() >= kFalls_s);
+  }
+  /// How it ended, in words.
+  std::string ended() const { return ending_.words(); }
   double walked_s() const { return orders_ ? walked_s_ : walker_.walked_s(); }
   int falls() const { return story_.falls(); }
   int get_ups() const { return story_.get_ups(); }
@@ -52,7 +58,8 @@ class RunOperator {
   const std::string& failure() const { return failure_; }
 
  private:
-  static constexpr int kQuietTicks = 10;  ///< over three times App's repeats
+  static constexpr int kQuietTicks = 10;   ///< over three times App's repeats
+  static constexpr double kFalls_s = 2.0;  ///< a crouch that tips over lies after 1.5 s
 
   void fail(const std::string& why);
   void observe_mode(safety::Mode from, const State& state, const Outputs& outputs);
@@ -67,6 +74,7 @@ class RunOperator {
   const double period_s_, most_s_;
   const bool gets_up_;
   session::FallStory story_;
+  RunEnding ending_;
   double obeyed_s_ = 0, walked_s_ = 0;  ///< with orders_
   Command relax_;
   safety::Mode mode_ = safety::Mode::kRelaxed;

@@ -28,6 +28,7 @@ struct RunResult {
   WalkResult walk;              ///< only ticks, digest, faults, failure, interrupted
   bool device_trouble = false;  ///< link or device caused walk.failure
   double walked_s = 0, played_s = 0;
+  std::string ended;  ///< "lies on its front"
   bus::LinkFit fit;
   cli::RealTime real_time;
   app::Deadlines deadlines;
