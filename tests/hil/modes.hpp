@@ -17,8 +17,8 @@ enum Mode {
   kGettingUp,
   kLyingDown
 };
-inline constexpr const char* kModeNames[] = {
-    "relaxed", "rising",  "standing", "walking", "holding",    "sitting",
-    "fallen",  "stopped", "acting",   "falling", "getting up", "lying down"};
+inline constexpr const char* kModeNames[] = {"relaxed", "rising",  "standing",   "walking",
+                                             "holding", "sitting", "fallen",     "stopped",
+                                             "acting",  "falling", "getting up", "lying down"};
 
 }  // namespace verp::test

@@ -54,7 +54,7 @@ class SafeTable {
   static constexpr double kLies_s = 1.0;    ///< limp before it gets up
   static constexpr double kFalls_s = 0.7;
   static constexpr double kLiesDown_s = 1.0;  ///< no robot is on the floor sooner
-  int servo_bad_[kMaxJoints] = {};  ///< consecutive readings
+  int servo_bad_[kMaxJoints] = {};            ///< consecutive readings
   int supply_low_ = 0;
   static constexpr int kHeld_s = 3, kFlutter_s = 12;
   int flutter_us_ = 0;     ///< of holdings; time takes it away

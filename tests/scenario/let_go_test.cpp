@@ -55,6 +55,12 @@ TEST_P(LettingGo, ThrowsARobotDownThatCannotLieDown) {
 INSTANTIATE_TEST_SUITE_P(Robots, LettingGo, testing::Values("generic21", "op3", "darwin_op"),
                          [](const auto& each) { return std::string(each.param); });
 
+TEST(LettingGoOverCan, ComesAfterLyingDownToo) {
+  const LetGo ends = let_go(model::load_robot(model::find_model("generic21"), "can"));
+  EXPECT_TRUE(ends.good) << ends.words();
+  EXPECT_EQ(ends.ends, "lies on its front");
+}
+
 TEST(LettingGoOfAnArm, IsNotTried) {
   model::Entity entity = model::load_robot(model::find_model("generic21"));
   entity.limbs.clear();

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -11,10 +10,7 @@
 #include "common/model/image.hpp"
 #include "host/robot/model/bus_time.hpp"
 #include "host/robot/model/couplings.hpp"
-#include "host/robot/model/find.hpp"
 #include "host/robot/model/leg.hpp"
-#include "host/robot/model/load.hpp"
-#include "host/robot/model/load_world.hpp"
 #include "host/robot/model/params.hpp"
 #include "host/robot/model/servo_types.hpp"
 #include "host/robot/model/stance.hpp"

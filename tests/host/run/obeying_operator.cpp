@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "common/safety/machine.hpp"
 #include "host/apps/tool/robot/run_operator.hpp"
 
@@ -30,13 +32,16 @@ class Obeying : public ::testing::Test {
     outputs.mode = static_cast<std::uint8_t>(mode);
     outputs.torque_enable = mode == Mode::kRelaxed ? 0 : 1;
     outputs.faults = faults;
-    who.observe(State{}, outputs);
+    State state;
+    state.attitude.up_body = {-std::sin(pitch_rad), 0, std::cos(pitch_rad)};
+    who.observe(state, outputs);
     return order.command.request;
   }
 
   Params params;
   RunOperator who{params, {}, kMost_s, [](auto...) {}};
   Request ordered = Request::kStand;
+  float pitch_rad = 0;
   std::uint32_t ticks = 0;
 };
 
@@ -48,9 +53,12 @@ TEST_F(Obeying, PassesOnWhatIsOrderedUntilItsTimeIsOverThenSitsDown) {
   for (int i = 0; i < 49; ++i) tick(Mode::kStanding);
   EXPECT_EQ(tick(Mode::kStanding), Request::kRelax) << "2 s are over, whatever is ordered";
   EXPECT_FALSE(who.over());
-  for (int i = 0; i < 20; ++i) tick(Mode::kRelaxed);
+  for (int i = 0; i < 199; ++i) tick(Mode::kRelaxed);
+  EXPECT_FALSE(who.over()) << "a crouch that tips over takes its time";
+  for (int i = 0; i < 2; ++i) tick(Mode::kRelaxed);
   EXPECT_TRUE(who.over());
   EXPECT_EQ(who.failure(), "");
+  EXPECT_EQ(who.ended(), "is upright, 0 degrees off");
 }
 
 TEST_F(Obeying, ARobotThatWasOrderedToLetGoHasNotFailed) {
@@ -68,6 +76,27 @@ TEST_F(Obeying, OneThatLetGoForAFaultHas) {
   tick(Mode::kRelaxed, 1);
   EXPECT_NE(who.failure(), "");
   EXPECT_EQ(tick(Mode::kRelaxed), Request::kRelax);
+}
+
+TEST_F(Obeying, OneThatFallsAfterItLetGoHas) {
+  tick(Mode::kSitting);
+  who.sit_down();
+  for (int i = 0; i < 60; ++i) tick(Mode::kRelaxed);
+  pitch_rad = -1.2F;
+  tick(Mode::kRelaxed);
+  EXPECT_NE(who.failure().find("0.6 s after torque went off it fell and lies on its back"),
+            std::string::npos)
+      << who.failure();
+}
+
+TEST_F(Obeying, OneThatLayBeforeItLetGoHasNot) {
+  pitch_rad = 1.5F;
+  tick(Mode::kLyingDown);
+  who.sit_down();
+  for (int i = 0; i < 210; ++i) tick(Mode::kRelaxed);
+  EXPECT_TRUE(who.over());
+  EXPECT_EQ(who.failure(), "");
+  EXPECT_EQ(who.ended(), "lies on its front");
 }
 
 TEST_F(Obeying, CtrlCGoesBeforeOrders) {

@@ -105,7 +105,7 @@ TEST_F(TimelyRobot, AnInterruptSitsTheRobotDown) {
   }
 }
 
-TEST_F(TimelyRobot, PlaysAnActionThenSitsDownAndLetsGo) {
+TEST_F(TimelyRobot, PlaysAnActionThenLiesDownAndLetsGo) {
   serve();
   plug({1000, 1000});
   auto program =
@@ -116,6 +116,7 @@ TEST_F(TimelyRobot, PlaysAnActionThenSitsDownAndLetsGo) {
   const Json result = result_of(outcome);
   EXPECT_GT(result.value("action_s", 0.0), 1.0);
   EXPECT_EQ(result.value("let_go", false), true);
+  EXPECT_EQ(result.value("ended", ""), "lies on its front");
   EXPECT_EQ(verp("replay run.mcap").status, 0);
 }
 
@@ -126,7 +127,7 @@ Json verdict_of(Process& twin, int status) {
   return result_of(outcome);
 }
 
-TEST_F(TimelyRobot, LyingDownLimpAfterAGoodWalkIsNoFall) {
+TEST_F(TimelyRobot, LyingDownAfterAGoodWalkIsNoFall) {
   serve();
   plug({1000, 1000});
   auto program = run({"--yes", "--period", "20", "--for", "60"});
@@ -174,8 +175,9 @@ TEST_F(TimelyRobot, ALostCableIsNamedAndEndsByTheTable) {
   cable_.reset();
   const Outcome outcome = program->wait();
   EXPECT_EQ(outcome.status, 3);
-  for (const char* said : {"the link is lost", "to holding (", "holding to sitting",
-                           "sitting to relaxed", "21 servos did not say that they let go"}) {
+  for (const char* said :
+       {"the link is lost", "to holding (", "holding to sitting", "sitting to lying down",
+        "lying down to relaxed", "21 servos did not say that they let go"}) {
     EXPECT_NE(outcome.err.find(said), std::string::npos) << said << "\n" << outcome.err;
   }
   const Json result = result_of(outcome);

@@ -79,6 +79,22 @@ void let_robot_get_up(const RunWords& words, WalkPlan& walk) {
   action::take_get_up_actions(walk);
 }
 
+/// All of the robot's actions, as its firmware has them. A wrong file is no reason to refuse a
+/// walk.
+void take_actions(const RunWords& words, RunPlan& plan) {
+  WalkPlan& walk = plan.walk;
+  try {
+    const action::CompiledActions made = make_actions(walk.entity, walk.params, words.action);
+    if (!words.action.empty()) plan.action = require_action(walk.entity, made, words.action);
+    if (!made.documents.empty()) walk.actions = made.words;
+  } catch (const model::LoadError& error) {
+    if (!words.action.empty() || walk.get_ups > 0) throw;
+    cli::complain(
+        fmt::format("verp run: only its action lie_down is loaded, because {}", error.what()));
+    action::take_lie_down(walk);
+  }
+}
+
 RunPlan make_plan(const RunWords& words) {
   RunPlan plan;
   plan.link = link::parse_endpoint(words.link);
@@ -112,9 +128,7 @@ RunPlan make_plan(const RunWords& words) {
   }
   if (words.take_orders) require_followed_orders(walk.params);
   if (words.get_up) let_robot_get_up(words, walk);
-  const action::CompiledActions made = make_actions(walk.entity, walk.params, words.action);
-  if (!words.action.empty()) plan.action = require_action(walk.entity, made, words.action);
-  if (!made.documents.empty()) walk.actions = made.words;
+  take_actions(words, plan);
   if (plan.link.kind == link::Endpoint::Kind::kSerial && plan.link.baud != walk.params.baud) {
     throw cli::ToolError(cli::kBadInput,
                          fmt::format("verp run: the link runs at {} baud, the bus of {} at "
@@ -192,9 +206,9 @@ std::string real_time_text(const RunResult& result) {
 
 std::string to_text(const RunPlan& plan, const RunResult& result) {
   const bool acted = plan.action != 0;
-  return fmt::format("{}: {} {:.1f} s on {}\n", plan.walk.params.name,
-                     acted ? "acted for" : plan.walk.stands ? "stood for" : "walked", acted ? result.played_s : result.walked_s,
-                     link::to_text(plan.link)) +
+  const char* did = acted ? "acted for" : plan.walk.stands ? "stood for" : "walked";
+  return fmt::format("{}: {} {:.1f} s on {}\n", plan.walk.params.name, did,
+                     acted ? result.played_s : result.walked_s, link::to_text(plan.link)) +
          row("ticks", fmt::format("{} of {:g} ms, digest 0x{:016x}", result.walk.ticks,
                                   1e-3 * plan.walk.params.period_us, result.walk.digest)) +
          (plan.walk.get_ups > 0 ? row("falls", fmt::format("{}; got up {} times", result.walk.falls,
