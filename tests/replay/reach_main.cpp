@@ -121,16 +121,21 @@ void fall() {
   }
 }
 
-// It sits, lies down by its action and lets go.
+// It sits, lies down by its action and lets go; then one forgets its action on the way.
 void lie_down() {
   action::test::Shelf shelf = control::test::falling_shelf();
   __builtin_memcpy(shelf.action[0].name, action::kLieDown, kNameLength);
   shelf.seal();
-  control::test::FallingLoop loop;
-  loop.actions = shelf.library();
-  follow(loop, 300);
-  loop.command.request = Request::kRelax;
-  follow(loop, 600);
+  for (const int forgets : {300, 5}) {
+    control::test::FallingLoop loop;
+    loop.actions = shelf.library();
+    follow(loop, 300);
+    loop.command.request = Request::kRelax;
+    while (!loop.is_in(safety::Mode::kLyingDown)) follow(loop, 1);
+    follow(loop, forgets);
+    loop.state.action = action::PlayerState{};
+    follow(loop, 10);
+  }
 }
 
 // Its operator is quiet while it walks any way, with and without steps of one length; then a servo

@@ -76,6 +76,14 @@ TEST(LyingDown, LeavesARobotThatRefusesToStandWithoutARequestToGetUp) {
   }
 }
 
+TEST(LyingDown, NeverOutlastsItsAction) {
+  FallingLoop loop = lying_down();
+  loop.ticks(10);
+  loop.state.action = action::PlayerState{};
+  loop.tick();
+  EXPECT_TRUE(loop.is_in(Mode::kRelaxed));
+}
+
 TEST(LyingDown, NeedsItsAction) {
   FallingLoop loop;
   ASSERT_GE(loop.until(Mode::kStanding, 200), 0);
