@@ -213,7 +213,7 @@ Walk walk_of(const WalkOptions& options) {
   walk.run = expand(options, walk.scenario, world);
   for (session::WalkPlan& plan : walk.run.plans) {
     if (plan.get_ups > 0) action::take_get_up_actions(plan);
-    action::take_lie_down(plan);
+    if (plan.link.empty()) action::take_lie_down(plan);  // else its controller has its own
   }
   return walk;
 }

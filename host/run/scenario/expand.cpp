@@ -24,8 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 using session::WalkPlan;
 
-/// A robot at a link rises before its walk and sits down after.
-constexpr double kBeforeAndAfter_s = 10;
+/// A robot at a link rises before its walk, and sits and lies down after.
+constexpr double kBeforeAndAfter_s = 20;
 constexpr double kGetUps_s = 60;
 
 /// The decimal number behind a float: 0.06 for 0.06F.

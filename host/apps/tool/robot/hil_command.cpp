@@ -97,7 +97,6 @@ Walk walk_of(const WalkOptions& options, bool gives_orders) {
   walk.run = expand(options, walk.scenario, world);
   session::WalkPlan& plan = walk.run.plans.front();
   if (gives_orders && plan.get_ups > 0) action::take_get_up_actions(plan);
-  if (gives_orders) action::take_lie_down(plan);
   return walk;
 }
 
