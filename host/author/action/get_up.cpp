@@ -20,13 +20,13 @@ void take_get_up_actions(session::WalkPlan& plan) {
 }
 
 std::string offer_get_up_actions(session::WalkPlan& plan) {
-  if (!plan.actions.empty()) return "";
+  if (plan.get_ups > 0) return "";  // it has them
   try {
     const auto folder = folder_of(plan.entity.file);
     CompiledActions made = make_library(plan.params, read_folder(folder));
     const bool both = made.number(kGetUpFront) != 0 && made.number(kGetUpBack) != 0;
     if (both) plan.actions = std::move(made.words);
-    take_lie_down(plan);
+    take_lie_down(plan);  // if it has no others
   } catch (const model::LoadError& error) {
     return error.what();
   }
