@@ -3,27 +3,33 @@
 
 namespace verp::session {
 
-/// How fast a robot's centre of mass came down since it was last upright.
+/// How a robot came down since it was last upright: how fast its centre of mass, and whether its
+/// joints followed their goals. A robot without strength sinks slowly, too.
 class Descent {
  public:
   /// Lying down on purpose loses up to 5 % of its height as free fall (generic21, op3, darwin_op);
   /// a crouch that goes limp 11 %, a fall from the stand 30 % and more.
   static constexpr double kGently = 0.08;
   static constexpr double kUpright_rad = 0.2;
+  static constexpr double kFollows_rad = 0.5;
 
-  void see(double tilt_rad, double com_height_m, double com_up_m_s) {
+  /// `off_rad`: the joint that is furthest from its goal.
+  void see(double tilt_rad, double com_height_m, double com_up_m_s, double off_rad = 0) {
     highest_m_ = std::max(highest_m_, com_height_m);
     fastest_m_s_ = tilt_rad < kUpright_rad ? 0 : std::max(fastest_m_s_, -com_up_m_s);
+    off_rad_ = off_rad;
   }
   /// Free fall that gives its fastest speed, as a share of its height.
   double fall_share(double gravity_m_s2) const {
     const double height_m = 2 * gravity_m_s2 * highest_m_;
     return height_m > 0 ? fastest_m_s_ * fastest_m_s_ / height_m : 0;
   }
-  bool gentle(double gravity_m_s2) const { return fall_share(gravity_m_s2) <= kGently; }
+  bool gentle(double gravity_m_s2) const {
+    return fall_share(gravity_m_s2) <= kGently && off_rad_ <= kFollows_rad;
+  }
 
  private:
-  double highest_m_ = 0, fastest_m_s_ = 0;
+  double highest_m_ = 0, fastest_m_s_ = 0, off_rad_ = 0;
 };
 
 /// Decides whether a lying robot fell, lay down, or was released. A controller that foresees its

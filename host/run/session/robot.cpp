@@ -200,6 +200,18 @@ bool Robot::has_torque() {
   return false;
 }
 
+double Robot::furthest_from_goal_rad(const sim::Truth& truth) {
+  double furthest_rad = 0;
+  for (std::size_t j = 0; j < truth.joint_rad.size(); ++j) {
+    if (twin_.entity().joints[j].follows >= 0) continue;
+    const int joint = static_cast<int>(j);
+    const double goal_rad = sim::angle_of(twin_.entity().joints[j].servo,
+                                          static_cast<double>(twin_.setpoint(joint).goal_count));
+    furthest_rad = std::max(furthest_rad, std::abs(goal_rad - truth.joint_rad[j]));
+  }
+  return furthest_rad;
+}
+
 bool Robot::set_upright() {
   if (!twin_.set_upright()) return false;
   verdict_.set_upright();
@@ -218,7 +230,8 @@ void Robot::watch() {
   ++result_.ticks;
   const double up = std::clamp(seen.truth.body_world.linear()(2, 2), -1.0, 1.0);
   const double tilt_rad = std::acos(up);
-  descent_.see(tilt_rad, seen.truth.com_world_m.z(), seen.truth.com_velocity_world_m_s.z());
+  descent_.see(tilt_rad, seen.truth.com_world_m.z(), seen.truth.com_velocity_world_m_s.z(),
+               furthest_from_goal_rad(seen.truth));
   verdict_.see(torque, tilt_rad, twin_.fallen(), descent_.gentle(world_.options().gravity_m_s2));
   const bool may_get_up = plan_.get_ups > 0;  // then only staying down is a fall
   if (may_get_up && twin_.forget_fall()) verdict_.forget();

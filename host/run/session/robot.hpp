@@ -95,6 +95,7 @@ class Robot {
   void look_after_falls();
   void tell(const std::string& news);
   void count_traffic();
+  double furthest_from_goal_rad(const sim::Truth& truth);
   double walked_s() const;
 
   const WalkPlan plan_;

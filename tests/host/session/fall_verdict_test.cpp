@@ -68,6 +68,16 @@ TEST(FallVerdict, ARobotThatLiesDownGentlyWithTorqueDoesNotFall) {
   }
 }
 
+TEST(FallVerdict, ARobotThatSinksBecauseItIsWeakFalls) {
+  FallVerdict verdict;
+  Descent descent;
+  for (double tilt = 0; tilt < 1.4; tilt += 0.1) {
+    descent.see(tilt, 0.2 * std::cos(tilt), -0.1, tilt);
+    verdict.see(true, tilt, tilt > 1, descent.gentle(9.8));
+  }
+  EXPECT_TRUE(verdict.fell());
+}
+
 TEST(FallVerdict, IsOneThingAndStaysThat) {
   std::minstd_rand random(3);
   std::uniform_real_distribution<double> tilt(0, 2);
