@@ -3,21 +3,23 @@
 
 namespace verp::session {
 
-/// How a robot came down since it was last upright: how fast its centre of mass, and whether its
-/// joints followed their goals. A robot without strength sinks slowly, too.
+/// How a robot came down since it was last upright. One that lies down on purpose crouches first,
+/// by its goals: a weak robot sinks, too, but its joints do not follow.
 class Descent {
  public:
   /// Lying down on purpose loses up to 5 % of its height as free fall (generic21, op3, darwin_op);
   /// a crouch that goes limp 11 %, a fall from the stand 30 % and more.
   static constexpr double kGently = 0.08;
   static constexpr double kUpright_rad = 0.2;
-  static constexpr double kFollows_rad = 0.5;
+  static constexpr double kFollows_rad = 0.3;
+  static constexpr double kCrouches = 0.85;  ///< of its height
 
   /// `off_rad`: the joint that is furthest from its goal.
   void see(double tilt_rad, double com_height_m, double com_up_m_s, double off_rad = 0) {
     highest_m_ = std::max(highest_m_, com_height_m);
-    fastest_m_s_ = tilt_rad < kUpright_rad ? 0 : std::max(fastest_m_s_, -com_up_m_s);
-    off_rad_ = off_rad;
+    const bool upright = tilt_rad < kUpright_rad;
+    if (upright) crouched_ = com_height_m < kCrouches * highest_m_ && off_rad < kFollows_rad;
+    fastest_m_s_ = upright ? 0 : std::max(fastest_m_s_, -com_up_m_s);
   }
   /// Free fall that gives its fastest speed, as a share of its height.
   double fall_share(double gravity_m_s2) const {
@@ -25,11 +27,12 @@ class Descent {
     return height_m > 0 ? fastest_m_s_ * fastest_m_s_ / height_m : 0;
   }
   bool gentle(double gravity_m_s2) const {
-    return fall_share(gravity_m_s2) <= kGently && off_rad_ <= kFollows_rad;
+    return crouched_ && fall_share(gravity_m_s2) <= kGently;
   }
 
  private:
-  double highest_m_ = 0, fastest_m_s_ = 0, off_rad_ = 0;
+  double highest_m_ = 0, fastest_m_s_ = 0;
+  bool crouched_ = false;
 };
 
 /// Decides whether a lying robot fell, lay down, or was released. A controller that foresees its
@@ -46,7 +49,7 @@ class FallVerdict {
     driven_ = driven_ || torque;
     if (torque) tipping_ = tilt_rad > kTipping_rad;
     if (!lies || fell_ || lay_down_) return;
-    ((torque || tipping_) && !gently ? fell_ : lay_down_) = true;
+    ((torque ? !gently : tipping_) ? fell_ : lay_down_) = true;
   }
 
   void set_upright() { tipping_ = lay_down_ = false; }

@@ -24,7 +24,7 @@ TEST(FallVerdict, AControllerThatLetsGoOfATippingRobotDoesNotMakeItGood) {
   FallVerdict verdict;
   verdict.see(true, 0.8, false);  // fall_tilt_rad: goes limp
   for (int i = 0; i < 20; ++i) verdict.see(false, 0.8 + 0.01 * i, false);
-  verdict.see(false, 1.01, true);
+  verdict.see(false, 1.01, true, true);
   EXPECT_TRUE(verdict.fell());
 }
 
@@ -54,28 +54,32 @@ TEST(FallVerdict, ARobotThatIsLetGoUprightLiesDown) {
   EXPECT_FALSE(verdict.fell());
 }
 
-TEST(FallVerdict, ARobotThatLiesDownGentlyWithTorqueDoesNotFall) {
-  const double height_m = 0.2, gravity_m_s2 = 9.8;
-  for (const double fastest_m_s : {0.4, 0.8}) {
-    FallVerdict verdict;
-    Descent descent;
-    for (double tilt = 0; tilt < 1.4; tilt += 0.1) {
-      descent.see(tilt, height_m * std::cos(tilt), tilt > 0.5 ? -fastest_m_s : 0);
-      verdict.see(true, tilt, tilt > 1, descent.gentle(gravity_m_s2));
-    }
-    EXPECT_EQ(verdict.fell(), fastest_m_s > 0.5) << fastest_m_s;
-    EXPECT_EQ(verdict.lay_down(), fastest_m_s < 0.5) << fastest_m_s;
-  }
-}
+struct Down {
+  double crouch = 0.7, fastest_m_s = 0.4, off_rad = 0.1;
+};
 
-TEST(FallVerdict, ARobotThatSinksBecauseItIsWeakFalls) {
+/// Stands 0.2 m high, crouches, then goes down with torque.
+FallVerdict after(const Down& down) {
+  const double height_m = 0.2, gravity_m_s2 = 9.8;
   FallVerdict verdict;
   Descent descent;
+  descent.see(0, height_m, 0);
   for (double tilt = 0; tilt < 1.4; tilt += 0.1) {
-    descent.see(tilt, 0.2 * std::cos(tilt), -0.1, tilt);
-    verdict.see(true, tilt, tilt > 1, descent.gentle(9.8));
+    descent.see(tilt, height_m * down.crouch * std::cos(tilt), tilt > 0.5 ? -down.fastest_m_s : 0,
+                down.off_rad);
+    verdict.see(true, tilt, tilt > 1, descent.gentle(gravity_m_s2));
   }
-  EXPECT_TRUE(verdict.fell());
+  return verdict;
+}
+
+TEST(FallVerdict, ARobotThatLiesDownFromItsCrouchDoesNotFall) {
+  EXPECT_TRUE(after({}).lay_down());
+}
+
+TEST(FallVerdict, ARobotThatComesDownFastOrFromTheStandOrBecauseItIsWeakFalls) {
+  EXPECT_TRUE(after({.fastest_m_s = 0.8}).fell());
+  EXPECT_TRUE(after({.crouch = 1}).fell());
+  EXPECT_TRUE(after({.off_rad = 1}).fell());
 }
 
 TEST(FallVerdict, IsOneThingAndStaysThat) {
