@@ -231,6 +231,7 @@ TEST_F(CanTools, TsharkReadsAWalkAsWeSayItIs) {
   expect_settings(at.front());
   EXPECT_TRUE(some(0, frames.size(), "EMCY").empty());
 
+  const action::Library actions = trace.library();
   State state;
   std::size_t driven = 0, uploads = 0, velocities = 0, torques = 0;
   Frames telemetry;
@@ -242,7 +243,7 @@ TEST_F(CanTools, TsharkReadsAWalkAsWeSayItIs) {
     const Inputs& inputs = trace.ticks[i].inputs;
     expect_answers(inputs, from, to);
     Outputs outputs;
-    step(params, state, inputs, outputs);
+    step(params, actions, state, inputs, outputs);
     if (outputs.torque_enable != 0) {
       expect_goals(outputs, from, to);
       ++driven;

@@ -64,8 +64,9 @@ inline void expect_table(const record::Trace& trace, std::uint32_t* seen = nullp
   auto state = std::make_unique<State>();
   Outputs outputs;
   verp::test::SafeTable safe(trace.params);
+  const action::Library actions = trace.library();
   for (const TickRecord& tick : trace.ticks) {
-    step(trace.params, *state, tick.inputs, outputs);
+    step(trace.params, actions, *state, tick.inputs, outputs);
     ASSERT_EQ(state->digest.chain, tick.digest.chain) << "tick " << tick.inputs.tick;
     safe.tick(tick.inputs, outputs);
   }
