@@ -11,6 +11,7 @@
 #include "host/apps/tool/radio_words.hpp"
 #include "host/author/action/get_up.hpp"
 #include "host/boards/flash/recipe.hpp"
+#include "host/robot/model/load_error.hpp"
 #include "host/robot/model/params.hpp"
 #include "host/run/scenario/text.hpp"
 #include "host/twin/sim/scenery.hpp"
