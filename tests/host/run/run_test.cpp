@@ -265,17 +265,17 @@ TEST_F(TimelyRobot, ASilentImuIsNeverPassedOver) {
 TEST_F(TimelyRobot, TorqueIsLimitedInEveryServo) {
   serve();
   plug({1000, 1000});
-  auto program = run({"--yes", "--period", "20", "--torque", "60"});
+  auto program = run({"--yes", "--period", "20", "--torque", "30"});
   ASSERT_TRUE(program->says("relaxed to rising"));
   program->signal(SIGINT);
-  EXPECT_EQ(result_of(program->wait()).value("torque_percent", 0), 60);
+  EXPECT_EQ(result_of(program->wait()).value("torque_percent", 0), 30);
   for (const char* id : {"1", "14", "21"}) {
     Outcome read;  // retries on a late PC
     for (int i = 0; i < 20 && read.out.find("registers") == std::string::npos; ++i) {
       read = verp("bus read --register goal_pwm --json --id " + std::string(id) +
                   " --link serial:" + port() + "@2000000");
     }
-    EXPECT_EQ(Json::parse(read.out).at("registers").at("goal_pwm"), 885 * 60 / 100) << read.err;
+    EXPECT_EQ(Json::parse(read.out).at("registers").at("goal_pwm"), 885 * 30 / 100) << read.err;
   }
 }
 
