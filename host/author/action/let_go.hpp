@@ -7,7 +7,7 @@
 
 namespace verp::action {
 
-/// What happens in the twin to a robot that is asked to relax.
+/// The end of a robot in the twin that is asked to relax.
 struct LetGo {
   bool tried = false;       ///< it has legs, stood, and let go
   bool by_action = false;   ///< it lay down by its action lie_down

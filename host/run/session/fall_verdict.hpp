@@ -7,8 +7,8 @@ namespace verp::session {
 /// by its goals: a weak robot sinks, too, but its joints do not follow.
 class Descent {
  public:
-  /// Lying down on purpose loses up to 5 % of its height as free fall (generic21, op3, darwin_op);
-  /// a crouch that goes limp 11 %, a fall from the stand 30 % and more.
+  /// Share of the height that is lost as free fall (`verp check --json`): 1 to 3 % by generic21's,
+  /// op3's and darwin_op's lie_down, at most 5 % in its test.
   static constexpr double kGently = 0.08;
   static constexpr double kUpright_rad = 0.2;
   static constexpr double kFollows_rad = 0.3;

@@ -58,7 +58,7 @@ TEST_F(Obeying, PassesOnWhatIsOrderedUntilItsTimeIsOverThenSitsDown) {
   for (int i = 0; i < 2; ++i) tick(Mode::kRelaxed);
   EXPECT_TRUE(who.over());
   EXPECT_EQ(who.failure(), "");
-  EXPECT_EQ(who.ended(), "is upright, 0 degrees off");
+  EXPECT_EQ(who.ended(), "is upright");
 }
 
 TEST_F(Obeying, ARobotThatWasOrderedToLetGoHasNotFailed) {

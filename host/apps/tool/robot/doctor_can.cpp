@@ -14,7 +14,7 @@ constexpr std::uint32_t kListen_us = 300'000;
 constexpr canopen::Address kErrorRegister{0x1001, 0};
 constexpr std::uint32_t kManyErrors = 96;  // CAN: the controller warns from here on
 
-/// What others send while we are quiet.
+/// Frames of others, heard while this program sends nothing.
 struct Overheard {
   std::uint32_t frames = 0;
   std::uint32_t master_id = 0;

@@ -7,11 +7,11 @@
 
 namespace verp::tool {
 
-/// What came over a byte link after a request.
+/// The bytes that came over a link after a request, taken apart.
 struct LineAnswer {
   std::size_t bytes = 0;      ///< without the echo
   bool echo = false;          ///< our own bytes came back
-  bool master = false;        ///< somebody else's request was heard
+  bool master = false;        ///< another master's request was heard
   std::set<int> ids;          ///< of sound answers in Protocol 2
   std::set<int> old_ids;      ///< in Protocol 1
   std::uint32_t damaged = 0;  ///< packets
@@ -24,7 +24,7 @@ LineAnswer take_apart(const std::vector<std::uint8_t>& sent, std::vector<std::ui
 LineAnswer listen(link::Link& link, std::uint32_t time_us);
 /// Sends a Ping to all ids.
 LineAnswer ping_all(link::Link& link);
-/// What one id's Ping or the read of its position brings within `time_us`.
+/// Pings one id, or reads its position, and listens for `time_us`.
 LineAnswer ping_one(link::Link& link, int id, std::uint32_t time_us);
 LineAnswer read_one(link::Link& link, int id, std::uint32_t time_us);
 /// Sends the Ping of Protocol 1 to all ids, then to the first ones in turn.

@@ -50,7 +50,7 @@ class Machine {
   std::vector<RunningProgram> holders(const std::string& device) const;
 
   std::string current_folder;
-  /// Of the environment; empty: not set.
+  /// Value of an environment variable; empty: it is not set.
   std::function<std::string(const std::string& name)> variable;
   std::function<std::vector<link::CanInterface>()> interfaces = link::network_interfaces;
   std::function<std::optional<std::uint64_t>(const std::string& folder)> free_bytes;

@@ -6,8 +6,7 @@
 
 namespace verp::tool {
 
-/// What checks found: what was looked at, what it is like, and the fix: a command to copy, or what
-/// to do.
+/// Results of the checks, a line each: the thing, its state, and the fix, mostly a command to copy.
 class Findings {
  public:
   void good(const std::string& check, const std::string& text) { add("good", check, text, ""); }

@@ -19,13 +19,13 @@ namespace {
 
 namespace at = dxl::address;
 
-constexpr std::uint32_t kQuiet_us = 60'000;      // three periods of the slowest master
-constexpr std::uint32_t kSomebody_us = 500'000;  // until the other end of a link appears
+constexpr std::uint32_t kQuiet_us = 60'000;     // three periods of the slowest master
+constexpr std::uint32_t kAppears_us = 500'000;  // until the other end of a link appears
 constexpr int kPositionReads = 10;
 constexpr std::uint32_t kOldRates[] = {1'000'000, 57'600, 115'200};
 
-/// What the servos told, by kind of trouble.
-struct Ward {
+/// Ids by their trouble, and the lowest supply.
+struct Troubles {
   std::set<int> present, damaged, slow, quiet;
   int lowest_id = 0;
   double lowest_v = 0, wanted_v = 0;
@@ -44,7 +44,7 @@ class SerialDoctor {
   void read_registers(bus::Client& client, const bus::Identity& servo,
                       const dxl::ServoModel& model);
   void judge_model(const bus::Identity& servo);
-  void judge_ward();
+  void judge_troubles();
   void judge_damaged();
   void judge_link(bus::Client& client);
   void judge_other_rates(std::set<int>& present);
@@ -59,15 +59,16 @@ class SerialDoctor {
   const BusCase& bus_;
   Findings& found_;
   LineAnswer heard_;
-  Ward ward_;
+  Troubles troubles_;
 };
 
 void SerialDoctor::examine() {
   bool silent = false;
   {
     link::Link link(bus_.endpoint);
-    if (!link.wait_connected(kSomebody_us)) {
-      return found_.bad("link", "nobody is at the other end", "start it, or check the cable");
+    if (!link.wait_connected(kAppears_us)) {
+      return found_.bad("link", fmt::format("no program is at the other end of {}", bus_.link),
+                        "start it (verp hil --link LINK), or correct the path");
     }
     const LineAnswer before = listen(link, kQuiet_us);
     if (before.master || !before.ids.empty()) {
@@ -86,7 +87,7 @@ void SerialDoctor::examine() {
     silent = heard_.ids.empty() && heard_.damaged == 0;
     if (!silent) examine_servos(link, heard_.ids);
   }
-  std::set<int> present = ward_.present;
+  std::set<int> present = troubles_.present;
   if (present.empty()) return judge_silence();
   if (!bus_.robot) return;
   const std::set<int> wanted = devices_of(bus_);
@@ -104,10 +105,10 @@ void SerialDoctor::examine_servos(link::Link& link, std::set<int> ids) {
     const auto servo = client.ping(static_cast<std::uint8_t>(id), 2);
     const bool clear = servo ? examine_servo(link, client, *servo)
                              : ping_one(link, id, bus_.timeout_us).bytes == 0;
-    if (servo || !clear) ward_.present.insert(id);
-    if (!clear) ward_.damaged.insert(id);
+    if (servo || !clear) troubles_.present.insert(id);
+    if (!clear) troubles_.damaged.insert(id);
   }
-  judge_ward();
+  judge_troubles();
   if (!found_.any_bad()) judge_link(client);
 }
 
@@ -124,7 +125,7 @@ bool SerialDoctor::examine_servo(link::Link& link, bus::Client& client,
   }
   if (client.crc_errors() != before) return false;
   if (good == 0 && read_one(link, servo.id, bus_.timeout_us).bytes > 0) return false;
-  if (good == 0) ward_.quiet.insert(servo.id);  // it answers pings only
+  if (good == 0) troubles_.quiet.insert(servo.id);  // it answers pings only
   try {
     if (good > 0) read_registers(client, servo, *model);
   } catch (const bus::DeviceError& error) {
@@ -136,8 +137,8 @@ bool SerialDoctor::examine_servo(link::Link& link, bus::Client& client,
 void SerialDoctor::read_registers(bus::Client& client, const bus::Identity& servo,
                                   const dxl::ServoModel& model) {
   const auto byte = [&](std::uint16_t address) { return client.read(servo.id, address, 1)[0]; };
-  if (byte(at::kReturnDelay) != 0) ward_.slow.insert(servo.id);
-  if (byte(at::kStatusReturnLevel) != 2) ward_.quiet.insert(servo.id);
+  if (byte(at::kReturnDelay) != 0) troubles_.slow.insert(servo.id);
+  if (byte(at::kStatusReturnLevel) != 2) troubles_.quiet.insert(servo.id);
   if (const unsigned errors = byte(at::kHardwareError); errors != 0) {
     found_.bad(fmt::format("id {}", servo.id),
                fmt::format("{} has a hardware error: {}", bus_.name_of(servo.id),
@@ -148,10 +149,10 @@ void SerialDoctor::read_registers(bus::Client& client, const bus::Identity& serv
   const double wanted_v = bus_.params
                               ? static_cast<double>(bus_.params->tuning.safety.voltage_low_v)
                               : 0.1 * model.low_dv;
-  if (supply_v >= wanted_v || (ward_.lowest_id != 0 && supply_v >= ward_.lowest_v)) return;
-  ward_.lowest_id = servo.id;
-  ward_.lowest_v = supply_v;
-  ward_.wanted_v = wanted_v;
+  if (supply_v >= wanted_v || (troubles_.lowest_id != 0 && supply_v >= troubles_.lowest_v)) return;
+  troubles_.lowest_id = servo.id;
+  troubles_.lowest_v = supply_v;
+  troubles_.wanted_v = wanted_v;
 }
 
 void SerialDoctor::judge_model(const bus::Identity& servo) {
@@ -175,35 +176,35 @@ std::string SerialDoctor::mend(const std::set<int>& ids, const char* name, int v
                      *ids.begin(), name, value);
 }
 
-void SerialDoctor::judge_ward() {
+void SerialDoctor::judge_troubles() {
   judge_damaged();
-  if (!ward_.quiet.empty()) {
-    found_.bad("status level", "not all requests are answered by ids " + list(ward_.quiet),
-               mend(ward_.quiet, "status_return_level", 2));
+  if (!troubles_.quiet.empty()) {
+    found_.bad("status level", "not all requests are answered by ids " + list(troubles_.quiet),
+               mend(troubles_.quiet, "status_return_level", 2));
   }
-  if (!ward_.slow.empty()) {
-    found_.advise(
-        "return delay",
-        "not 0, which wastes time of each tick: " + list(ward_.slow) + "; `verp run` sets it to 0",
-        mend(ward_.slow, "return_delay_time", 0));
+  if (!troubles_.slow.empty()) {
+    found_.advise("return delay",
+                  "not 0, which wastes time of each tick: " + list(troubles_.slow) +
+                      "; `verp run` sets it to 0",
+                  mend(troubles_.slow, "return_delay_time", 0));
   }
-  if (ward_.lowest_id != 0) {
+  if (troubles_.lowest_id != 0) {
     found_.bad(
         "voltage",
         fmt::format("{} measures {:.1f} V; {:.1f} V or more are needed",
-                    bus_.name_of(ward_.lowest_id), ward_.lowest_v, ward_.wanted_v),
+                    bus_.name_of(troubles_.lowest_id), troubles_.lowest_v, troubles_.wanted_v),
         "charge the battery, or raise the supply; then check plugs and cable cross-sections");
   }
 }
 
 void SerialDoctor::judge_damaged() {
-  if (2 * ward_.damaged.size() > ward_.present.size() && ward_.damaged.size() > 1) {
+  if (2 * troubles_.damaged.size() > troubles_.present.size() && troubles_.damaged.size() > 1) {
     return found_.bad("garbage",
-                      fmt::format("{} of {} devices answer damaged packets", ward_.damaged.size(),
-                                  ward_.present.size()),
+                      fmt::format("{} of {} devices answer damaged packets",
+                                  troubles_.damaged.size(), troubles_.present.size()),
                       "check ground, shield and the longest cable; try a lower baud rate");
   }
-  for (const int id : ward_.damaged) {
+  for (const int id : troubles_.damaged) {
     found_.bad(
         fmt::format("id {}", id),
         "two servos have id " + std::to_string(id) + ", or its cable is bad: answers come damaged",
@@ -212,7 +213,7 @@ void SerialDoctor::judge_damaged() {
 }
 
 void SerialDoctor::judge_link(bus::Client& client) {
-  found_.good("devices", fmt::format("{} answer", ward_.present.size()));
+  found_.good("devices", fmt::format("{} answer", troubles_.present.size()));
   if (!bus_.params) return;
   try {
     const bus::LinkDelay delay = bus::measure_delay(client, *bus_.params, [] { return false; });
@@ -259,7 +260,7 @@ bool SerialDoctor::answers_old() const {
     endpoint.baud = rate;
     try {
       link::Link link(endpoint);
-      if (link.wait_connected(kSomebody_us) && !ping_all_old(link).old_ids.empty()) return true;
+      if (link.wait_connected(kAppears_us) && !ping_all_old(link).old_ids.empty()) return true;
     } catch (const link::LinkError&) {  // not a rate of the adapter
     }
   }

@@ -12,6 +12,7 @@ namespace verp::tool {
 namespace {
 
 constexpr float kLies_up = 0.54F;  // cosine of 1 rad, where the twin counts a fall
+constexpr double kLeans_rad = 0.35;
 
 }  // namespace
 
@@ -33,7 +34,8 @@ std::string RunEnding::words() const {
     return "lies " + session::how_it_lies(static_cast<double>(up_.x), static_cast<double>(up_.y));
   }
   const double tilt_rad = std::acos(std::clamp(static_cast<double>(up_.z), -1.0, 1.0));
-  return fmt::format("is upright, {:.0f} degrees off", 180 / std::numbers::pi * tilt_rad);
+  if (tilt_rad < kLeans_rad) return "is upright";
+  return fmt::format("leans by {:.0f} degrees", 180 / std::numbers::pi * tilt_rad);
 }
 
 }  // namespace verp::tool

@@ -14,7 +14,7 @@ class RunEnding {
 
   /// Time since torque went off; 0: it is on.
   double limp_s() const { return limp_s_; }
-  /// "lies on its front", or "is upright, 3 degrees off".
+  /// "lies on its front", "leans by 40 degrees" or "is upright".
   std::string words() const;
   /// It was upright when torque went off, and lies now.
   bool fell() const { return was_upright_ && lies_; }
