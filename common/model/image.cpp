@@ -7,11 +7,12 @@ namespace {
 
 constexpr std::size_t kHeaderSize = sizeof(ImageHeader);
 
+// The gait reads the joints of a leg that has no solver, too. 0 is their default.
 bool well_formed_leg(const Params& params, const LegParams& leg) {
-  if (leg.solver == LegSolver::kNone) return true;
-  if (leg.solver != LegSolver::kClosedForm && leg.solver != LegSolver::kNewton) return false;
+  if (leg.solver > LegSolver::kNewton) return false;
   for (const std::uint8_t joint : leg.joint) {
-    if (joint >= params.joint_count) return false;
+    const bool unset = leg.solver == LegSolver::kNone && joint == 0;
+    if (joint >= params.joint_count && !unset) return false;
   }
   return true;
 }

@@ -90,6 +90,9 @@ TEST(Image, IndicesOutsideTheirTablesAreFound) {
   EXPECT_FALSE(is_well_formed(image.params));
   seal_image(image);
   EXPECT_TRUE(check() == ImageFault::kOutOfBounds);
+  make_image();
+  image.params.leg[0].joint[2] = 112;
+  EXPECT_FALSE(is_well_formed(image.params)) << "the gait reads it, although no solver does";
 }
 
 TEST(Image, ABusThatCannotBeIsFound) {
