@@ -240,7 +240,8 @@ class Maker {
     header.crc32 = crc32(rest.data(), rest.size());
     made.words.resize(header.size / 4);
     std::memcpy(made.words.data(), &header, sizeof header);
-    std::memcpy(made.words.data() + sizeof header / 4, rest.data(), rest.size());
+    std::copy(rest.begin(), rest.end(),
+              reinterpret_cast<std::uint8_t*>(made.words.data()) + sizeof header);
     made.documents = std::move(documents_);
     return made;
   }
