@@ -9,7 +9,7 @@ missing() { echo "$1" && failed=1; }
 
 boards_of_full='mps2_an385 mps2_an500 mps3_an547 nucleo_f446re'
 # The core, and readers of foreign bytes.
-sanitized='unit math replay contract hil host.action host.bus host.can host.can_drivers host.edit host.eds host.files host.link host.live
+sanitized='unit fuzz math replay contract hil host.action host.bus host.can host.can_drivers host.edit host.eds host.files host.link host.live
   host.model host.radio host.record host.shadow host.stm32_drivers'
 # Bits of every instruction set, loops over every bus, walks, faults, gates.
 kept='replay.golden replay.matrix trace.mps2_an386 loop.mps2_an386 tour.mps2_an386 bench.mps2_an386 unit.mps2_an386 hil.olimex_h405.walk
@@ -43,6 +43,7 @@ for each in unit math replay contract hil scenario gate $(cd tests && find host 
   [[ ! $each.0 =~ $elsewhere || $each.0 =~ $names ]] || missing "tests/run: the merge gate runs $each nowhere"
 done
 grep -q '^host-asan-ubsan tests: ' <<<"$full" || missing 'tests/run: --full has no sanitizers'
+grep -q '^host-fuzz tests: ' <<<"$full" || missing 'tests/run: --full has no fuzzers'
 [[ ! $(sed -nE 's/^host-release tests: .* -E ([^ ]+).*/\1/p' <<<"$full") ]] || missing 'tests/run: --full leaves tests out'
 
 # Suite.Name for GoogleTest, the name for CMake.

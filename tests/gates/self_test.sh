@@ -202,6 +202,7 @@ test_merge() {
   merge_case 'a longer run' 'cold_budget_s is 3000, at most 2700' tests/run 's/cold_budget_s=2700/cold_budget_s=3000/'
   merge_case 'a run of any length' 'warm_budget_s is missing' tests/run 's/warm_budget_s=1500/warm_s=1500/'
   merge_case 'sanitizers, not even with --full' '--full has no sanitizers' tests/run 's/preset host-asan-ubsan 900/preset host-debug 900/'
+  merge_case 'no fuzzers, not even with --full' '--full has no fuzzers' tests/run 's/preset host-fuzz 900/preset host-debug 900/'
   merge_case 'bits of an instruction set to --full' 'leaves out trace.qemu_rv32' tests/full.md 's/^. `unit.zcu102_r5`/| `trace.qemu_rv32`/'
   merge_case 'everything of a folder to --full' 'leaves out scenario.Generic21' tests/full.md 's/^. `gate.new_board`/| `scenario.*`/'
   merge_case 'a test that is gone' "no test 'gate.old_board'" tests/full.md 's/`gate.new_board`/`gate.old_board`/'
