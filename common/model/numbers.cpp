@@ -132,6 +132,11 @@ bool numbers_fit(const Params& params, FieldName& bad) {
     search.in("joint", j);
     look_at_joint(params.joint[j], search);
   }
+  if (params.joint_count == 0) {  // legs without a solver name joint 0, and the gait reads it
+    search.in("joint", 0);
+    search.check("mass_kg", params.joint[0].mass_kg, kMass_kg);
+    search.check("stand_rad", params.joint[0].stand_rad, kAngle_rad);
+  }
   for (int side = 0; side < kFeet; ++side) {
     if (params.leg[side].solver == LegSolver::kNone) continue;
     search.in("leg", side);

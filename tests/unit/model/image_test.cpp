@@ -157,6 +157,17 @@ TEST(Image, NumbersThatAreNoneOrNoRobotsAreNamed) {
             "leg[1].thigh_m");
 }
 
+TEST(Image, ARobotWithoutJointsHasFiniteNumbersToo) {
+  const auto without_joints = [](float stand_rad) {
+    return bad_with([=](Params& params) {
+      params.joint_count = 0;
+      params.joint[0].stand_rad = stand_rad;
+    });
+  };
+  EXPECT_EQ(without_joints(0), "");
+  EXPECT_EQ(without_joints(kNan), "joint[0].stand_rad");
+}
+
 TEST(Image, EveryNumberOfAJointIsLookedAt) {
   make_image();
   constexpr std::size_t kFloats = 22;
