@@ -120,7 +120,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace verp;
   fuzz::Bytes bytes(data, size);
   fuzz::Run run = fuzz::begun(bytes);
-  for (int ticks = 0; bytes.left() > 0 && ticks < 600;) {
+  for (int ticks = 0; bytes.left() > 0 && ticks < 320;) {
     const std::uint8_t how = bytes.byte(), length = bytes.byte();
     fuzz::change(run.inputs, how, bytes);
     for (int i = 0; i <= length; ++i, ++ticks) {
