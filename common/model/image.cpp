@@ -32,7 +32,10 @@ bool well_formed_place(const Params& params, int joint) {
 
 // CAN node ids are 1 to 127 and index every table there.
 bool well_formed_bus(const Params& params) {
-  if (params.bus_protocol == BusProtocol::kDynamixel2) return true;
+  if (params.bus_protocol == BusProtocol::kDynamixel2 ||
+      params.bus_protocol == BusProtocol::kFeetech) {
+    return true;
+  }
   if (params.bus_protocol != BusProtocol::kCia402) return false;
   constexpr std::uint8_t kMaxNode = 127;
   for (int j = 0; j < params.joint_count; ++j) {

@@ -115,6 +115,7 @@ VERP_PACKED(FootSensorParams);
 enum class BusProtocol : std::uint8_t {
   kDynamixel2 = 0,  ///< serial, Dynamixel Protocol 2.0
   kCia402 = 1,      ///< CANopen, CiA 402; ids are node ids, 1 to 127
+  kFeetech = 2,     ///< serial, Feetech STS
 };
 
 struct Params {

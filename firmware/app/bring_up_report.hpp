@@ -6,7 +6,10 @@
 
 namespace verp::app {
 
-class BusMaster;
+template <class Words>
+class RequestMaster;
+using BusMaster = RequestMaster<struct DynamixelWords>;
+using FeetechMaster = RequestMaster<struct FeetechWords>;
 class CanMaster;
 
 enum class BringUpStatus : std::uint8_t {
@@ -36,6 +39,7 @@ struct BringUpReport {
 /// Finds every device of the robot on the bus and writes its settings from Params, torque off.
 /// Writes EEPROM only where it differs, because it wears out; reads everything back.
 BringUpReport bring_up(const Params& params, BusMaster& master);
+BringUpReport bring_up(const Params& params, FeetechMaster& master);
 
 /// Finds every node of the robot, sets it up and starts it, torque off. It listens first: resetting
 /// nodes would drop a robot that another controller runs. It then resets all nodes, so none stays

@@ -2,45 +2,15 @@
 
 namespace verp::app {
 
-void DoubtedServos::silent_for(int joint, std::uint32_t time_us) {
-  if (time_us < patience_us_) return;
-  doubted_ |= 1u << joint;
-  here_ &= ~(1u << joint);
-}
-
-bool DoubtedServos::counts(int joint, bool alert) {
-  if (!alert) broken_ &= ~(1u << joint);
-  here_ |= doubted_ & ~broken_ & 1u << joint;
-  return (doubted_ >> joint & 1) == 0;
-}
-
-void DoubtedServos::shut_down(int joint) {
-  doubted_ |= 1u << joint;
-  broken_ |= 1u << joint;
-  here_ &= ~(1u << joint);
-}
-
 void DoubtedServos::resolve(BusMaster& master, bool torque) {
-  if (!torque) limp_ = 0;
+  const std::uint32_t unresolved = open(torque);
   if (torque) renewals_ = 0;
-  const std::uint32_t open = here_ & ~limp_;
-  if (open == 0) return;
+  if (unresolved == 0) return;
   if (torque) {
-    ask(master, some(open));
+    ask(master, some(unresolved));
   } else {
     renew(master);
   }
-}
-
-std::uint32_t DoubtedServos::some(std::uint32_t joints) const {
-  std::uint32_t chosen = 0;
-  std::size_t count = 0;
-  for (int j = 0; j < params_.servo_count() && count < kResolvedAtOnce; ++j) {
-    if ((joints >> j & 1) == 0) continue;
-    chosen |= 1u << j;
-    ++count;
-  }
-  return chosen;
 }
 
 void DoubtedServos::ask(BusMaster& master, std::uint32_t joints) {
@@ -64,17 +34,6 @@ void DoubtedServos::ask(BusMaster& master, std::uint32_t joints) {
                    learn(joint, packet.parameters[0] != 0);
                    return chain.ended() ? Take::kDone : Take::kMore;
                  });
-}
-
-void DoubtedServos::learn(int joint, bool kept) {
-  const std::uint32_t bit = 1u << joint;
-  if (kept) trust(bit);
-  if (!kept) limp_ |= bit;
-}
-
-void DoubtedServos::trust(std::uint32_t joints) {
-  doubted_ &= ~joints;
-  here_ &= ~joints;
 }
 
 void DoubtedServos::renew(BusMaster& master) {

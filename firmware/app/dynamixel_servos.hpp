@@ -8,6 +8,7 @@
 #include "firmware/app/bus_master.hpp"
 #include "firmware/app/doubted_servos.hpp"
 #include "firmware/app/joint_effort.hpp"
+#include "firmware/app/read_chain.hpp"
 #include "firmware/app/schedule.hpp"
 #include "firmware/app/servo_writer.hpp"
 

@@ -6,28 +6,11 @@
 #include "common/model/params.hpp"
 #include "common/protocol/control_table.hpp"
 #include "common/protocol/dynamixel2.hpp"
+#include "firmware/app/doubts.hpp"
+#include "firmware/app/wire_time.hpp"
 
-/// Bytes and time of one tick on the servo bus, for the loop's timeouts and export's limit.
+/// Bytes and time of one tick of Dynamixel servos, for the loop's timeouts and export's limit.
 namespace verp::app {
-
-inline constexpr std::uint32_t kBitsPerByte = 10;  ///< start, eight data, stop
-/// From a request's last byte to the reply, above Return Delay Time 0: an allowance, not a
-/// measurement. A slower servo counts as silent.
-inline constexpr std::uint32_t kReplySlackUs = 25;
-inline constexpr std::uint32_t kTransactionSlackUs =
-    150;  ///< master's interrupt and driver latency
-inline constexpr std::uint32_t kLongestReturnDelayUs =
-    508;  ///< e-Manual: Return Delay Time 254 x 2 us
-
-constexpr std::uint32_t wire_us(std::size_t bytes, std::uint32_t baud) {
-  const std::uint64_t bits = std::uint64_t{bytes} * kBitsPerByte * 1000000u;
-  return baud == 0 ? 0xFFFFFFFFu : static_cast<std::uint32_t>((bits + baud - 1) / baud);
-}
-
-constexpr std::uint32_t timeout_us(std::size_t bytes, std::size_t replies, std::uint32_t baud) {
-  return wire_us(bytes, baud) + static_cast<std::uint32_t>(replies) * kReplySlackUs +
-         kTransactionSlackUs;
-}
 
 /// Bytes of a Sync Read with all replies.
 constexpr std::size_t sync_read_bytes(std::size_t devices, std::size_t length) {
@@ -71,12 +54,8 @@ constexpr std::size_t sensor_devices(const Params& params) {
   return devices;
 }
 
-/// Most extra bytes per device after an unanswered read (BusMaster).
-inline constexpr std::uint8_t kMostSpare = 2;
 /// Reads from Torque Enable to Hardware Error Status.
 inline constexpr std::uint16_t kAlertBytes = 7;
-/// Servos resolved in one tick (DoubtedServos).
-inline constexpr int kResolvedAtOnce = 4;
 
 /// Bytes of the longest tick in which every device answers: reads, one alert read, goals. Also
 /// either torque, strength and a Bus Watchdog clear and set for all servos, or these for one servo

@@ -2,7 +2,7 @@
 #include <concepts>
 
 #include "firmware/app/canopen_servos.hpp"
-#include "firmware/app/dynamixel_servos.hpp"
+#include "firmware/app/serial_servos.hpp"
 
 namespace verp::app {
 
@@ -12,7 +12,7 @@ struct ServosOn;
 
 template <std::derived_from<hal::FrameBus> Bus>
 struct ServosOn<Bus> {
-  using Type = DynamixelServos;
+  using Type = SerialServos;
 };
 template <std::derived_from<hal::CanBus> Bus>
 struct ServosOn<Bus> {

@@ -13,7 +13,7 @@
 #include "common/protocol/dynamixel2.hpp"
 #include "host/os/link/link.hpp"
 #include "host/os/link/system_clock.hpp"
-#include "host/twin/bus/virtual_bus.hpp"
+#include "host/twin/bus/dynamixel_words.hpp"
 
 /// A cable that delays bytes as USB adapters do: the first byte starts a timer; all bytes go on
 /// when it expires. A thread carries them.
@@ -104,7 +104,7 @@ class DelayingLink {
 
   void watch() {
     const dxl::Packet& packet = line_.packet();
-    if (!packet.is_status() && bus::VirtualBus::begins_tick(packet)) ++ticks_;
+    if (!packet.is_status() && bus::DynamixelWords::begins_tick(packet)) ++ticks_;
   }
 
   void pass(Way& way, link::Link& to) {

@@ -27,11 +27,12 @@ bool has_its_id(const Params& params) {
 
 void check_modem(const session::WalkPlan& plan) {
   if (plan.link.empty()) return;
-  if (plan.params.bus_protocol == BusProtocol::kCia402) {
+  if (plan.params.bus_protocol != BusProtocol::kDynamixel2) {
+    const bool can = plan.params.bus_protocol == BusProtocol::kCia402;
     throw cli::ToolError(cli::kBadInput,
-                         fmt::format("verp walk --radio: {} speaks CAN, and the modem is a "
+                         fmt::format("verp walk --radio: {} speaks {}, and the modem is a "
                                      "device on a Dynamixel bus; choose one with --bus",
-                                     plan.name));
+                                     plan.name, can ? "CAN" : "to Feetech servos"));
   }
   if (has_its_id(plan.params)) {
     throw cli::ToolError(cli::kBadInput,

@@ -142,7 +142,8 @@ class Assembler {
       const std::uint16_t gain = fact.gives_p_gain ? std::uint16_t{0} : fitting_p_gain(e_, servo);
       if (gain == 0) continue;
       servo.p_gain = gain;
-      if (!fact.gives_d_gain) servo.d_gain = static_cast<std::uint16_t>(gain / 8);
+      const bool known_unit = e_.protocol != BusProtocol::kFeetech;
+      if (!fact.gives_d_gain && known_unit) servo.d_gain = static_cast<std::uint16_t>(gain / 8);
       fitted[servo.type] = gain;
     }
     for (Joint& joint : e_.joints) {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <span>
 
+#include "common/protocol/feetech_table.hpp"
 #include "common/protocol/servo_models.hpp"
 #include "host/robot/model/bounds.hpp"
 #include "host/robot/model/servo_type_facts.hpp"
@@ -47,11 +48,14 @@ Servo servo_of(const ServoType& type) {
   s.source = type.source;
   s.model_number = type.model_number;
   s.fast_sync_read = type.fast_sync_read;
+  s.p_gain_unit = type.p_gain_unit;
+  s.most_gain = type.most_gain;
   return s;
 }
 
-std::uint16_t gain(const XmlElement& e, const char* name, int fallback) {
-  return static_cast<std::uint16_t>(e.integer(name, 0, 16383, fallback));  // e-Manual: 0 to 16,383
+/// e-Manual: 0 to 16,383. Feetech: 0 to 254.
+std::uint16_t gain(const XmlElement& e, const ServoType& type, const char* name, int fallback) {
+  return static_cast<std::uint16_t>(e.integer(name, 0, type.most_gain, fallback));
 }
 
 ServoFact read_servo(const XmlElement& e, const std::vector<ServoType>& types, BusProtocol protocol,
@@ -59,9 +63,12 @@ ServoFact read_servo(const XmlElement& e, const std::vector<ServoType>& types, B
   e.allow({"joint", "id", "type", "direction", "offset", "backlash_rad", "p_gain", "i_gain",
            "d_gain", "profile_ms", "lower_rad", "upper_rad"});
   const bool can = protocol == BusProtocol::kCia402;
-  if (can && e.has("profile_ms")) {
-    e.fail("<verp:servo> profile_ms: a CiA 402 drive joins its targets over the control period",
-           "leave it out");
+  const bool feetech = protocol == BusProtocol::kFeetech;
+  if ((can || feetech) && e.has("profile_ms")) {
+    e.fail(
+        can ? "<verp:servo> profile_ms: a CiA 402 drive joins its targets over the control period"
+            : "<verp:servo> profile_ms: a Feetech servo has no profile of a given time",
+        "leave it out");
   }
   const ServoType& type = read_type(e, types, protocol);
   ServoFact fact{e, e.text("joint"), servo_of(type), {}, {}, true, true};
@@ -77,27 +84,35 @@ ServoFact read_servo(const XmlElement& e, const std::vector<ServoType>& types, B
     e.fail("<verp:servo> backlash_rad is not within 0 to 0.1",
            "write the gear play in radians, like 0.0044");
   }
-  s.p_gain = gain(e, "p_gain", type.default_p_gain);
+  s.p_gain = gain(e, type, "p_gain", type.default_p_gain);
   fact.gives_p_gain = e.has("p_gain");
   fact.gives_d_gain = e.has("d_gain");
-  s.i_gain = gain(e, "i_gain", 0);
-  s.d_gain = gain(e, "d_gain", 0);
+  s.i_gain = gain(e, type, "i_gain", 0);
+  s.d_gain = gain(e, type, "d_gain", type.default_d_gain);
   // Straight lines then join the goals.
-  const int joined_ms = can ? 0 : static_cast<int>(period_us / 1000);
+  const int joined_ms = can || feetech ? 0 : static_cast<int>(period_us / 1000);
   s.profile_ms = static_cast<std::uint16_t>(e.integer("profile_ms", 0, 1000, joined_ms));
   if (s.p_gain == 0)
-    e.fail("<verp:servo> p_gain is 0: the servo would hold nothing", "write 1 to 16383");
+    e.fail("<verp:servo> p_gain is 0: the servo would hold nothing",
+           "write 1 to " + std::to_string(type.most_gain));
   if (e.has("lower_rad")) fact.lower_rad = e.number("lower_rad");
   if (e.has("upper_rad")) fact.upper_rad = e.number("upper_rad");
   return fact;
 }
 
-// CiA 301's bit rates without 800 kbit/s, which bxCAN cannot make from 42, 45 or 54 MHz.
+// Feetech's, or CiA 301's bit rates without 800 kbit/s, which bxCAN cannot make from 42, 45 or 54
+// MHz.
 std::uint32_t read_baud(const XmlElement& e, BusProtocol protocol) {
   if (protocol == BusProtocol::kDynamixel2) {
     return static_cast<std::uint32_t>(e.integer("baud", 9600, 4500000, 2000000));
   }
   const int baud = e.integer("baud", 10000, 1000000, 1000000);
+  if (protocol == BusProtocol::kFeetech) {
+    if (feetech::baud_rate_code(static_cast<std::uint32_t>(baud)) != 0xFF)
+      return static_cast<std::uint32_t>(baud);
+    e.fail("<verp:bus> baud " + std::to_string(baud) + " is no rate of Feetech's STS servos",
+           fmt::format("choose one of: {}", fmt::join(feetech::kBaudRates, ", ")));
+  }
   std::string list;
   for (const int each : {10000, 20000, 50000, 125000, 250000, 500000, 1000000}) {
     if (each == baud) return static_cast<std::uint32_t>(baud);

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/protocol/canopen/robot_load.hpp"
-#include "firmware/app/schedule.hpp"
+#include "firmware/app/feetech_schedule.hpp"
 #include "host/robot/model/bounds.hpp"
 #include "host/robot/model/load_error.hpp"
 
@@ -36,13 +36,13 @@ std::uint32_t shortest_period_us(Params params) {
 }
 
 std::string remedy(const Params& params) {
-  constexpr std::uint32_t kFastestCan = 1'000'000;
+  constexpr std::uint32_t kFastest = 1'000'000;  // of CAN and of Feetech
   std::string text;
   if (const std::uint32_t period_us = shortest_period_us(params); period_us != 0) {
     text =
         fmt::format("a period of {} ms has room (period_us=\"{}\")", period_us / 1000, period_us);
   }
-  if (!is_can(params) || params.baud < kFastestCan) {
+  if (params.bus_protocol == BusProtocol::kDynamixel2 || params.baud < kFastest) {
     text += text.empty() ? "raise baud" : ", or raise baud";
   }
   if (text.empty()) text = "drive fewer joints on this bus";
@@ -61,9 +61,9 @@ BusTime bus_time(const Params& params) {
         1e-3 * static_cast<double>(wire_time_ns(load.bits(plan::TickKind::kChange), rates));
     time.bits = load.bits(plan::TickKind::kSteady).all();
   } else {
-    time.us = app::schedule_us(params);  // of the longest tick
+    time.us = app::serial_tick_us(params);  // of the longest tick
     time.change_us = time.us;
-    time.bytes = app::schedule_bytes(params);
+    time.bytes = app::serial_tick_bytes(params);
     time.bits = 10 * time.bytes;
   }
   time.share = time.us / params.period_us;

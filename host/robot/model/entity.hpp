@@ -90,6 +90,8 @@ struct Servo {
   std::uint16_t model_number = 0;  ///< Params' ServoProfile gives its meaning
   bool fast_sync_read = false;
   std::uint16_t p_gain = 0, i_gain = 0, d_gain = 0;  ///< written at arming
+  double p_gain_unit = 128;  ///< P gain of one 885th of full duty for each count of error
+  int most_gain = 16383;     ///< of its registers
   std::uint16_t profile_ms = 0;
 };
 

@@ -74,6 +74,11 @@ class HumanoidWriter {
         R"(type="{}" backlash_rad="{:.6g}" p_gain="{:.0f}" i_gain="{:.0f}" d_gain="{:.0f}")",
         t_.text("can_servo"), number("servo_backlash_rad"), number("can_servo_p_gain"),
         number("can_servo_i_gain"), number("can_servo_d_gain"));
+    if (t_.has("feetech_servo")) {
+      feetech_servo_ = fmt::format(R"(type="{}" backlash_rad="{:.6g}" p_gain="{:.0f}")",
+                                   t_.text("feetech_servo"), number("feetech_servo_backlash_rad"),
+                                   number("feetech_servo_p_gain"));
+    }
     thigh_ = number("thigh_m");
     shank_ = number("shank_m");
     ankle_ = number("ankle_above_sole_m");
@@ -137,6 +142,7 @@ class HumanoidWriter {
     };
     servos_ += row(servo_);
     drives_ += row(drive_);
+    if (!feetech_servo_.empty()) feetech_servos_ += row(feetech_servo_);
   }
 
   void trunk() {
@@ -293,6 +299,13 @@ class HumanoidWriter {
          number("can_baud"), number("period_us"));
     out_ += drives_;
     line("    </verp:bus>");
+    if (!feetech_servos_.empty()) {
+      line("    <!-- The same joints with Feetech servos. -->");
+      line(R"(    <verp:bus name="feetech" protocol="feetech" baud="{:.0f}" period_us="{:.0f}">)",
+           number("feetech_baud"), number("period_us"));
+      out_ += feetech_servos_;
+      line("    </verp:bus>");
+    }
     line(R"(    <verp:imu sensor="imu" id="120" type="icm20648"/>)");
     line(R"(    <verp:feet left_id="111" right_id="112" newton_per_count="0.01"/>)");
     poses();
@@ -326,7 +339,7 @@ class HumanoidWriter {
   }
 
   RobotTable& t_;
-  std::string out_, servos_, servo_, drives_, drive_, name_;
+  std::string out_, servos_, servo_, drives_, drive_, feetech_servos_, feetech_servo_, name_;
   double servo_kg_ = 0, thigh_ = 0, shank_ = 0, ankle_ = 0, hip_ = 0;
   double friction_ = 0, stiffness_ = 0, damping_ = 0;
 };

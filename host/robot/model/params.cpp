@@ -13,8 +13,7 @@
 namespace verp::model {
 namespace {
 
-constexpr double kFullDuty = 885;   // e-Manual X series, PWM Limit(36): 885 is 100 %
-constexpr double kPGainUnit = 128;  // e-Manual X series, Position P Gain(84): KpP = value / 128
+constexpr double kFullDuty = 885;  // e-Manual X series, PWM Limit(36): 885 is 100 %
 
 Xyz to_xyz(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
@@ -151,7 +150,7 @@ void find_head(const Entity& entity, Params& params) {
 
 double servo_stiffness_n_m_rad(const Servo& servo) {
   const double counts_per_rad = servo.counts_per_rev / (2 * std::numbers::pi);
-  return servo.stall_torque_n_m * servo.p_gain / kPGainUnit * counts_per_rad / kFullDuty;
+  return servo.stall_torque_n_m * servo.p_gain / servo.p_gain_unit * counts_per_rad / kFullDuty;
 }
 
 const std::vector<std::string>& tuning_names() {

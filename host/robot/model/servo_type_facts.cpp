@@ -119,6 +119,18 @@ void check_model(const XmlElement& e, const ServoType& type) {
   }
 }
 
+/// Gains have the units of the protocol's servos.
+void set_protocol(BusProtocol protocol, ServoType& type) {
+  if (protocol == type.protocol) return;
+  type.protocol = protocol;
+  const bool feetech = protocol == BusProtocol::kFeetech;
+  const ServoType* usual = find_servo_type(servo_types(), feetech ? "sts3215" : "xm430_w210");
+  type.p_gain_unit = usual->p_gain_unit;
+  type.most_gain = usual->most_gain;
+  type.default_p_gain = usual->default_p_gain;
+  type.default_d_gain = usual->default_d_gain;
+}
+
 ServoType read_type(const XmlElement& e, const std::vector<ServoType>& known) {
   e.allow({"name",
            "like",
@@ -163,7 +175,7 @@ ServoType read_type(const XmlElement& e, const std::vector<ServoType>& known) {
   const Reader read(e, like);
   type.name = name;
   type.title = e.text("title", name);
-  if (!like || e.has("protocol")) type.protocol = read_protocol(e);
+  if (!like || e.has("protocol")) set_protocol(read_protocol(e), type);
   const auto whole = [&](const char* attribute, int low, int high, int of_like) {
     return like ? e.integer(attribute, low, high, of_like) : e.integer(attribute, low, high);
   };
@@ -185,7 +197,7 @@ ServoType read_type(const XmlElement& e, const std::vector<ServoType>& known) {
   type.goal_delay_us = e.number_within("goal_delay_us", 0, 100000, " us", type.goal_delay_us);
   type.fast_sync_read = e.integer("fast_sync_read", 0, 1, type.fast_sync_read ? 1 : 0) == 1;
   type.default_p_gain =
-      static_cast<std::uint16_t>(e.integer("p_gain", 1, 16383, type.default_p_gain));
+      static_cast<std::uint16_t>(e.integer("p_gain", 1, type.most_gain, type.default_p_gain));
   read_gearbox(e, read, type);
   check_model(e, type);
   return type;
@@ -195,10 +207,12 @@ ServoType read_type(const XmlElement& e, const std::vector<ServoType>& known) {
 
 BusProtocol read_protocol(const XmlElement& e) {
   const std::string name = e.text("protocol");
-  for (const BusProtocol each : {BusProtocol::kDynamixel2, BusProtocol::kCia402}) {
+  for (const BusProtocol each :
+       {BusProtocol::kDynamixel2, BusProtocol::kCia402, BusProtocol::kFeetech}) {
     if (name == protocol_name(each)) return each;
   }
-  e.fail("no bus protocol '" + name + "'", "write protocol=\"dynamixel2\" or \"cia402\"");
+  e.fail("no bus protocol '" + name + "'",
+         "write protocol=\"dynamixel2\", \"feetech\" or \"cia402\"");
 }
 
 std::vector<ServoType> read_servo_types(const XmlElement& model) {

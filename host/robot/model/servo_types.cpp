@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "common/protocol/feetech_table.hpp"
 #include "common/protocol/servo_models.hpp"
 #include "host/robot/model/entity.hpp"
 
@@ -78,6 +80,27 @@ ServoType drive_of(ServoType type) {
   return type;
 }
 
+// kt, R, rotor and friction: Rhoban/bam, params/feetech_sts3215_7_4V/m1.json (Coulomb and viscous
+// friction only; commit 1b5a1ce). Encoder: taken as the Dynamixels'. The loop's rate is an
+// estimate.
+ServoType sts3215() {
+  ServoType type;
+  type.name = "sts3215";
+  type.title = "Feetech STS3215, 7.4 V";
+  type.protocol = BusProtocol::kFeetech;
+  type.model_number = feetech::kModelSts3215;
+  type.nominal_v = 7.4;
+  type.counts_per_rev = feetech::kCountsPerTurn;
+  type.default_p_gain = type.default_d_gain = 32;
+  type.p_gain_unit = 1 / (885 * double{feetech::kDutyPerCount});
+  type.most_gain = feetech::kMostGain;
+  type.loop_delay_us = 384;
+  type = identified(std::move(type), 1.2116, 2.6762,
+                    {.armature_kg_m2 = 0.0284, .f_base_n_m = 0.05239, .f_visc_n_m_s = 0.05909});
+  type.source = "identified: Rhoban/bam, STS3215 7.4 V, M1";
+  return type;
+}
+
 // The XL-330 is the M288 at 5 V.
 ServoType xl330() {
   return identified(dynamixel("xl330", "XL330-M288-T", 1200), 0.386, 3.40,
@@ -135,6 +158,7 @@ const std::vector<ServoType>& servo_types() {
                     .alpha = 1.32,
                     .f_visc_n_m_s = 0.0510}),
         drive_of(w210),
+        sts3215(),
     };
   }();
   return kTypes;
@@ -148,7 +172,9 @@ const ServoType* find_servo_type(const std::vector<ServoType>& types, std::strin
 }
 
 const char* protocol_name(BusProtocol protocol) {
-  return protocol == BusProtocol::kCia402 ? "cia402" : "dynamixel2";
+  return protocol == BusProtocol::kCia402    ? "cia402"
+         : protocol == BusProtocol::kFeetech ? "feetech"
+                                             : "dynamixel2";
 }
 
 const std::vector<ImuType>& imu_types() {

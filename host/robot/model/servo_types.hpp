@@ -24,6 +24,9 @@ struct ServoType {
   double loop_us = 1000, loop_delay_us = 0, goal_delay_us = 0;
   bool fast_sync_read = false;         ///< answers instruction 0x8A
   std::uint16_t default_p_gain = 800;  ///< control table units; drive: 2002h:1
+  std::uint16_t default_d_gain = 0;
+  double p_gain_unit = 128;  ///< as in Servo
+  int most_gain = 16383;
   Gearbox gearbox;
   double armature_band = 0, friction_band = 0;  ///< as in Servo
   std::string source;

@@ -358,8 +358,11 @@ std::uint16_t fitting_p_gain(const Entity& entity, const Servo& servo) {
   if (!(wanted > 0)) return 0;
   Servo unit = servo;
   unit.p_gain = 1;
+  const bool fine = servo.most_gain > kMostGain;
+  const double least = fine ? 50 : 1;
+  const double most = fine ? kMostGain : servo.most_gain;
   return static_cast<std::uint16_t>(
-      std::clamp(std::round(wanted / servo_stiffness_n_m_rad(unit)), 50.0, kMostGain));
+      std::clamp(std::round(wanted / servo_stiffness_n_m_rad(unit)), least, most));
 }
 
 }  // namespace verp::model

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 
+#include "common/protocol/feetech.hpp"
+#include "common/protocol/feetech_table.hpp"
+
 namespace verp::bus {
 namespace {
 
@@ -24,24 +27,25 @@ constexpr std::array<const char*, 8> kErrors = {
 
 }  // namespace
 
-Client::Client(const link::Endpoint& endpoint, std::uint32_t timeout_us)
+Client::Client(const link::Endpoint& endpoint, std::uint32_t timeout_us, BusProtocol protocol)
     : text_(link::to_text(endpoint)),
       baud_(endpoint.baud),
       timeout_us_(timeout_us),
       own_(endpoint),
       link_(*own_),
       bus_(link_, clock_),
-      master_(bus_) {
+      words_(make_client_words(protocol, bus_)) {
   wait_for_somebody();
 }
 
-Client::Client(link::Link& link, const link::Endpoint& endpoint, std::uint32_t timeout_us)
+Client::Client(link::Link& link, const link::Endpoint& endpoint, std::uint32_t timeout_us,
+               BusProtocol protocol)
     : text_(link::to_text(endpoint)),
       baud_(endpoint.baud),
       timeout_us_(timeout_us),
       link_(link),
       bus_(link_, clock_),
-      master_(bus_) {
+      words_(make_client_words(protocol, bus_)) {
   wait_for_somebody();
 }
 
@@ -62,11 +66,12 @@ std::uint32_t Client::patience_us(std::size_t bytes) const {
 }
 
 std::vector<Identity> Client::scan() {
+  if (protocol() == BusProtocol::kFeetech) return scan_each();
   std::vector<Identity> found;
-  const std::size_t frame = dxl::encode_ping(master_.frame(), master_.capacity(), dxl::kBroadcast);
-  master_.request(frame, std::max(kScan_us, patience_us(0)), [&](const dxl::Packet& packet) {
-    if (packet.size != 3) return app::Take::kStray;
-    found.push_back({packet.id, dxl::get_u16(packet.parameters), packet.parameters[2]});
+  const std::size_t frame = words_->encode_ping(dxl::kBroadcast);
+  words_->request(frame, std::max(kScan_us, patience_us(0)), [&](const ClientWords::Reply& reply) {
+    if (reply.data.size() != 3) return app::Take::kStray;
+    found.push_back({reply.id, dxl::get_u16(reply.data.data()), reply.data[2]});
     return app::Take::kMore;
   });
   std::sort(found.begin(), found.end(),
@@ -78,18 +83,26 @@ std::vector<Identity> Client::scan() {
   return found;
 }
 
+std::vector<Identity> Client::scan_each() {
+  std::vector<Identity> found;
+  for (int id = 0; id <= feetech::kMaxId; ++id) {
+    if (const auto one = ping(static_cast<std::uint8_t>(id), 1)) found.push_back(*one);
+  }
+  return found;
+}
+
 std::optional<Client::Answer> Client::ask(std::uint8_t id, std::size_t frame, std::size_t size,
                                           int attempts) {
   if (owed_.replies > 0 && owed_.id == id && owed_.size == size) drop_late();
-  const std::uint32_t patience = patience_us(frame + dxl::kStatusBytes + size);
+  const std::uint32_t patience = patience_us(frame + words_->status_bytes() + size);
   std::optional<Answer> answer;
   int made = 0;
   while (made < attempts && !answer) {
     ++made;
-    master_.request(frame, patience, [&](const dxl::Packet& packet) {
-      const auto error = static_cast<std::uint8_t>(packet.error & ~dxl::kAlert);
-      if (packet.id != id || (error == 0 && packet.size != size)) return app::Take::kStray;
-      answer = {error, {packet.parameters, packet.parameters + packet.size}};
+    words_->request(frame, patience, [&](const ClientWords::Reply& reply) {
+      if (reply.id != id || (reply.error == 0 && reply.data.size() != size))
+        return app::Take::kStray;
+      answer = {reply.error, {reply.data.begin(), reply.data.end()}};
       return app::Take::kDone;
     });
   }
@@ -100,47 +113,45 @@ std::optional<Client::Answer> Client::ask(std::uint8_t id, std::size_t frame, st
 
 /// Later ones count as lost.
 void Client::drop_late() {
-  dxl::Parser late;
   std::uint8_t bytes[256];
-  while (owed_.replies > 0) {
+  for (bool anew = true; owed_.replies > 0; anew = false) {
     const std::size_t count = bus_.poll(bytes, sizeof bytes, 2 * owed_.patience_us);
     if (count == 0) break;
-    for (std::size_t i = 0; i < count; ++i) {
-      for (bool found = late.push(bytes[i]); found; found = late.next()) {
-        owed_.replies -= late.packet().is_status() && late.packet().id == owed_.id ? 1 : 0;
-      }
-    }
+    owed_.replies -= words_->late_answers(owed_.id, {bytes, count}, anew);
   }
   owed_.replies = 0;
 }
 
+// A Ping's answer does not say what the servo is; a Read's does.
+std::optional<Identity> Client::identify_feetech(std::uint8_t id, int attempts) {
+  constexpr std::uint16_t kBytes = feetech::address::kModelNumber + 2;
+  const auto answer = ask(id, words_->encode_read(id, 0, kBytes), kBytes, attempts);
+  if (!answer) return std::nullopt;
+  return Identity{id, feetech::get_u16(answer->data.data() + feetech::address::kModelNumber),
+                  answer->data[feetech::address::kFirmwareMajor]};
+}
+
 std::optional<Identity> Client::ping(std::uint8_t id, int attempts) {
-  const std::size_t frame = dxl::encode_ping(master_.frame(), master_.capacity(), id);
-  const auto answer = ask(id, frame, 3, attempts);
+  if (protocol() == BusProtocol::kFeetech) return identify_feetech(id, attempts);
+  const auto answer = ask(id, words_->encode_ping(id), 3, attempts);
   if (!answer || answer->error != 0) return std::nullopt;
   return Identity{id, dxl::get_u16(answer->data.data()), answer->data[2]};
 }
 
 std::vector<std::uint8_t> Client::read(std::uint8_t id, std::uint16_t address,
                                        std::uint16_t length) {
-  const std::size_t frame =
-      dxl::encode_read(master_.frame(), master_.capacity(), id, address, length);
-  const auto answer = ask(id, frame, length, kAttempts);
+  const auto answer = ask(id, words_->encode_read(id, address, length), length, kAttempts);
   expect_good(id, address, "read", answer);
   return answer->data;
 }
 
 bool Client::read_once(std::uint8_t id, std::uint16_t address, std::uint16_t length) {
-  const std::size_t frame =
-      dxl::encode_read(master_.frame(), master_.capacity(), id, address, length);
-  const auto answer = ask(id, frame, length, 1);
+  const auto answer = ask(id, words_->encode_read(id, address, length), length, 1);
   return answer && answer->error == 0;
 }
 
 void Client::write(std::uint8_t id, std::uint16_t address, const std::vector<std::uint8_t>& data) {
-  const std::size_t frame =
-      dxl::encode_write(master_.frame(), master_.capacity(), id, address, data.data(), data.size());
-  expect_good(id, address, "write", ask(id, frame, 0, kAttempts));
+  expect_good(id, address, "write", ask(id, words_->encode_write(id, address, data), 0, kAttempts));
 }
 
 void Client::silent(std::uint8_t id) const {

@@ -1,14 +1,16 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "firmware/app/bus_master.hpp"
+#include "common/protocol/dynamixel2.hpp"
 #include "firmware/app/link_bus.hpp"
 #include "host/os/link/link.hpp"
 #include "host/os/link/system_clock.hpp"
+#include "host/twin/bus/client_words.hpp"
 
 namespace verp::bus {
 
@@ -33,19 +35,23 @@ struct Identity {
   std::uint8_t firmware = 0;
 };
 
-/// Client for Dynamixel devices; one request at a time. A late reply does not name its request: the
-/// client knows it by device and length, and waits for it before a similar request. Methods throw
-/// DeviceError; the constructor throws LinkError.
+/// Client for the devices of a serial protocol; one request at a time. A late reply does not name
+/// its request: the client knows it by device and length, and waits for it before a similar
+/// request. Methods throw DeviceError; the constructor throws LinkError.
 class Client {
  public:
   static constexpr int kAttempts = 3;  ///< per unanswered request
 
   /// `timeout_us`: in addition to the reply's own bytes.
-  Client(const link::Endpoint& endpoint, std::uint32_t timeout_us);
+  Client(const link::Endpoint& endpoint, std::uint32_t timeout_us,
+         BusProtocol protocol = BusProtocol::kDynamixel2);
   /// The caller owns the link, which must outlive the client; `endpoint` is its place.
-  Client(link::Link& link, const link::Endpoint& endpoint, std::uint32_t timeout_us);
+  Client(link::Link& link, const link::Endpoint& endpoint, std::uint32_t timeout_us,
+         BusProtocol protocol = BusProtocol::kDynamixel2);
 
-  /// Every device that answers a broadcast Ping, sorted by id.
+  BusProtocol protocol() const { return words_->protocol(); }
+  /// Every device that answers a broadcast Ping, sorted by id. Feetech servos collide there: each
+  /// id is asked, once.
   std::vector<Identity> scan();
   std::optional<Identity> ping(std::uint8_t id, int attempts = kAttempts);
   std::vector<std::uint8_t> read(std::uint8_t id, std::uint16_t address, std::uint16_t length);
@@ -56,8 +62,8 @@ class Client {
 
   int tries() const { return tries_; }
   const std::string& place() const { return text_; }
-  const app::BusCounters& counters() const { return master_.counters(); }
-  std::uint32_t crc_errors() const { return master_.crc_errors(); }
+  const app::BusCounters& counters() const { return words_->counters(); }
+  std::uint32_t crc_errors() const { return words_->damaged(); }
   hal::LinkErrors link_errors() const { return link_.errors(); }
 
  private:
@@ -71,6 +77,8 @@ class Client {
   /// `frame`: bytes of the request. `size`: data bytes of the answer.
   std::optional<Answer> ask(std::uint8_t id, std::size_t frame, std::size_t size, int attempts);
   void drop_late();
+  std::vector<Identity> scan_each();
+  std::optional<Identity> identify_feetech(std::uint8_t id, int attempts);
   [[noreturn]] void silent(std::uint8_t id) const;
   void expect_good(std::uint8_t id, std::uint16_t address, const char* what,
                    const std::optional<Answer>& answer) const;
@@ -91,7 +99,7 @@ class Client {
   std::optional<link::Link> own_;
   link::Link& link_;
   Bus bus_;
-  app::BusMaster master_;
+  std::unique_ptr<ClientWords> words_;
   Owed owed_;
   int tries_ = 0;
 };

@@ -5,29 +5,29 @@
 #include <vector>
 
 #include "common/protocol/servo_models.hpp"
+#include "host/twin/bus/bus_device.hpp"
 #include "host/twin/bus/register_table.hpp"
 
 namespace verp::bus {
 
-class Device {
+/// A Dynamixel device.
+class Device : public BusDevice {
  public:
-  virtual ~Device() = default;
-  Device(const Device&) = delete;
-  Device& operator=(const Device&) = delete;
-
-  std::uint8_t id() const { return byte(dxl::address::kId); }
+  std::uint8_t id() const override { return byte(dxl::address::kId); }
   std::uint8_t baud_code() const { return byte(dxl::address::kBaudRate); }
+  bool runs_at(std::uint32_t baud) const override {
+    return baud_code() == dxl::baud_rate_code(baud);
+  }
   std::uint16_t model() const {
     return static_cast<std::uint16_t>(table_.get(dxl::address::kModelNumber));
   }
   std::uint8_t firmware_version() const { return byte(dxl::address::kFirmwareVersion); }
-  std::uint32_t return_delay_us() const { return 2u * byte(dxl::address::kReturnDelay); }
+  std::uint32_t return_delay_us() const override { return 2u * byte(dxl::address::kReturnDelay); }
   /// Secondary ID: a group is written together and does not reply.
   virtual bool in_group(std::uint8_t) const { return false; }
   virtual std::uint8_t status_level() const { return 2; }
   virtual bool answers_fast_sync_read() const { return true; }
   virtual bool alert() const { return false; }
-  virtual bool torque_on() const { return false; }
 
   /// Updates the registers; the plant is at the time of the reply.
   virtual void refresh(std::uint16_t address, std::uint16_t length) = 0;
@@ -40,14 +40,8 @@ class Device {
   dxl::Error reg_write(std::uint16_t address, std::span<const std::uint8_t> data);
   dxl::Error action();
 
-  /// An instruction packet for any device ended at `time_us`.
-  void heard(std::uint64_t time_us) { heard_us_ = time_us; }
-  /// Time of the device's own next action.
-  virtual std::uint64_t deadline_us() const { return kNever_us; }
-  virtual void expire() {}
-
-  void lose_power();
-  void reboot();
+  void lose_power() override;
+  void reboot() override;
   /// e-Manual, Control Table Backup: stores the table, or restores the EEPROM and restarts.
   virtual dxl::Error backup(std::span<const std::uint8_t>) { return dxl::Error::kInstruction; }
   /// Refused while torque is on. Unless kept, the id becomes 1 and the baud rate 57600.
@@ -70,10 +64,8 @@ class Device {
   std::uint8_t byte(std::uint16_t address) const {
     return static_cast<std::uint8_t>(table_.get(address));
   }
-  static constexpr std::uint64_t kNever_us = ~std::uint64_t{0};
   RegisterTable table_;
   std::span<const dxl::IndirectBlock> indirect_;
-  std::uint64_t heard_us_ = 0;
 
  private:
   struct Piece {

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "common/protocol/control_table.hpp"
-#include "firmware/app/schedule.hpp"
+#include "common/protocol/feetech_table.hpp"
+#include "firmware/app/feetech_schedule.hpp"
 #include "host/os/link/latency.hpp"
 
 namespace verp::bus {
@@ -16,8 +17,35 @@ namespace {
 
 constexpr int kDelays = 80;
 constexpr int kSilent = 10;                        // stop after so many unanswered reads
-constexpr std::uint16_t kBytes = 4;                // Present Position, as in every tick
 constexpr int kShortest_ms = 4, kLongest_ms = 20;  // Params::period_us
+
+/// Present Position of one servo, as in every tick.
+struct PositionRead {
+  std::uint16_t address = 0, bytes = 0;
+  std::size_t wire_bytes = 0;
+};
+
+PositionRead position_read(const Params& params) {
+  if (params.bus_protocol == BusProtocol::kFeetech) {
+    return {feetech::address::kPresentPosition, app::feetech_bytes::kPosition,
+            app::feetech_bytes::read(app::feetech_bytes::kPosition)};
+  }
+  return {dxl::address::kPresentPosition, 4, dxl::kInstructionBytes + 4 + dxl::kStatusBytes + 4};
+}
+
+/// A tick's two reads, if nobody answers.
+std::uint32_t silence_us(const Params& params) {
+  const std::size_t joints = params.servo_count(), sensors = app::sensor_devices(params);
+  const bool feetech = params.bus_protocol == BusProtocol::kFeetech;
+  namespace ft = app::feetech_bytes;
+  const std::size_t positions = feetech ? ft::sync_read(joints, ft::kPosition + app::kMostSpare)
+                                        : app::sync_read_bytes(joints, 4 + app::kMostSpare);
+  const std::size_t rest =
+      feetech ? ft::sync_read(sensors, feetech::sensor_block::kBytes + app::kMostSpare)
+              : app::sync_read_bytes(sensors, dxl::sensor_block::kBytes + app::kMostSpare);
+  return app::timeout_us(positions, joints, params.baud) +
+         app::timeout_us(rest, sensors, params.baud);
+}
 
 /// Id of the first servo that answers; nothing if the caller gave up.
 std::optional<std::uint8_t> somebody(Client& client, const Params& params,
@@ -75,22 +103,18 @@ LinkDelay measure_delay(Client& client, const Params& params,
   const std::optional<std::uint8_t> found = somebody(client, params, give_up);
   if (!found) return {};
   const std::uint8_t id = *found;
-  const LinkDelay delay = measure_delay(
-      [&] { return client.read_once(id, dxl::address::kPresentPosition, kBytes); },
-      app::wire_us(dxl::kInstructionBytes + 4 + dxl::kStatusBytes + kBytes, params.baud), give_up);
+  const PositionRead read = position_read(params);
+  const LinkDelay delay =
+      measure_delay([&] { return client.read_once(id, read.address, read.bytes); },
+                    app::wire_us(read.wire_bytes, params.baud), give_up);
   if (2 * delay.answered < delay.asked && !give_up()) too_few(client, id, delay);
   return delay;
 }
 
 LinkFit fit(const Params& params, const LinkDelay& delay) {
   // Reads of a silent bus must not cost deadlines, nor delay the reads behind them.
-  const std::size_t joints = params.servo_count(), sensors = app::sensor_devices(params);
-  const std::uint32_t silence_us =
-      app::timeout_us(app::sync_read_bytes(joints, kBytes + app::kMostSpare), joints, params.baud) +
-      app::timeout_us(app::sync_read_bytes(sensors, dxl::sensor_block::kBytes + app::kMostSpare),
-                      sensors, params.baud);
   return {.period_us = params.period_us,
-          .wire_us = std::max(app::schedule_us(params), silence_us),
+          .wire_us = std::max(app::serial_tick_us(params), silence_us(params)),
           .delay = delay};
 }
 
@@ -121,8 +145,10 @@ std::string remedy(const LinkFit& fit, const Params& params, const link::Endpoin
   // A faster bus saves only wire time: suggested only if that is enough.
   const double half_wire_us = fit.needed_us() - 0.5 * fit.wire_us;
   const bool can = endpoint.kind == link::Endpoint::Kind::kCan;
-  if (!can && dxl::baud_rate_code(2 * params.baud) != 0xFF &&
-      half_wire_us <= LinkFit::kUsable * fit.period_us) {
+  const bool has_faster = params.bus_protocol == BusProtocol::kFeetech
+                              ? feetech::baud_rate_code(2 * params.baud) != 0xFF
+                              : dxl::baud_rate_code(2 * params.baud) != 0xFF;
+  if (!can && has_faster && half_wire_us <= LinkFit::kUsable * fit.period_us) {
     add(fmt::format("raise the bus from {} to {} baud", params.baud, 2 * params.baud));
   }
   if (text.empty()) {

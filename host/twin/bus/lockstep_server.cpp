@@ -33,21 +33,6 @@ bool payload_of(const dxl::Packet& packet, std::uint16_t address, Payload& paylo
   return true;
 }
 
-/// Up to the next header, which only occurs at the start of a packet.
-std::size_t frame_size(std::span<const std::uint8_t> bytes) {
-  const auto next =
-      std::search(bytes.begin() + 1, bytes.end(), std::begin(dxl::kHeader), std::end(dxl::kHeader));
-  return std::min(static_cast<std::size_t>(next - bytes.begin()), hal::kMaxFrame);
-}
-
-bool begins_tick(std::span<const std::uint8_t> frame) {
-  dxl::Parser parser;
-  for (const std::uint8_t byte : frame) {
-    if (parser.push(byte) && VirtualBus::begins_tick(parser.packet())) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 LockstepServer::LockstepServer(const Params& params, VirtualBus& bus, LockstepHooks hooks)
@@ -104,7 +89,7 @@ void LockstepServer::hello(const lockstep::Hello& hello, std::vector<std::uint8_
 }
 
 bool LockstepServer::send_frame(std::span<const std::uint8_t> frame, bool intact) {
-  if (begins_tick(frame) && hooks_.tick_ends && !hooks_.tick_ends()) return false;
+  if (bus_.words().begins_tick(frame) && hooks_.tick_ends && !hooks_.tick_ends()) return false;
   bus_.send(frame.data(), frame.size());
   if (intact && hooks_.sent) hooks_.sent(frame);
   return true;
@@ -119,7 +104,7 @@ bool LockstepServer::send_frames(const lockstep::Advance& advance) {
   const bool ticking = bus_.ticking();
   const std::uint32_t tick = bus_.tick();
   for (std::span<const std::uint8_t> rest(frames_); !rest.empty();) {
-    const std::size_t size = frame_size(rest);
+    const std::size_t size = bus_.words().frame_size(rest);
     if (!send_frame(rest.first(size), intact)) {
       stopped_ = true;
       break;

@@ -8,7 +8,6 @@ namespace {
 
 /// Longest pause within a packet; an estimate, the vendor documents none.
 constexpr std::uint64_t kPause_ns = 100'000'000;
-constexpr std::uint32_t kHeaderWord = 0xFFFFFD00;  // byte stuffing keeps it out of packets
 
 }  // namespace
 
@@ -16,13 +15,13 @@ void VirtualBus::set_baud(std::uint32_t baud) {
   if (baud == 0 || baud == baud_) return;
   baud_ = baud;
   replies_.clear();
-  line_.reset();
+  words_->forget();
 }
 
 void VirtualBus::begin_time() {
   held_ = false;
   replies_.clear();
-  line_.reset();
+  words_->forget();
   now_ns_ = wire_free_ns_ = asked_ns_ = master_free_ns_ = send_start_ns_ = 0;
   for (const auto& each : devices_) each->heard(0);
 }
@@ -58,27 +57,22 @@ void VirtualBus::talk(const std::uint8_t* data, std::size_t size) {
   send_start_ns_ = std::max(now_ns_, master_free_ns_);
   for (std::size_t i = 0; i < size; ++i) {
     const std::uint64_t start_ns = std::max(now_ns_, master_free_ns_);
-    if (start_ns > master_free_ns_ + kPause_ns) line_.reset();
+    if (start_ns > master_free_ns_ + kPause_ns) words_->forget();
     master_free_ns_ = start_ns + bytes_ns(1);
     const bool jammed = jams(data[i], start_ns, master_free_ns_);
     if (jammed && !std::exchange(jammed_, true)) ++lost_requests_;
     if (jammed) {
-      line_.reset();
-      last_four_ = 0;
+      words_->jam();
       continue;
     }
     jammed_ = false;
-    last_four_ = last_four_ << 8 | data[i];
-    if (last_four_ == kHeaderWord) {
-      line_.reset();
-      for (std::size_t j = 0; j + 1 < sizeof dxl::kHeader; ++j) line_.push(dxl::kHeader[j]);
-    }
-    for (bool found = line_.push(data[i]); found; found = line_.next()) {
+    words_->watch_header(data[i]);
+    for (bool found = words_->push(data[i]); found; found = words_->next()) {
       wire_free_ns_ = master_free_ns_;
       // A new packet cancels remaining answers to a broadcast Ping.
       std::erase_if(replies_,
                     [this](const Chunk& each) { return each.asked_ns > master_free_ns_; });
-      handle(line_.packet(), master_free_ns_);
+      words_->handle(master_free_ns_);
     }
   }
 }

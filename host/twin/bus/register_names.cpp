@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "common/protocol/control_table.hpp"
+#include "common/protocol/feetech_table.hpp"
 #include "firmware/app/lockstep_messages.hpp"
+#include "host/twin/bus/feetech_registers.hpp"
 #include "host/twin/bus/modem_device.hpp"
 #include "host/twin/bus/servo_registers.hpp"
 
@@ -90,12 +92,26 @@ constexpr std::array<Model, 5> kModels = {{
     {dxl::controller::kModel, "controller", dxl::controller::kTable},
 }};
 
-std::optional<Model> find_model(std::uint16_t number) {
+std::optional<Model> find_feetech(std::uint16_t number) {
+  switch (number) {
+    case feetech::kModelSts3215:
+      return Model{number, "STS3215", feetech_bus::servo_names()};
+    case feetech::kModelImu:
+      return Model{number, "IMU device", feetech_bus::imu_names()};
+    case feetech::kModelFoot:
+      return Model{number, "foot device", feetech_bus::foot_names()};
+    default:
+      return std::nullopt;
+  }
+}
+
+std::optional<Model> find_model(std::uint16_t number, BusProtocol protocol) {
+  if (protocol == BusProtocol::kFeetech) return find_feetech(number);
   for (const Model& model : kModels) {
     if (model.number == number) return model;
   }
   const dxl::ServoModel* servo = dxl::find_servo_model(number);
-  if (servo == nullptr) return std::nullopt;
+  if (servo == nullptr) return find_feetech(number);
   return Model{number, servo->name, servo::named_registers(*servo)};
 }
 
@@ -114,18 +130,19 @@ std::string hardware_errors(unsigned bits) {
   return text.empty() ? "unknown: " + std::to_string(bits) : text;
 }
 
-std::string model_name(std::uint16_t model) {
-  const std::optional<Model> known = find_model(model);
+std::string model_name(std::uint16_t model, BusProtocol protocol) {
+  const std::optional<Model> known = find_model(model, protocol);
   return !known ? "model " + std::to_string(model) : known->name;
 }
 
-std::span<const NamedRegister> registers_of(std::uint16_t model) {
-  const std::optional<Model> known = find_model(model);
+std::span<const NamedRegister> registers_of(std::uint16_t model, BusProtocol protocol) {
+  const std::optional<Model> known = find_model(model, protocol);
   return known ? known->registers : std::span<const NamedRegister>{};
 }
 
-const NamedRegister* find_register(std::uint16_t model, std::string_view name) {
-  for (const NamedRegister& each : registers_of(model)) {
+const NamedRegister* find_register(std::uint16_t model, std::string_view name,
+                                   BusProtocol protocol) {
+  for (const NamedRegister& each : registers_of(model, protocol)) {
     if (name == each.name) return &each;
   }
   return nullptr;

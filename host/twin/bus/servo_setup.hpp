@@ -26,7 +26,8 @@ struct Change {
 class SetupLine {
  public:
   /// `baud`: the rate of the robot's bus.
-  SetupLine(const link::Endpoint& endpoint, std::uint32_t baud);
+  SetupLine(const link::Endpoint& endpoint, std::uint32_t baud,
+            BusProtocol protocol = BusProtocol::kDynamixel2);
 
   /// Client at that rate; on a link without a rate, always the same client.
   Client& at(std::uint32_t baud);
@@ -36,6 +37,7 @@ class SetupLine {
  private:
   link::Endpoint endpoint_;
   std::uint32_t baud_;
+  BusProtocol protocol_;
   std::optional<Client> client_;
 };
 
@@ -46,13 +48,15 @@ using Changed = std::function<void(const Change&)>;
 void configure(SetupLine& line, FoundServo& servo, std::uint8_t id, std::uint32_t baud,
                bool dry_run, const Changed& changed);
 
+bool is_stiff(Client& client, std::uint8_t id);
+
 /// Median of several readings, counts. Throws DeviceError if the servo moves.
 std::int32_t still_position(Client& client, std::uint8_t id);
 
 /// Count at the joint's zero, and the correction to the model's count.
 struct ZeroFix {
   std::int32_t count = 0;
-  std::int32_t homing_before = 0;  ///< Homing Offset (20)
+  std::int32_t homing_before = 0;  ///< Homing Offset (20); Feetech: Offset (31)
   std::int32_t homing_after = 0;   ///< makes the count the model's
   std::int32_t model_offset = 0;   ///< alternative: `offset` of <verp:servo>
   bool servo_can = true;           ///< homing_after is within range

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "host/twin/bus/sensor_device.hpp"
-#include "host/twin/bus/servo_device.hpp"
+#include "host/twin/bus/dynamixel_words.hpp"
 
 namespace verp::bus {
 namespace {
@@ -15,23 +14,24 @@ constexpr std::uint64_t kBitsPerByte = 10;
 
 VirtualBus::VirtualBus(const Params& params, sim::Plant& plant)
     : plant_(plant), period_ns_(std::uint64_t{params.period_us} * 1000), baud_(params.baud) {
-  for (int j = 0; j < params.servo_count(); ++j) {
-    const JointParams& joint = params.joint[j];
-    const ServoProfile& profile = params.servo[joint.servo_profile % kServoProfiles];
-    const ServoIdentity identity{.id = joint.servo_id,
-                                 .model = profile.model_number,
-                                 .baud = params.baud,
-                                 .fast_sync_read = profile.fast_sync_read != 0,
-                                 .rating = plant.rating(j)};
-    devices_.push_back(std::make_unique<ServoDevice>(identity, plant, j));
-  }
-  if (params.imu.device_id != 0) {
-    devices_.push_back(std::make_unique<ImuDevice>(params.imu.device_id, params.baud, plant));
-  }
-  for (int foot = 0; foot < kFeet; ++foot) {
-    const std::uint8_t id = params.feet.device_id[foot];
-    if (id == 0) continue;
-    devices_.push_back(std::make_unique<FootDevice>(id, params.baud, plant, foot));
+  const bool feetech = params.bus_protocol == BusProtocol::kFeetech;
+  SpokenBus spoken =
+      feetech ? make_feetech_bus(params, plant, *this) : make_dynamixel_bus(params, plant, *this);
+  words_ = std::move(spoken.words);
+  devices_ = std::move(spoken.devices);
+}
+
+VirtualBus::~VirtualBus() = default;
+
+void VirtualBus::add(std::unique_ptr<Device> device) {
+  dynamic_cast<DynamixelWords&>(*words_).add(*device);
+  devices_.push_back(std::move(device));
+}
+
+void VirtualBus::request_ended(std::uint64_t end_ns) {
+  advance_plant(end_ns / 1000);
+  for (const auto& each : devices_) {
+    if (hears(*each)) each->heard(end_ns / 1000);
   }
 }
 
@@ -39,17 +39,8 @@ std::uint64_t VirtualBus::bytes_ns(std::size_t count) const {
   return count * kBitsPerByte * 1'000'000'000u / baud_;
 }
 
-bool VirtualBus::hears(const Device& device) const {
-  return !unplugged_[device.id()] && !unpowered_[device.id()] &&
-         device.baud_code() == dxl::baud_rate_code(baud_);
-}
-
-std::vector<Device*> VirtualBus::devices(std::uint8_t id) {
-  std::vector<Device*> all;
-  for (const auto& candidate : devices_) {
-    if (candidate->id() == id && hears(*candidate)) all.push_back(candidate.get());
-  }
-  return all;
+bool VirtualBus::hears(const BusDevice& device) const {
+  return !unplugged_[device.id()] && !unpowered_[device.id()] && device.runs_at(baud_);
 }
 
 void VirtualBus::set_connected(std::uint8_t id, bool connected) {
@@ -80,10 +71,10 @@ bool VirtualBus::send(const std::uint8_t* data, std::size_t size) {
   std::uint64_t start_ns = std::max(now_ns_, wire_free_ns_);
   bytes_on_wire_ += size;
   for (std::size_t i = 0; i < size; ++i) {
-    for (bool found = line_.push(data[i]); found; found = line_.next()) {
-      if (begins_tick(line_.packet())) start_ns = begin_tick(start_ns);
+    for (bool found = words_->push(data[i]); found; found = words_->next()) {
+      if (words_->begins_tick()) start_ns = begin_tick(start_ns);
       wire_free_ns_ = std::max(wire_free_ns_, start_ns + bytes_ns(i + 1));
-      handle(line_.packet(), wire_free_ns_);
+      words_->handle(wire_free_ns_);
     }
   }
   wire_free_ns_ = std::max(wire_free_ns_, start_ns + bytes_ns(size));
@@ -128,7 +119,7 @@ void VirtualBus::advance_plant(std::uint64_t time_us) {
   if (held_) return;
   time_us = std::max(time_us, plant_.now_us());
   for (;;) {
-    Device* next = nullptr;
+    BusDevice* next = nullptr;
     for (const auto& each : devices_) {
       if (next == nullptr || each->deadline_us() < next->deadline_us()) next = each.get();
     }

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <deque>
@@ -8,17 +9,20 @@
 #include <vector>
 
 #include "common/model/params.hpp"
-#include "common/protocol/dynamixel2.hpp"
 #include "hal/contract/frame_bus.hpp"
+#include "host/twin/bus/bus_device.hpp"
+#include "host/twin/bus/bus_words.hpp"
+#include "host/twin/bus/collision.hpp"
 #include "host/twin/bus/device.hpp"
 #include "host/twin/sim/plant.hpp"
 
 namespace verp::bus {
 
 /// A FrameBus in memory with devices on a plant, in simulated time: the same frames give the same
-/// replies at the same times.
+/// replies at the same times. It is the line: bytes, rate, time and collisions. What the bytes mean
+/// is BusWords', in the protocol of Params.
 ///
-/// In lockstep a broadcast (Fast) Sync Read of Present Position begins a tick and waits on the wire
+/// In lockstep a broadcast read of Present Position begins a tick and waits on the wire
 /// for the next multiple of the control period. Otherwise only bytes, reply delays and poll's
 /// timeouts advance time. Registers are sampled when a reply begins; writes apply when their last
 /// byte arrives.
@@ -30,8 +34,13 @@ class VirtualBus final : public hal::FrameBus {
   /// The plant must outlive the bus and be at time 0.
   VirtualBus(const Params& params, sim::Plant& plant);
 
-  /// A device that `params` does not name; call before the first frame.
-  void add(std::unique_ptr<Device> device) { devices_.push_back(std::move(device)); }
+  ~VirtualBus();
+  VirtualBus(const VirtualBus&) = delete;
+  VirtualBus& operator=(const VirtualBus&) = delete;
+
+  /// A Dynamixel device that `params` does not name; call before the first frame, on a Dynamixel
+  /// bus.
+  void add(std::unique_ptr<Device> device);
 
   bool send(const std::uint8_t* data, std::size_t size) override;
   std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) override;
@@ -44,7 +53,7 @@ class VirtualBus final : public hal::FrameBus {
   void set_connected(std::uint8_t id, bool connected);
   /// Without power a device is disconnected; with power it restarts.
   void set_powered(std::uint8_t id, bool powered);
-  static bool begins_tick(const dxl::Packet& packet);
+  const BusWords& words() const { return *words_; }
 
   /// In real time no read waits for a period, and bring_until() advances time. The half-duplex wire
   /// loses bytes that the master sends before an answer is over (real_time_line.cpp). An incomplete
@@ -61,7 +70,7 @@ class VirtualBus final : public hal::FrameBus {
   bool quiet() const { return replies_.empty() && master_free_ns_ <= now_ns_; }
   std::size_t unsent() const;
   /// The master closed its port: discards its incomplete packet.
-  void hung_up() { line_.reset(); }
+  void hung_up() { words_->forget(); }
   /// Requests that arrived during an answer.
   std::uint32_t lost_requests() const { return lost_requests_; }
   /// Advances to `time_us`; stores arriving bytes and returns their number. At `capacity` bytes,
@@ -75,6 +84,18 @@ class VirtualBus final : public hal::FrameBus {
 
   std::uint64_t bytes_on_wire() const { return bytes_on_wire_; }
 
+  // For the words.
+  /// A request ended: brings the plant there and tells every device.
+  void request_ended(std::uint64_t end_ns);
+  bool hears(const BusDevice& device) const;
+  /// Lets devices answer together, after their delays unless `at_once`. say(device) returns the
+  /// bytes; call advance_to_answer() in it before reading the plant.
+  template <class Speaker, class Say>
+  void speak(const std::vector<Speaker*>& speakers, bool at_once, Say&& say);
+  void advance_to_answer() { advance_plant(wire_free_ns_ / 1000); }
+  std::uint64_t wire_free_ns() const { return wire_free_ns_; }
+  void hold_wire_until(std::uint64_t time_ns) { wire_free_ns_ = std::max(wire_free_ns_, time_ns); }
+
  private:
   struct Chunk {
     std::uint64_t asked_ns = 0;  ///< its sender is deaf from here on
@@ -83,12 +104,7 @@ class VirtualBus final : public hal::FrameBus {
     std::vector<std::uint8_t> bytes;
   };
 
-  /// A broadcast Ping is answered in slots: id n in slot n.
-  static constexpr std::uint64_t kPingSlot_us = 3000;
-
   std::uint64_t bytes_ns(std::size_t count) const;
-  /// More than one only if ids are duplicated.
-  std::vector<Device*> devices(std::uint8_t id);
   std::uint64_t begin_tick(std::uint64_t ready_ns);
   std::size_t arrive(std::uint64_t deadline_ns, std::uint8_t* buffer, std::size_t capacity);
 
@@ -96,34 +112,18 @@ class VirtualBus final : public hal::FrameBus {
   void talk(const std::uint8_t* data, std::size_t size);
   /// True if an answer is in progress; `byte` then corrupts the part of it on the line.
   bool jams(std::uint8_t byte, std::uint64_t start_ns, std::uint64_t end_ns);
-  bool hears(const Device& device) const;
   /// Advances the plant, and runs the devices' own actions on the way.
   void advance_plant(std::uint64_t time_us);
   void wait_us(std::uint32_t delay_us);
-  template <class Say>
-  void speak(const std::vector<Device*>& speakers, bool at_once, Say&& say);
   void put_on_wire(std::vector<std::uint8_t> bytes);
-
-  // instructions.cpp
-  void handle(const dxl::Packet& packet, std::uint64_t end_ns);
-  /// `for_group`: by Secondary ID too. Only a device addressed by its own id replies.
-  template <class Apply>
-  void command(std::uint8_t id, bool for_group, Apply apply);
-  void ping(std::uint8_t id);
-  void identify(std::uint8_t id);
-  void read(const dxl::Packet& packet);
-  void factory_reset(const dxl::Packet& packet);
-  void read_each(const dxl::Packet& packet);
-  void read_fast(const dxl::Packet& packet);
-  void write_each(const dxl::Packet& packet);
 
   sim::Plant& plant_;
   std::uint64_t period_ns_;
   std::uint32_t baud_;
-  std::vector<std::unique_ptr<Device>> devices_;
+  std::vector<std::unique_ptr<BusDevice>> devices_;
+  std::unique_ptr<BusWords> words_;
   std::array<bool, 256> unplugged_{};
   std::array<bool, 256> unpowered_{};
-  dxl::Parser line_;
   std::deque<Chunk> replies_;
   std::uint64_t now_ns_ = 0;
   std::uint64_t wire_free_ns_ = 0;
@@ -135,11 +135,27 @@ class VirtualBus final : public hal::FrameBus {
   std::uint64_t bytes_on_wire_ = 0;
   std::uint32_t tick_ = 0;
   std::uint32_t lost_requests_ = 0;
-  std::uint32_t last_four_ = 0;  ///< last four bytes of the master, in real time
   bool jammed_ = false;
   bool ticking_ = false;
   bool real_time_ = false;
   bool held_ = false;
 };
+
+template <class Speaker, class Say>
+void VirtualBus::speak(const std::vector<Speaker*>& speakers, bool at_once, Say&& say) {
+  if (speakers.empty()) return;
+  const auto delay_us = [&](const Speaker* each) { return at_once ? 0 : each->return_delay_us(); };
+  std::uint32_t first_us = delay_us(speakers.front());
+  for (const Speaker* each : speakers) first_us = std::min(first_us, delay_us(each));
+  wait_us(first_us);
+  std::vector<Voice> voices;
+  for (std::size_t i = 0; i < speakers.size(); ++i) {
+    // No two clocks agree: each device starts one bit later.
+    const std::uint64_t late_us = delay_us(speakers[i]) - first_us;
+    const auto late_bits = static_cast<std::uint32_t>(late_us * baud_ / 1'000'000 + i);
+    voices.push_back({say(*speakers[i]), late_bits});
+  }
+  put_on_wire(bus::heard(voices));
+}
 
 }  // namespace verp::bus

@@ -35,7 +35,7 @@ TEST(Buses, TheFirstIsUsedUnlessAnotherIsNamed) {
   const Entity can = load_robot(robot_file("generic21"), "can");
   EXPECT_EQ(serial.bus, "dxl");
   EXPECT_EQ(can.bus, "can");
-  EXPECT_EQ(serial.buses, (std::vector<std::string>{"dxl", "can"}));
+  EXPECT_EQ(serial.buses, (std::vector<std::string>{"dxl", "can", "feetech"}));
   EXPECT_EQ(make_params(serial).bus_protocol, BusProtocol::kDynamixel2);
   const Params params = make_params(can);
   EXPECT_EQ(params.bus_protocol, BusProtocol::kCia402);
@@ -144,6 +144,47 @@ TEST(Buses, TheShareOfATickFollowsFromTheRate) {
   EXPECT_NEAR(bus_time(params).us, 2 * fast.us, 2);
   params.period_us *= 2;
   EXPECT_NEAR(bus_time(params).share, fast.share, 1e-3);
+}
+
+const std::string kFeetech = "<verp:bus name=\"feetech\" protocol=\"feetech\" baud=\"1000000\"";
+const std::string kSts = "type=\"sts3215\" backlash_rad=\"0.0087\" p_gain=\"97\"/>";
+
+TEST(Buses, FeetechServosOfTheSameJointsAreAboutAsStiff) {
+  const Params dynamixel = make_params(load_robot(robot_file("generic21")));
+  const Params feetech = make_params(load_robot(robot_file("generic21"), "feetech"));
+  EXPECT_EQ(feetech.bus_protocol, BusProtocol::kFeetech);
+  EXPECT_EQ(feetech.baud, 1'000'000u);
+  EXPECT_EQ(feetech.servo[0].model_number, 777);
+  EXPECT_EQ(feetech.servo[0].position_p_gain, 97);
+  EXPECT_EQ(feetech.servo[0].position_d_gain, 32) << "the factory's";
+  EXPECT_EQ(feetech.servo[0].profile_ms, 0);
+  for (int j = 0; j < dynamixel.joint_count; ++j) {
+    EXPECT_NEAR(dynamixel.joint[j].compliance_rad_nm, feetech.joint[j].compliance_rad_nm, 2e-4);
+  }
+}
+
+TEST(Buses, TwoSerialProtocolsOnOneBusAreRefused) {
+  const std::string mixed = refusal(kSts, "type=\"xm430_w210\"/>", "feetech");
+  EXPECT_NE(mixed.find("servo type 'xm430_w210' does not speak feetech"), std::string::npos)
+      << mixed;
+  EXPECT_NE(mixed.find("robot.sdf:617:"), std::string::npos) << mixed;
+  EXPECT_NE(mixed.find("choose one of: sts3215"), std::string::npos) << mixed;
+}
+
+TEST(Buses, WhatFeetechServosLackIsRefused) {
+  const auto named = [](const std::string& old_part, const std::string& new_part) {
+    return refusal(old_part, new_part, "feetech");
+  };
+  EXPECT_NE(named(kFeetech, "<verp:bus name=\"feetech\" protocol=\"feetech\" baud=\"2000000\"")
+                .find("baud"),
+            std::string::npos);
+  EXPECT_NE(named(kFeetech, "<verp:bus name=\"feetech\" protocol=\"feetech\" baud=\"57600\"")
+                .find("choose one of: 1000000, 500000, 250000, 128000, 115200"),
+            std::string::npos);
+  EXPECT_NE(named(kSts, "type=\"sts3215\" profile_ms=\"10\"/>").find("profile"), std::string::npos);
+  EXPECT_NE(named(kSts, "type=\"sts3215\" p_gain=\"255\"/>").find("254"), std::string::npos);
+  EXPECT_NE(named("protocol=\"feetech\"", "protocol=\"feetch\"").find("\"feetech\""),
+            std::string::npos);
 }
 
 }  // namespace

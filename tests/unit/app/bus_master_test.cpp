@@ -5,6 +5,8 @@
 #include <cstdint>
 
 #include "common/protocol/control_table.hpp"
+#include "firmware/app/read_chain.hpp"
+#include "firmware/app/schedule.hpp"
 #include "hal/fake/scripted_bus.hpp"
 
 namespace verp::app {

@@ -110,7 +110,7 @@ TEST(Image, ABusThatCannotBeIsFound) {
   image.params.joint[1].servo_id = 0;
   EXPECT_FALSE(is_well_formed(image.params));
   image.params.joint[1].servo_id = 1;
-  image.params.bus_protocol = static_cast<BusProtocol>(2);
+  image.params.bus_protocol = static_cast<BusProtocol>(3);
   EXPECT_FALSE(is_well_formed(image.params));
 }
 

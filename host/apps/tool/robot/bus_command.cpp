@@ -26,6 +26,9 @@ CLI::App* add(CLI::App* bus, const std::shared_ptr<BusOptions>& options, const c
   app->add_option("--link", options->link,
                   "serial:/dev/ttyUSB0@1000000, pty:PATH, tcp:HOST:PORT, unix:PATH, can:can0")
       ->required();
+  app->add_option("--protocol", options->protocol, "of the devices on a serial link")
+      ->check(CLI::IsMember({"dynamixel2", "feetech"}))
+      ->capture_default_str();
   app->add_option("--timeout", options->timeout_ms, "what an answer may take, ms")
       ->transform(cli::number_between(1, 10000, "ms"))
       ->capture_default_str();
@@ -67,7 +70,8 @@ void add_registers(CLI::App* app, const std::shared_ptr<BusOptions>& options, co
 void refuse_on_can(const std::vector<CLI::App*>& commands, const CLI::App* bench) {
   constexpr struct {
     const char *word, *instead;
-  } kSerial[] = {{"--each", "on CAN every id is asked anyway"},
+  } kSerial[] = {{"--protocol", "a CAN interface has nodes of CANopen"},
+                 {"--each", "on CAN every id is asked anyway"},
                  {"--address", "on CAN give --object INDEX:SUBINDEX, such as 6064:0"},
                  {"--size", "on CAN each object knows its own"}};
   for (const CLI::App* each : commands) {
@@ -78,6 +82,15 @@ void refuse_on_can(const std::vector<CLI::App*>& commands, const CLI::App* bench
                            fmt::format("{} is of devices on serial links; {}", word,
                                        each == bench ? "on CAN 1000:0 is read" : instead));
     }
+  }
+}
+
+/// Our controller, the usual device, is none of Feetech's.
+void require_id(const std::vector<CLI::App*>& commands) {
+  for (const CLI::App* each : commands) {
+    if (!each->parsed()) continue;
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("verp bus {}: which servo? Give --id", each->get_name()));
   }
 }
 
@@ -126,6 +139,9 @@ cli::Subcommand add_bus(CLI::App& root) {
             bool named = false;  // --id is given
             for (const CLI::App* each : {call, show, put, measure}) {
               named = named || each->get_option("--id")->count() > 0;
+            }
+            if (!named && !can && options->protocol == "feetech" && !find->parsed()) {
+              require_id({call, show, put, measure});
             }
             if (!named) {
               options->id = can ? canopen::plan::kControllerNode : dxl::controller::kDefaultId;

@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "common/protocol/device_end.hpp"
+#include "common/protocol/feetech.hpp"
+#include "common/protocol/feetech_table.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/exit_status.hpp"
 #include "host/apps/cli/interrupt.hpp"
@@ -19,14 +22,59 @@
 namespace verp::tool {
 namespace {
 
+BusProtocol protocol_of(const BusOptions& options) {
+  return options.protocol == "feetech" ? BusProtocol::kFeetech : BusProtocol::kDynamixel2;
+}
+
 bus::Client open(const BusOptions& options) {
   if (!options.object.empty()) {
     throw cli::ToolError(cli::kBadInput,
                          "--object is of CAN's nodes (--link can:...); devices on other links "
                          "have --register or --address");
   }
-  return {link::parse_endpoint(options.link),
-          static_cast<std::uint32_t>(options.timeout_ms * 1000)};
+  return {link::parse_endpoint(options.link), static_cast<std::uint32_t>(options.timeout_ms * 1000),
+          protocol_of(options)};
+}
+
+/// A Feetech register with a sign has a magnitude on the wire, two's complement here.
+bool has_magnitude(const bus::Client& client, const bus::NamedRegister& reg) {
+  return client.protocol() == BusProtocol::kFeetech && reg.count == 1 &&
+         reg.type == dxl::controller::Type::kI16 && reg.address <= 0xFF;
+}
+
+std::vector<std::uint8_t> bytes_of(std::uint16_t value) {
+  return {static_cast<std::uint8_t>(value), static_cast<std::uint8_t>(value >> 8)};
+}
+
+std::vector<std::uint8_t> read_register(bus::Client& client, std::uint8_t id,
+                                        const bus::NamedRegister& reg) {
+  const auto bytes = client.read(id, reg.address, static_cast<std::uint16_t>(reg.bytes()));
+  if (!has_magnitude(client, reg)) return bytes;
+  const auto sign = feetech::sign_bit(static_cast<std::uint8_t>(reg.address));
+  return bytes_of(
+      static_cast<std::uint16_t>(feetech::from_magnitude(feetech::get_u16(bytes.data()), sign)));
+}
+
+/// A Feetech servo's answer does not say that it refused a value.
+void require_range(const bus::NamedRegister& reg, const std::vector<std::uint8_t>& bytes) {
+  const bool has_sign = dxl::controller::is_signed(reg.type);
+  const auto size = static_cast<unsigned>(bytes.size());
+  const std::int64_t value = dxl::register_value(bytes.data(), size, has_sign);
+  const auto most =
+      has_sign ? std::int64_t{static_cast<std::int32_t>(reg.maximum)} : std::int64_t{reg.maximum};
+  if (value >= reg.minimum && value <= most) return;
+  throw cli::ToolError(cli::kBadInput, fmt::format("{}: {} is out of range; give {} to {}",
+                                                   reg.name, value, reg.minimum, most));
+}
+
+std::vector<std::uint8_t> on_wire(const bus::Client& client, const bus::NamedRegister& reg,
+                                  const std::vector<std::uint8_t>& bytes) {
+  const bool ranged = client.protocol() == BusProtocol::kFeetech && reg.maximum != 0;
+  if (ranged) require_range(reg, bytes);
+  if (!has_magnitude(client, reg)) return bytes;
+  const auto sign = feetech::sign_bit(static_cast<std::uint8_t>(reg.address));
+  const auto value = static_cast<std::int16_t>(feetech::get_u16(bytes.data()));
+  return bytes_of(feetech::to_magnitude(value, sign));
 }
 
 void tell_tries(const bus::Client& client, const BusOptions& options, cli::Json* json) {
@@ -55,30 +103,31 @@ bus::Identity identify(bus::Client& client, const BusOptions& options) {
   return *identity;
 }
 
-cli::Json to_json(const bus::Identity& each) {
+cli::Json to_json(const bus::Identity& each, const BusOptions& options) {
   return {{"id", each.id},
           {"model", each.model},
-          {"name", bus::model_name(each.model)},
+          {"name", bus::model_name(each.model, protocol_of(options))},
           {"firmware", each.firmware}};
 }
 
 void print(const std::vector<bus::Identity>& found, const BusOptions& options) {
   if (options.json) {
     cli::Json devices = cli::Json::array();
-    for (const bus::Identity& each : found) devices.push_back(to_json(each));
+    for (const bus::Identity& each : found) devices.push_back(to_json(each, options));
     return cli::print_json({{"link", options.link}, {"devices", devices}});
   }
   for (const bus::Identity& each : found) {
-    cli::answer(fmt::format("{:3}  {:<12}  firmware {}\n", each.id, bus::model_name(each.model),
-                            each.firmware));
+    cli::answer(fmt::format("{:3}  {:<12}  firmware {}\n", each.id,
+                            bus::model_name(each.model, protocol_of(options)), each.firmware));
   }
 }
 
-bus::NamedRegister by_name(const bus::Identity& identity, const std::string& name) {
-  const bus::NamedRegister* found = bus::find_register(identity.model, name);
+bus::NamedRegister by_name(const bus::Identity& identity, BusProtocol protocol,
+                           const std::string& name) {
+  const bus::NamedRegister* found = bus::find_register(identity.model, name, protocol);
   if (found != nullptr) return *found;
   std::vector<std::string> names;
-  for (const bus::NamedRegister& each : bus::registers_of(identity.model)) {
+  for (const bus::NamedRegister& each : bus::registers_of(identity.model, protocol)) {
     names.emplace_back(each.name);
   }
   throw cli::ToolError(
@@ -100,14 +149,15 @@ std::vector<bus::NamedRegister> wanted(bus::Client& client, const BusOptions& op
   if (options.address >= 0) return {by_address(options)};
   const bus::Identity identity = identify(client, options);
   std::vector<bus::NamedRegister> all;
-  for (const std::string& name : options.names) all.push_back(by_name(identity, name));
+  for (const std::string& name : options.names)
+    all.push_back(by_name(identity, client.protocol(), name));
   if (!all.empty()) return all;
-  const auto known = bus::registers_of(identity.model);
+  const auto known = bus::registers_of(identity.model, client.protocol());
   if (known.empty()) {
     throw cli::ToolError(cli::kBadInput,
                          fmt::format("{}: its registers have no names here; give --address "
                                      "and --size",
-                                     bus::model_name(identity.model)));
+                                     bus::model_name(identity.model, client.protocol())));
   }
   return {known.begin(), known.end()};
 }
@@ -141,7 +191,7 @@ int ping_serial(const BusOptions& options) {
   bus::Client client = open(options);
   const bus::Identity identity = identify(client, options);
   if (options.json) {
-    cli::Json json = to_json(identity);
+    cli::Json json = to_json(identity, options);
     tell_tries(client, options, &json);
     cli::print_json(json);
   } else {
@@ -156,7 +206,7 @@ int read_serial(const BusOptions& options) {
   const auto id = static_cast<std::uint8_t>(options.id);
   cli::Json values = cli::Json::object();
   for (const bus::NamedRegister& each : wanted(client, options)) {
-    const auto bytes = client.read(id, each.address, static_cast<std::uint16_t>(each.bytes()));
+    const auto bytes = read_register(client, id, each);
     if (options.json) {
       values[options.address >= 0 ? std::to_string(each.address) : each.name] =
           json_value(each, bytes);
@@ -185,7 +235,7 @@ int write_serial(const BusOptions& options) {
   }
   const auto id = static_cast<std::uint8_t>(options.id);
   const std::vector<std::uint8_t> bytes = parse_values(reg, options.values);
-  client.write(id, reg.address, bytes);
+  client.write(id, reg.address, on_wire(client, reg, bytes));
   cli::Json json = {{"id", id}, {"address", reg.address}, {"bytes", bytes.size()}};
   tell_tries(client, options, options.json ? &json : nullptr);
   if (options.json) cli::print_json(json);

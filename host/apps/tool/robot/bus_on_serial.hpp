@@ -1,7 +1,7 @@
 #pragma once
 #include "host/apps/tool/robot/bus_options.hpp"
 
-/// `verp bus scan|ping|read|write|bench` for Dynamixel devices on any byte link.
+/// `verp bus scan|ping|read|write|bench` for devices on any byte link.
 namespace verp::tool {
 
 int scan_serial(const BusOptions& options);

@@ -6,6 +6,7 @@ namespace verp::tool {
 
 struct BusOptions {
   std::string link;
+  std::string protocol = "dynamixel2";  ///< of a byte link
   double timeout_ms = 100;
   int id = -1;  ///< default: the controller on that link
   std::vector<std::string> names;

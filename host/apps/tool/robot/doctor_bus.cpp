@@ -47,6 +47,13 @@ BusCase case_of(const std::string& link, const std::string& model, const std::st
   const std::string file = model::find_model(model);
   made.robot = can ? model::load_robot_on_can(file, bus) : model::load_robot(file, bus);
   made.params = model::make_params(*made.robot);
+  if (made.robot->protocol == BusProtocol::kFeetech) {
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("verp bus doctor: bus '{}' of {} has Feetech servos, which it "
+                                     "does not know; `verp bus scan --protocol feetech --link {}` "
+                                     "shows who answers",
+                                     made.robot->bus, made.robot->name, link));
+  }
   if (can == (made.robot->protocol == BusProtocol::kCia402)) return made;
   throw cli::ToolError(cli::kBadInput,
                        fmt::format("verp bus doctor: bus '{}' of {} is not of the kind of {}; name "

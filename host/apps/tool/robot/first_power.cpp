@@ -36,6 +36,11 @@ std::string when_silent(const Params& params) {
         "not let go: only your switch does.",
         1e-3 * canopen::plan::patience_ms(params));
   }
+  if (params.bus_protocol == BusProtocol::kFeetech) {
+    return "these servos have NO bus watchdog: they hold their last goal,\n     at full strength, "
+           "for "
+           "ever. Only your switch lets the robot go.";
+  }
   const double watchdog_s =
       1e-6 * app::bus_watchdog_units(params) * static_cast<double>(dxl::kBusWatchdogUnit_us);
   return fmt::format(

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "common/protocol/feetech_table.hpp"
 #include "firmware/app/link_bus.hpp"
 #include "firmware/app/tick_report.hpp"
 #include "host/apps/tool/robot/robot_loop.hpp"
@@ -30,13 +31,15 @@ class SerialRobot {
 
   LetGo let_go(int joint) {
     const std::uint8_t id = plan_.walk.params.joint[joint].servo_id;
-    const auto holds = [id](bus::Client& client) {
-      return client.read(id, dxl::address::kTorqueEnable, 1)[0] != 0;
-    };
+    const BusProtocol protocol = plan_.walk.params.bus_protocol;
+    const std::uint16_t torque = protocol == BusProtocol::kFeetech
+                                     ? std::uint16_t{feetech::address::kTorqueEnable}
+                                     : dxl::address::kTorqueEnable;
+    const auto holds = [=](bus::Client& client) { return client.read(id, torque, 1)[0] != 0; };
     try {
-      bus::Client client(link_, plan_.link, kAnswer_us);
+      bus::Client client(link_, plan_.link, kAnswer_us, protocol);
       if (!holds(client)) return LetGo::kYes;
-      client.write(id, dxl::address::kTorqueEnable, {0});
+      client.write(id, torque, {0});
       return holds(client) ? LetGo::kNo : LetGo::kYes;
     } catch (const bus::DeviceError&) {
       return LetGo::kSilent;
@@ -54,7 +57,7 @@ class SerialRobot {
 
 bus::LinkFit check_latency(link::Link& link, const RunPlan& plan) {
   const Params& params = plan.walk.params;
-  bus::Client client(link, plan.link, kAnswer_us);
+  bus::Client client(link, plan.link, kAnswer_us, plan.walk.params.bus_protocol);
   const bus::LinkFit fit =
       bus::fit(params, bus::measure_delay(client, params, [] { return cli::interrupted(); }));
   judge_fit(fit, plan);
@@ -64,10 +67,11 @@ bus::LinkFit check_latency(link::Link& link, const RunPlan& plan) {
 void check_imu(link::Link& link, const RunPlan& plan) {
   if (!plan.has_imu) return;
   judge_imu(plan, "");
-  bus::Client client(link, plan.link, kAnswer_us);
+  bus::Client client(link, plan.link, kAnswer_us, plan.walk.params.bus_protocol);
   const auto found = client.ping(plan.walk.params.imu.device_id);
   if (found && found->model == dxl::kModelImu) return;
-  judge_imu(plan, found ? "is a " + bus::model_name(found->model) : "does not answer");
+  judge_imu(plan,
+            found ? "is a " + bus::model_name(found->model, client.protocol()) : "does not answer");
 }
 
 RunResult drive(link::Link& link, const RunPlan& plan, const bus::LinkFit& fit,

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string>
 
-#include "firmware/app/bus_master.hpp"
+#include "firmware/app/bus_counters.hpp"
 #include "firmware/app/pacer.hpp"
 #include "hal/contract/byte_link.hpp"
 #include "host/apps/cli/progress.hpp"

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "common/protocol/control_table.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/interrupt.hpp"
 #include "host/twin/bus/register_names.hpp"
@@ -34,7 +33,7 @@ void add_todo(cli::Json& entry, const std::string& what) {
 SetupGuide::SetupGuide(const Params& params, const link::Endpoint& endpoint,
                        const SetupChoice& choice, SetupReport& report, cli::Answers& answers)
     : params_(params),
-      line_(endpoint, params.baud),
+      line_(endpoint, params.baud, params.bus_protocol),
       choice_(choice),
       report_(report),
       answers_(answers) {}
@@ -70,9 +69,9 @@ bool SetupGuide::run() {
 
 bool SetupGuide::joint(int index) {
   const JointParams& joint = params_.joint[index];
-  cli::complain(fmt::format("\n{} ({} of {}): id {}, {}", joint.name, index + 1,
-                            params_.servo_count(), joint.servo_id,
-                            bus::model_name(params_.servo[joint.servo_profile].model_number)));
+  cli::complain(fmt::format(
+      "\n{} ({} of {}): id {}, {}", joint.name, index + 1, params_.servo_count(), joint.servo_id,
+      bus::model_name(params_.servo[joint.servo_profile].model_number, params_.bus_protocol)));
   const char* question = choice_.wired ? "Press Enter to begin (s skips the joint, q ends): "
                                        : "Connect its servo alone and power it, then press Enter "
                                          "(s skips the joint, q ends): ";
@@ -158,19 +157,20 @@ bus::FoundServo SetupGuide::meet(const JointParams& joint) {
     servo = found[0];
   }
   cli::complain(fmt::format("  found: id {} at {} baud, {}", servo.identity.id, servo.baud,
-                            bus::model_name(servo.identity.model)));
+                            bus::model_name(servo.identity.model, params_.bus_protocol)));
   const std::uint16_t wanted = params_.servo[joint.servo_profile].model_number;
   if (servo.identity.model != wanted) {
     throw bus::DeviceError(fmt::format(
         "it is a {}, the model wants a {}: take the right servo, or correct its type in the model",
-        bus::model_name(servo.identity.model), bus::model_name(wanted)));
+        bus::model_name(servo.identity.model, params_.bus_protocol),
+        bus::model_name(wanted, params_.bus_protocol)));
   }
   return servo;
 }
 
 void SetupGuide::measure_zero(const JointParams& joint, bus::Client& client, std::uint8_t id,
                               cli::Json& entry) {
-  const bool stiff = client.read(id, dxl::address::kTorqueEnable, 1)[0] != 0;
+  const bool stiff = bus::is_stiff(client, id);
   if (ask(fmt::format(
           "  Zero: {}. Put {} where the model has its angle 0, hold it, Enter "
           "(s leaves the zero as it is): ",
