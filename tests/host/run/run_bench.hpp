@@ -20,9 +20,9 @@ class RunBench : public Program {
   void serve(const std::string& model = "generic21") {
     twin_.reset();
     const std::string twin = "unix-listen:" + (folder_ / "twin").string();
-    twin_ = std::make_unique<Process>(folder_, "twin",
-                                      std::vector<std::string>{"hil", model, "--realtime", "--for",
-                                                               "3600", "--json", "--link", twin});
+    twin_ = std::make_unique<Process>(
+        folder_, "twin",
+        with_bus({"hil", model, "--realtime", "--for", "3600", "--json", "--link", twin}));
     ASSERT_TRUE(twin_->says("waits for a controller")) << twin_->said();
   }
   void plug(const verp::test::Latency& latency) {
@@ -32,8 +32,9 @@ class RunBench : public Program {
   }
   std::string port() const { return (folder_ / "tty").string(); }
   std::unique_ptr<Process> run(std::vector<std::string> more) {
-    std::vector<std::string> words = {"run", "generic21", "--link", "serial:" + port() + "@2000000",
-                                      "--json"};
+    const std::string baud = bus_ == "feetech" ? "1000000" : "2000000";
+    std::vector<std::string> words =
+        with_bus({"run", "generic21", "--link", "serial:" + port() + "@" + baud, "--json"});
     const bool timed = std::find(more.begin(), more.end(), "--for") != more.end();
     if (!timed && std::find(more.begin(), more.end(), "--action") == more.end()) {
       words.insert(words.end(), {"--for", "3"});
@@ -43,6 +44,12 @@ class RunBench : public Program {
   }
   record::Trace trace() const { return record::read_trace(folder_ / "run.mcap"); }
 
+  std::vector<std::string> with_bus(std::vector<std::string> words) const {
+    if (!bus_.empty()) words.insert(words.end(), {"--bus", bus_});
+    return words;
+  }
+
+  std::string bus_;  ///< empty: the robot's first
   std::unique_ptr<Process> twin_;
   std::unique_ptr<verp::test::DelayingLink> cable_;
 };
