@@ -94,8 +94,7 @@ class Quantities final : private Actor {
 
 std::vector<Quantity> quantities_of(Thing& thing, const World& world);
 std::vector<Quantity> quantities_of(const std::string& name, TwinRobot& robot, int joint);
-std::vector<Quantity> quantities_of(const std::string& name, const TwinRobot& robot,
-                                    const World& world);
+std::vector<Quantity> quantities_of(const std::string& name, TwinRobot& robot, const World& world);
 std::vector<Quantity> quantities_of(World& world);
 std::vector<Quantity> surface_quantities(const std::string& name,
                                          const std::vector<GeomTag*>& tags);

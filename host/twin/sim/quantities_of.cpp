@@ -208,6 +208,17 @@ Quantity of_surface(const std::string& name, const char* unit, const char* what,
           }};
 }
 
+/// A fault that is there, 1, or not, 0.
+Quantity fault(const std::string& name, const char* what, bool& is_there) {
+  return {name,
+          "",
+          what,
+          0,
+          1,
+          [&is_there] { return is_there ? 1.0 : 0.0; },
+          [&is_there](double value) { is_there = value > 0.5; }};
+}
+
 }  // namespace
 
 std::vector<Quantity> surface_quantities(const std::string& name,
@@ -247,10 +258,14 @@ std::vector<Quantity> quantities_of(const std::string& name, TwinRobot& robot, i
        [&servo](double value) { servo.set_joint_damping(value); }},
       {name + ".friction_n_m", "N m", "of the bearing, beside the servo's own", 0, 100,
        [&servo] { return servo.joint_friction_n_m(); },
-       [&servo](double value) { servo.set_joint_friction(value); }}};
+       [&servo](double value) { servo.set_joint_friction(value); }},
+      fault(name + ".encoder_stuck", "1: it reads the angle it had", servo.encoder_stuck),
+      {name + ".encoder_off_count", "counts", "added to what it reads", -65536, 65536,
+       [&servo] { return servo.encoder_off_count; },
+       [&servo](double value) { servo.encoder_off_count = value; }}};
 }
 
-std::vector<Quantity> quantities_of(const std::string& name, const TwinRobot& robot, const World&) {
+std::vector<Quantity> quantities_of(const std::string& name, TwinRobot& robot, const World&) {
   const Body& body = robot.body();
   const auto sum = [&body, count = robot.entity().nodes.size()](double (*of)(dBodyID)) {
     double total = 0;
@@ -265,6 +280,10 @@ std::vector<Quantity> quantities_of(const std::string& name, const TwinRobot& ro
   add(out, {name + ".com_m", "m", "centre of mass", 0, [&body] { return body.com_world_m(); }});
   add(out, {name + ".momentum_kg_m_s", "kg m/s", "of all links", 0,
             [&body] { return Vec3(body.mass_kg() * body.com_velocity_world_m_s()); }});
+  ImuLies& lies = robot.imu_lies();
+  out.push_back(fault(name + ".imu_stuck", "1: all its counts stay, but for one bit", lies.stuck));
+  out.push_back(fault(name + ".gyro_stuck", "1: the gyro's counts stay", lies.gyro_stuck));
+  out.push_back(fault(name + ".imu_loose", "1: the IMU hangs upright and still", lies.loose));
   return out;
 }
 

@@ -199,9 +199,15 @@ Vec3 TwinRobot::imu_point_velocity() const {
 
 void TwinRobot::update_imu(double step_s) {
   const int node = entity_.imu ? entity_.imu->node : 0;
+  const Vec3 up_m_s2 = world_.options().gravity_m_s2 * world_.options().up.normalized();
+  if (imu_.lies.loose) {
+    const Mat3 upright = entity_.imu ? Mat3(entity_.imu->pose.linear()) : Mat3::Identity();
+    imu_.sample(upright, Vec3::Zero(), Vec3::Zero(), up_m_s2, step_s);
+    return;
+  }
   const Vec3 acceleration = (imu_point_velocity() - imu_velocity_world_m_s_) / step_s;
-  imu_.sample(imu_pose().linear(), body_.angular_velocity_world_rad_s(node), acceleration,
-              world_.options().gravity_m_s2 * world_.options().up.normalized(), step_s);
+  imu_.sample(imu_pose().linear(), body_.angular_velocity_world_rad_s(node), acceleration, up_m_s2,
+              step_s);
 }
 
 void TwinRobot::update_self_contacts() {

@@ -89,6 +89,7 @@ class TwinRobot final : public Plant, private Actor {
   const ServoModel& servo(int joint) const { return servo_[static_cast<std::size_t>(joint)]; }
   const Body& body() const { return body_; }
   Body& body() { return body_; }
+  ImuLies& imu_lies() { return imu_.lies; }
   ServoModel& servo(int joint) { return servo_[static_cast<std::size_t>(joint)]; }
   int owner() const { return owner_; }
   Truth truth() const;

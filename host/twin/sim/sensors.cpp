@@ -76,7 +76,14 @@ void ImuModel::sample(const Mat3& world_imu, const Vec3& angular_velocity_world_
   on_the_way_.push_back(mean());
   const auto late_by = static_cast<std::size_t>(std::lround(sensor_.latency_s / step_s));
   while (on_the_way_.size() > late_by + 1) on_the_way_.pop_front();
-  measurement_ = on_the_way_.front();
+  measurement_ = told(on_the_way_.front());
+}
+
+ImuMeasurement ImuModel::told(const ImuMeasurement& measured) {
+  ImuMeasurement told = lies.stuck ? measurement_ : measured;
+  if (lies.stuck) told.accel_count[0] = static_cast<std::int16_t>(told.accel_count[0] ^ 1);
+  if (lies.gyro_stuck) told.gyro_count = measurement_.gyro_count;
+  return told;
 }
 
 ImuMeasurement ImuModel::mean() const {

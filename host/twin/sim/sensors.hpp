@@ -23,6 +23,13 @@ class LowPass {
 
 /// As hal/chip/invensense reads it: bandwidth 23.9 Hz (InvenSense ICM-20648, DLPF 4), mean of one
 /// control period.
+/// An IMU that reports what is not so.
+struct ImuLies {
+  bool stuck = false;       ///< all counts stay, but for one bit that flickers
+  bool gyro_stuck = false;  ///< the gyro's counts stay
+  bool loose = false;       ///< it hangs upright and still, whatever the robot does
+};
+
 class ImuModel {
  public:
   /// mean_s: averaging time; 0: newest sample only. gyro_bias_rad_s adds to the drawn bias.
@@ -35,8 +42,11 @@ class ImuModel {
               const Vec3& acceleration_world_m_s2, const Vec3& up_world_m_s2, double step_s);
   const ImuMeasurement& measurement() const { return measurement_; }
 
+  ImuLies lies;
+
  private:
   ImuMeasurement mean() const;
+  ImuMeasurement told(const ImuMeasurement& measured);
 
   model::ImuSensor sensor_;
   double mean_s_;

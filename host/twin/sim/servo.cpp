@@ -52,7 +52,8 @@ ServoModel::ServoModel(const model::Joint& joint, const ServoNoise& noise, Rando
 }
 
 void ServoModel::sample_encoder(double angle_rad) {
-  double count = count_of(joint_.servo, angle_rad + noise_.zero_error_rad);
+  if (encoder_stuck) return;
+  double count = count_of(joint_.servo, angle_rad + noise_.zero_error_rad) + encoder_off_count;
   if (noise_.encoder) {
     count +=
         random_.normal() * joint_.servo.encoder_noise_deg / 360.0 * joint_.servo.counts_per_rev;

@@ -79,6 +79,9 @@ class ServoModel {
   /// The duty was at its limit in the last step.
   bool saturated() const { return saturated_; }
   double supply_current_a() const { return supply_current_a_; }
+  /// An encoder that lies, to the servo's own loop too.
+  bool encoder_stuck = false;
+  double encoder_off_count = 0;  ///< added to what it reads
   /// Those of the bearing, in addition to the servo's own.
   double joint_damping_n_m_s() const { return joint_.damping_n_m_s; }
   double joint_friction_n_m() const { return joint_.friction_n_m; }
