@@ -44,6 +44,7 @@ int ticks(const Params& params, float duration_s) {
 }
 
 bool is_frozen(const Inputs& inputs, AdmitState& state) {
+  if (flag(inputs, kImuAssumed)) return false;
   std::uint32_t changed = 0;
   for (int i = 0; i < 3; ++i) {
     changed |= static_cast<std::uint32_t>(state.imu_count[i] ^ inputs.gyro_count[i]);
@@ -60,10 +61,10 @@ bool is_frozen(const Inputs& inputs, AdmitState& state) {
 }
 
 // After `lost` periods the last tilt means nothing: the robot may have fallen.
-void read_imu(const Params& params, const Inputs& inputs, int lost, std::uint32_t periods,
-              AdmitState& state, AdmitOut& out) {
+void read_imu(const Params& params, const Inputs& inputs, bool doubted, int lost,
+              std::uint32_t periods, AdmitState& state, AdmitOut& out) {
   state.imu_age = older(state.imu_age, periods);
-  if (!flag(inputs, kImuFresh) || is_frozen(inputs, state)) return;
+  if (!flag(inputs, kImuFresh) || is_frozen(inputs, state) || doubted) return;
   out.imu_anew = state.imu_age > lost;
   state.imu_age = 0;
   out.imu_fresh = true;
@@ -90,11 +91,14 @@ std::uint8_t count_ages(const Params& params, std::uint32_t fresh, std::uint32_t
 
 // The oldest servo decides: one silent knee is enough to fall. In skipped periods all devices were
 // silent.
-void watch_silence(const Params& params, const Tuning& tuning, const Inputs& inputs, int lost,
-                   std::uint32_t periods, AdmitState& state, AdmitOut& out) {
-  const std::uint8_t oldest = count_ages(params, inputs.fresh, periods, state);
+void watch_silence(const Params& params, const Tuning& tuning, const Inputs& inputs,
+                   std::uint32_t doubted, int lost, std::uint32_t periods, AdmitState& state,
+                   AdmitOut& out) {
+  const std::uint8_t oldest = count_ages(params, inputs.fresh & ~doubted, periods, state);
   const int hold = ticks(params, tuning.safety.stale_hold_s);
-  if (oldest >= hold) out.faults |= kFaultServoSilent;
+  if (oldest >= hold) {
+    out.faults |= doubted != 0 ? kFaultNotFollowing | 0U : kFaultServoSilent | 0U;
+  }
   if (state.imu_age >= hold) out.faults |= kFaultImuSilent;
   const std::uint8_t skipped = older(0, periods - 1);
   int silent = oldest > state.imu_age ? oldest : state.imu_age;
@@ -193,13 +197,14 @@ void start(const Params& params, const Inputs& inputs, AdmitState& state) {
   state.started = 1;
 }
 
-AdmitOut admit(const Params& params, AdmitState& state, Tuning& tuning, const Inputs& inputs) {
+AdmitOut admit(const Params& params, AdmitState& state, Tuning& tuning, const Inputs& inputs,
+               const Doubts& doubts) {
   AdmitOut out;
   const std::uint32_t periods = count_periods(inputs, state);
   write_parameter(inputs, tuning, out);
   const int lost = ticks(params, tuning.safety.stale_release_s);
-  read_imu(params, inputs, lost, periods, state, out);
-  watch_silence(params, tuning, inputs, lost, periods, state, out);
+  read_imu(params, inputs, doubts.imu, lost, periods, state, out);
+  watch_silence(params, tuning, inputs, doubts.servos, lost, periods, state, out);
   watch_power(params, tuning, inputs, state, out);
   take_command(params, tuning, inputs, periods, state, out);
   if (flag(inputs, kEmergencyStop)) {

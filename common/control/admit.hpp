@@ -3,6 +3,7 @@
 #include "common/io/io.hpp"
 #include "common/math/linear.hpp"
 #include "common/model/params.hpp"
+#include "common/safety/trust.hpp"
 
 namespace verp {
 
@@ -58,7 +59,8 @@ struct AdmitOut {
 /// Call before the first tick, with its inputs: no device was heard yet.
 void start(const Params& params, const Inputs& inputs, AdmitState& state);
 
-/// Applies a parameter write to `tuning`.
-AdmitOut admit(const Params& params, AdmitState& state, Tuning& tuning, const Inputs& inputs);
+/// Applies a parameter write to `tuning`. A device in doubt counts as silent.
+AdmitOut admit(const Params& params, AdmitState& state, Tuning& tuning, const Inputs& inputs,
+               const safety::Doubts& doubts = {});
 
 }  // namespace verp

@@ -18,7 +18,7 @@ void digest_state(const Inputs& inputs, const Outputs& outputs, State& state) {
     digest.stage[static_cast<int>(stage)] = value;
     digest.chain = record::chain(digest.chain, value);
   };
-  set(Stage::kAdmit, digest_of(Stage::kAdmit, inputs, state.tuning, state.admit));
+  set(Stage::kAdmit, digest_of(Stage::kAdmit, inputs, state.tuning, state.trust, state.admit));
   set(Stage::kEstimate, digest_of(Stage::kEstimate, state.attitude, state.estimator, state.steer));
   // Skipped while all zero.
   const bool acts = state.action.number != 0 || state.action.asked != 0;

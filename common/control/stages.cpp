@@ -122,6 +122,11 @@ void enter(Mode mode, std::int32_t period_us, safety::MachineState& machine) {
   }
 }
 
+safety::Deed deed_of(const State& state) {
+  const bool stepping = state.gait.queued > 0 && state.landing.carrying != gait::kBoth;
+  return {state.machine.mode, stepping, state.limit.goal_rad};
+}
+
 std::uint32_t oldest_servos(const Params& params, const AdmitState& admit) {
   std::uint8_t oldest = admit.imu_age > 1 ? admit.imu_age : std::uint8_t{1};
   std::uint32_t silent = 0;
@@ -154,6 +159,10 @@ void start(const Params& params, const Inputs& inputs, State& state) {
   state.tuning = params.tuning;
   gait::stand_legs(params, state.gait.preview.leg_rad);
   verp::start(params, inputs, state.admit);
+}
+
+safety::Doubts doubt(const Params& params, State& state, const Inputs& inputs) {
+  return safety::doubt(params, inputs, deed_of(state), state.trust);
 }
 
 balance::AttitudeOut estimate(const Params& params, State& state, const AdmitOut& admitted) {
@@ -236,6 +245,19 @@ void lean(const Params& params, State& state, const AdmitOut& admitted,
     balance::learn_lean(attitude, planned_rad, period_s(params), state.lean);
   }
   balance::lean(state.lean, plan.posture);
+}
+
+void watch_load(const Params& params, State& state, const Inputs& inputs, const Wanted& wanted,
+                AdmitOut& admitted) {
+  float sag_rad[kFeet];
+  for (int side = 0; side < kFeet; ++side) {
+    const int knee = params.leg[side].joint[safety::kKnee];
+    sag_rad[side] = wanted.angle_rad[knee] - wanted.plain_rad[knee];
+  }
+  const float most_s = state.tuning.safety.unloaded_s;
+  if (safety::carries_nothing(params, inputs, deed_of(state), sag_rad, most_s, state.trust)) {
+    admitted.faults |= safety::kFaultUnloaded;
+  }
 }
 
 safety::LimitOut limit_goals(const Params& params, State& state, const Inputs& inputs,

@@ -7,6 +7,9 @@ namespace verp::control {
 /// First tick: copies the tuning from Params and starts the ages.
 void start(const Params& params, const Inputs& inputs, State& state);
 
+/// Which devices not to believe in this tick.
+safety::Doubts doubt(const Params& params, State& state, const Inputs& inputs);
+
 balance::AttitudeOut estimate(const Params& params, State& state, const AdmitOut& admitted);
 
 /// Locates body and centre of mass from the legs, by the last tick's plan.
@@ -34,6 +37,10 @@ struct Wanted {
 Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
                     const AdmitOut& admitted, const balance::AttitudeOut& attitude,
                     const gait::GaitOut& plan);
+
+/// Raises the fault of feet that carry nothing.
+void watch_load(const Params& params, State& state, const Inputs& inputs, const Wanted& wanted,
+                AdmitOut& admitted);
 
 safety::LimitOut limit_goals(const Params& params, State& state, const Inputs& inputs,
                              const Wanted& wanted);

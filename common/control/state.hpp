@@ -16,6 +16,7 @@
 #include "common/record/tick_record.hpp"
 #include "common/safety/limit.hpp"
 #include "common/safety/machine.hpp"
+#include "common/safety/trust.hpp"
 
 namespace verp {
 
@@ -33,6 +34,7 @@ VERP_PACKED(SteerState);
 struct State {
   TickDigest digest{.chain = record::kChainSeed};
   Tuning tuning;  ///< in force: Params::tuning and parameter writes
+  safety::TrustState trust;
   AdmitState admit;
   balance::AttitudeState attitude;
   balance::EstimatorState estimator;
@@ -47,8 +49,8 @@ struct State {
   safety::LimitState limit;
   safety::MachineState machine;
   action::PlayerState action;
-  VERP_FIELDS(digest, tuning, admit, attitude, estimator, steer, gait, stepping, lean, feedback,
-              zeros, landing, drive, limit, machine, action)
+  VERP_FIELDS(digest, tuning, trust, admit, attitude, estimator, steer, gait, stepping, lean,
+              feedback, zeros, landing, drive, limit, machine, action)
 };
 VERP_PACKED(State);
 static_assert(sizeof(State) <= 3072, "hashed State is at most 3 KB");

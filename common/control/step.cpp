@@ -12,7 +12,8 @@ void step(const Params& params, const action::Library& actions, State& state, co
   using namespace control;
   if (state.admit.started == 0) start(params, inputs, state);
 
-  AdmitOut admitted = admit(params, state.admit, state.tuning, inputs);
+  const safety::Doubts doubts = doubt(params, state, inputs);
+  AdmitOut admitted = admit(params, state.admit, state.tuning, inputs, doubts);
   ask_action(actions, state, inputs, admitted);
   const balance::AttitudeOut attitude = estimate(params, state, admitted);
   locate(params, state, inputs, admitted);
@@ -24,6 +25,7 @@ void step(const Params& params, const action::Library& actions, State& state, co
   state.feedback = balance::feedback(state.tuning.balance, attitude,
                                      state.tuning.gait.trunk_pitch_rad, plan.swing);
   Wanted wanted = solve_joints(params, state, inputs, admitted, attitude, plan);
+  watch_load(params, state, inputs, wanted, admitted);
   act(params, actions, state, inputs, admitted, attitude, wanted);
   const safety::LimitOut limited = limit_goals(params, state, inputs, wanted);
   const std::uint32_t faults = raise_faults(state, admitted, wanted, limited);

@@ -20,6 +20,7 @@ enum InputFlag : std::uint16_t {
   kEmergencyStop = 1 << 4,   ///< the e-stop input is pressed
   kCommandFresh = 1 << 5,    ///< an operator frame arrived this tick
   kParameterWrite = 1 << 6,  ///< parameter_id and parameter_bits are valid
+  kImuAssumed = 1 << 7,      ///< there is no IMU: gyro and accel are those of an upright body
 };
 
 /// kWalk and kGetUp include kStand. Only kGetUp permits torque on the floor.

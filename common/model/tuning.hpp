@@ -73,8 +73,9 @@ struct SafetyTuning {
   float sit_s = 1.5f;                ///< from the held pose to the sitting pose
   float voltage_low_v = 9.6f;        ///< three lithium cells at 3.2 V
   float temperature_high_c = 72.0f;  ///< X-series shut down at 80 degrees
+  float unloaded_s = 1.0f;           ///< feet carry nothing this long: sit, then release torque
   VERP_FIELDS(fall_tilt_rad, fall_confirm_s, stale_hold_s, stale_release_s, command_hold_s,
-              command_release_s, rise_s, sit_s, voltage_low_v, temperature_high_c)
+              command_release_s, rise_s, sit_s, voltage_low_v, temperature_high_c, unloaded_s)
 };
 VERP_PACKED(SafetyTuning);
 

@@ -60,6 +60,7 @@ inline constexpr Range kTuningRanges[] = {
     {0.2F, 10.0F},    // sit_s
     {0.0F, 60.0F},    // voltage_low_v
     {30.0F, 120.0F},  // temperature_high_c
+    {0.3F, 3600.0F},  // unloaded_s
 };
 static_assert(sizeof(kTuningRanges) / sizeof(Range) == kTuningCount,
               "one range for each field of Tuning");

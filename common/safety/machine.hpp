@@ -61,6 +61,8 @@ enum Fault : std::uint32_t {
   kFaultServoError = 1 << 7,
   kFaultJointBeyond = 1 << 8,    ///< stand refused: a joint is beyond its limits
   kFaultFlutter = 1 << 9,        ///< silent again and again
+  kFaultNotFollowing = 1 << 10,  ///< a joint is stuck, or not where its goals led it
+  kFaultUnloaded = 1 << 11,      ///< the feet carry nothing
   kNoteOverrun = 1 << 16,        ///< a tick ended after its deadline
   kNoteParameter = 1 << 17,      ///< a parameter write was out of range and ignored
   kNoteStrideLimited = 1 << 18,  ///< the velocity needs longer steps than allowed
@@ -72,7 +74,8 @@ enum Fault : std::uint32_t {
 
 /// Rest hides their cause, a load or a motion: the reaction must outlast it.
 inline constexpr std::uint32_t kTroubleFaults =
-    kFaultTemperature | kFaultVoltage | kFaultServoError | kFaultFlutter;
+    kFaultTemperature | kFaultVoltage | kFaultServoError | kFaultFlutter |
+    kFaultNotFollowing | kFaultUnloaded;
 
 /// Each silence that holds the robot adds kForgotten_us, which time takes away: three in ten
 /// seconds, a cable that is touched, never add up. Over kFlutter_us is flutter: five at once.

@@ -98,12 +98,14 @@ class App {
   void read_chip() {
     hal::ImuSample sample;
     if (chip_ == nullptr || !from_chip_) return;
-    if (chip_->read(sample) != hal::ImuStatus::kFresh) return;
+    const hal::ImuStatus status = chip_->read(sample);
+    if (status != hal::ImuStatus::kFresh && status != hal::ImuStatus::kAssumed) return;
     for (int axis = 0; axis < 3; ++axis) {
       inputs_.gyro_count[axis] = sample.gyro_count[axis];
       inputs_.accel_count[axis] = sample.accel_count[axis];
     }
     inputs_.flags |= kImuFresh;
+    if (status == hal::ImuStatus::kAssumed) inputs_.flags |= kImuAssumed;
   }
 
   void take_order() {

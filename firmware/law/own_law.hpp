@@ -16,6 +16,7 @@ template <class Controller>
 class OwnLaw {
  public:
   void operator()(const Params& params, State& state, const Inputs& inputs, Outputs& outputs) {
+    state.trust.foreign = 1;
     step(params, state, inputs, outputs);
     const Outputs core = outputs;
     controller_(params, static_cast<const State&>(state), inputs, outputs);

@@ -6,7 +6,7 @@
 ///
 /// A backend promises:
 ///  - read(sample): the mean of all complete samples since the last read, or why there is none.
-///    Waits at most kImuMaxWait_us. Only kFresh changes the sample. The mean keeps rotation: rates
+///    Waits at most kImuMaxWait_us. Only kFresh and kAssumed change the sample. The mean keeps rotation: rates
 ///    times intervals sum to the full turn, up to the mismatch of chip rate and read rate.
 ///  - Reads at most kImuMostPause_us apart miss nothing. After a longer pause the backend may drop
 ///    samples and return kStale once.
@@ -59,7 +59,12 @@ class ImuMean {
   std::int32_t count_ = 0;
 };
 
-enum class ImuStatus : std::uint8_t { kFresh = 0, kStale = 1, kFault = 2 };
+enum class ImuStatus : std::uint8_t {
+  kFresh = 0,
+  kStale = 1,
+  kFault = 2,
+  kAssumed = 3,  ///< there is no chip: the sample is that of an upright body
+};
 
 template <class Chip>
 concept Imu = requires(Chip& chip, const Chip& seen, ImuSample& sample) {

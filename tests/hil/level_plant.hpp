@@ -12,8 +12,8 @@
 
 namespace verp::test {
 
-/// On a stand: joints follow goals at top speed, the body stays level, the soles share its weight.
-/// The gyro has one count of noise.
+/// On a stand: joints follow goals at top speed, the soles share the weight. The body shakes a
+/// little, about level.
 class LevelPlant final : public sim::Plant {
  public:
   explicit LevelPlant(const Params& params) : params_(params) {
@@ -51,7 +51,11 @@ class LevelPlant final : public sim::Plant {
   }
   sim::ImuMeasurement imu() override {
     sim::ImuMeasurement measured = imu_;
-    measured.gyro_count[2] = static_cast<std::int16_t>(now_us_ / params_.period_us % 2);
+    const auto by = static_cast<std::int16_t>(now_us_ / params_.period_us % 2 == 0 ? 3 : -3);
+    for (std::size_t i = 0; i < 3; ++i) {
+      measured.gyro_count[i] = by;
+      measured.accel_count[i] = static_cast<std::int16_t>(imu_.accel_count[i] + by);
+    }
     return measured;
   }
   std::array<std::uint16_t, 4> foot_counts(int) override {

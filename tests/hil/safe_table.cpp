@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/model/tree.hpp"
 #include "tests/hil/modes.hpp"
 
 namespace verp::test {
@@ -58,13 +59,57 @@ void SafeTable::count_silence(const Inputs& inputs) {
     std::copy_n(inputs.gyro_count, kAxes, gyro_);
     std::copy_n(inputs.accel_count, kAxes, accel_);
   }
-  count(imu_silent_, (inputs.flags & kImuFresh) != 0 && alike_ < kFrozen);
+  const bool heard = (inputs.flags & kImuFresh) != 0 && alike_ < kFrozen;
+  count(imu_silent_, heard);
+  count(imu_perhaps_, heard && stirs(inputs));
   count(operator_silent_, (inputs.flags & kCommandFresh) != 0);
   silent_ = std::max(imu_silent_, begun_ ? periods - 1 : 0);
+  perhaps_silent_ = std::max(imu_perhaps_, silent_);
   for (int j = 0; j < params_.joint_count; ++j) {
-    count(servo_silent_[j], (inputs.fresh >> j & 1u) != 0);
+    const bool read = (inputs.fresh >> j & 1u) != 0;
+    if (read) follow_joint(j, inputs.position_count[j]);
+    const double due = joint_[j].due(), away = std::abs(joint_[j].away);
+    count(servo_silent_[j], read && due < 0.23 && away < 0.53);
+    count(servo_perhaps_[j], read && due < 0.17 && away < 0.47);
     silent_ = std::max(silent_, servo_silent_[j]);
+    perhaps_silent_ = std::max(perhaps_silent_, servo_perhaps_[j]);
   }
+}
+
+void SafeTable::follow_joint(int j, std::int32_t count) {
+  constexpr double kLag_s = 0.02, kStays_rad = 0.01;
+  const double period_s = 1e-6 * params_.period_us;
+  const double per_rad = params_.joint[j].counts_per_rad;
+  const double here = count / per_rad, goal = goal_[j] / per_rad;
+  Joint& joint = joint_[j];
+  const bool moves = limp(mode_) || mode_ == kActing || mode_ >= kFalling;
+  if (moves) {
+    joint = {here, here, 0, 0, 0};
+    return;
+  }
+  joint.model += (goal - joint.model) * period_s / (kLag_s + period_s);
+  joint.away = joint.model - here;
+  if (std::abs(here - joint.stays) > kStays_rad) {
+    joint.stays = here;
+    joint.low = joint.high = joint.away;
+  }
+  joint.low = std::min(joint.low, joint.away);
+  joint.high = std::max(joint.high, joint.away);
+}
+
+// Two axes of the gyro and two of the accelerometer.
+bool SafeTable::stirs(const Inputs& inputs) {
+  constexpr std::uint32_t kReadings = 18;
+  constexpr int kMoves = 4;
+  int moved[2] = {};
+  for (int i = 0; i < 6; ++i) {
+    const std::int16_t count = i < 3 ? inputs.gyro_count[i] : inputs.accel_count[i - 3];
+    const bool moves = std::abs(count - axis_at_[i]) > kMoves;
+    if (moves) axis_at_[i] = count;
+    axis_still_[i] = moves ? 0 : std::min(axis_still_[i] + 1, kForEver);
+    if (axis_still_[i] < kReadings) ++moved[i / 3];
+  }
+  return moved[0] >= 2 && moved[1] >= 2;
 }
 
 // The IMU shows how a push turns or leans a robot.
@@ -96,15 +141,38 @@ void SafeTable::count_trouble(const Inputs& inputs, int to) {
       supply_low_ >= kSupply || std::any_of(servo_bad_, servo_bad_ + params_.joint_count,
                                             [](int count) { return count >= kAlarm; });
   const bool asked = inputs.command.request == Request::kRelax;
-  if (mode_ == kRelaxed && to == kRelaxed && asked) trouble_ = false;
+  if (mode_ == kRelaxed && to == kRelaxed && asked) trouble_ = perhaps_trouble_ = false;
   trouble_ = trouble_ || bad;
+  count_doubt(inputs);
+  perhaps_trouble_ = perhaps_trouble_ || trouble_;
+}
+
+void SafeTable::count_doubt(const Inputs& inputs) {
+  const double period_s = 1e-6 * params_.period_us;
+  const SafetyTuning& safety = params_.tuning.safety;
+  for (int j = 0; j < params_.joint_count; ++j) {
+    const bool read = (inputs.fresh >> j & 1u) != 0;
+    if (read && servo_perhaps_[j] * period_s > safety.stale_hold_s - period_s) {
+      perhaps_trouble_ = true;
+    }
+  }
+  double load_n = 0;
+  for (const auto& foot : inputs.foot_count) {
+    for (const std::uint16_t count : foot) load_n += count * params_.feet.newton_per_count;
+  }
+  const double weight_n = 9.8 * model::total_mass(params_);
+  const bool stands = mode_ == kStanding || mode_ == kWalking;
+  const bool bears = (inputs.flags & kFeetFresh) == 0 || load_n > 0.25 * weight_n;
+  unloaded_ = stands && !bears ? unloaded_ + 1 : 0;
+  if (unloaded_ * period_s > safety.unloaded_s - period_s) perhaps_trouble_ = true;
 }
 
 // Each silence that holds the robot counts for three seconds.
 void SafeTable::count_flutter(int to) {
   const int period_us = static_cast<int>(params_.period_us);
   flutter_us_ = to == kRelaxed ? 0 : std::max(0, flutter_us_ - period_us);
-  if (to == kHolding && mode_ != kHolding && silent_ > 0) flutter_us_ += kHeld_s * 1'000'000;
+  if (to == kHolding && mode_ != kHolding && perhaps_silent_ > 0)
+    flutter_us_ += kHeld_s * 1'000'000;
   trouble_ = trouble_ || flutter_us_ > kFlutter_s * 1'000'000;
 }
 
@@ -163,13 +231,13 @@ void SafeTable::check_transition(const Inputs& inputs, int to) {
   if (moving(to) && stale) fault(std::string(kModeNames[to]) + " though a device is silent");
   if (to == kHolding && mode_ == kHolding && lost) fault("holding though a device is lost");
   if (to == mode_) return;
-  if (to == kHolding && mode_ != kFalling && !nearly(silent_, safety.stale_hold_s))
+  if (to == kHolding && mode_ != kFalling && !nearly(perhaps_silent_, safety.stale_hold_s))
     fault("holding without a silent device");
-  if (mode_ == kHolding && to == kSitting && !nearly(silent_, safety.stale_release_s) &&
-      request != Request::kRelax && !trouble_) {
+  if (mode_ == kHolding && to == kSitting && !nearly(perhaps_silent_, safety.stale_release_s) &&
+      request != Request::kRelax && !perhaps_trouble_) {
     fault("sitting down though nobody asked, nothing is lost and power is good");
   }
-  if (mode_ == kStanding && to == kSitting && request != Request::kRelax && !trouble_ &&
+  if (mode_ == kStanding && to == kSitting && request != Request::kRelax && !perhaps_trouble_ &&
       !longer(operator_silent_, safety.command_release_s)) {
     fault("sitting down though the operator is there");
   }

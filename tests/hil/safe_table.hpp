@@ -23,8 +23,11 @@ class SafeTable {
 
  private:
   void count_silence(const Inputs& inputs);
+  void follow_joint(int joint, std::int32_t count);
+  bool stirs(const Inputs& inputs);
   void count_push(const Inputs& inputs);
   void count_trouble(const Inputs& inputs, int to);
+  void count_doubt(const Inputs& inputs);
   void count_flutter(int to);
   void check_trouble(int to);
   void check_way(const Outputs& outputs, int to);
@@ -44,8 +47,21 @@ class SafeTable {
   std::uint32_t servo_silent_[kMaxJoints] = {};         ///< periods
   std::uint32_t imu_silent_ = 0;
   std::uint32_t operator_silent_ = 0;
-  std::uint32_t unmoved_ = 0;         ///< since the IMU showed a push
-  std::uint32_t silent_ = 0;          ///< of servos, IMU, and missing ticks
+  std::uint32_t unmoved_ = 0;  ///< since the IMU showed a push
+  std::uint32_t silent_ = 0;   ///< of servos, IMU, and missing ticks
+  /// The same with devices that may be in doubt: silent_ has only those that must be.
+  std::uint32_t perhaps_silent_ = 0;
+  std::uint32_t servo_perhaps_[kMaxJoints] = {}, imu_perhaps_ = 0;
+  /// A joint against a servo that follows its goals as a lag of 20 ms does, rad.
+  struct Joint {
+    double model = 0, stays = 0;
+    double low = 0, high = 0;  ///< of the model since the joint last moved
+    double due() const { return high - low; }
+    double away = 0;
+  };
+  Joint joint_[kMaxJoints];
+  std::uint32_t axis_still_[6] = {};  ///< readings since gyro and accelerometer axes moved
+  std::int16_t axis_at_[6] = {};
   std::uint32_t alike_ = 0;           ///< fresh but unchanged IMU readings
   static constexpr int kAlarm = 3;    ///< of one servo
   static constexpr int kSupply = 21;  ///< of any servos
@@ -57,9 +73,11 @@ class SafeTable {
   int servo_bad_[kMaxJoints] = {};            ///< consecutive readings
   int supply_low_ = 0;
   static constexpr int kHeld_s = 3, kFlutter_s = 12;
-  int flutter_us_ = 0;     ///< of holdings; time takes it away
-  bool trouble_ = false;   ///< until a request to relax
-  int trouble_ticks_ = 0;  ///< while walking
+  int flutter_us_ = 0;            ///< of holdings; time takes it away
+  bool trouble_ = false;          ///< until a request to relax
+  bool perhaps_trouble_ = false;  ///< a joint that may be in doubt, soles that bear nothing
+  std::uint32_t unloaded_ = 0;    ///< periods
+  int trouble_ticks_ = 0;         ///< while walking
   std::int16_t gyro_[3] = {}, accel_[3] = {};
   std::int32_t goal_[kMaxJoints] = {};
   std::int32_t from_[kMaxJoints] = {};  ///< goals at the start of the rise or sitting down

@@ -162,6 +162,28 @@ void silence() {
   }
 }
 
+// Its knee, its IMU, its soles lie while it walks; then they may: there is no IMU, or another
+// controller's goals are sent.
+void doubt() {
+  enum class Lie { kKnee, kImu, kSoles, kNoImu, kForeign };
+  for (const Lie lie : {Lie::kKnee, Lie::kImu, Lie::kSoles, Lie::kNoImu, Lie::kForeign}) {
+    control::test::Loop loop;
+    loop.walk(1778);
+    follow(loop, 900);
+    const std::int32_t stays = loop.inputs.position_count[test::kLeftLeg + 3];
+    loop.noise = lie == Lie::kSoles || lie == Lie::kKnee;
+    if (lie == Lie::kSoles) loop.inputs.flags |= kFeetFresh;
+    if (lie == Lie::kNoImu) loop.inputs.flags |= kImuAssumed;
+    if (lie == Lie::kForeign) loop.state.trust.foreign = 1;
+    for (int tick = 0; tick < 600; ++tick) {
+      if (lie == Lie::kKnee) loop.inputs.position_count[test::kLeftLeg + 3] = stays;
+      if (lie == Lie::kImu) loop.inputs.gyro_count[tick / 50 % 3] = tick % 2 == 0 ? 8 : 0;
+      if (lie == Lie::kImu) loop.inputs.accel_count[tick / 200 % 3] ^= 1;
+      follow(loop, 1);
+    }
+  }
+}
+
 bool print(const char* what, const char* name, std::size_t ticks) {
   std::printf("%-12s %-22s %8zu%s\n", what, name, ticks, ticks > 0 ? "" : "  NEVER REACHED");
   return ticks > 0;
@@ -192,6 +214,8 @@ bool print_faults() {
                  {safety::kFaultServoError, "servo error"},
                  {safety::kFaultJointBeyond, "joint beyond"},
                  {safety::kFaultFlutter, "flutter"},
+                 {safety::kFaultNotFollowing, "not following"},
+                 {safety::kFaultUnloaded, "unloaded"},
                  {safety::kNoteOverrun, "overrun"},
                  {safety::kNoteParameter, "parameter"},
                  {safety::kNoteStrideLimited, "stride limited"},
@@ -232,6 +256,7 @@ int main(int count, char** argument) {
   replay::fall();
   replay::lie_down();
   replay::silence();
+  replay::doubt();
   constexpr const char* kPhases[] = {"idle", "start", "transition", "finalisation"};
   for (int i = 0; i < 4; ++i) {
     good = replay::print("gait phase", kPhases[i], replay::phase_count[i]) && good;

@@ -82,6 +82,7 @@ Params slow_and_heavy(Params params) {
   params.period_us = 20'000;
   params.head_pan = params.head_tilt = 0xFF;
   for (auto& device_id : params.feet.device_id) device_id = 0;
+  params.tuning.safety.unloaded_s = 3600;  // the plant's knees feel no load
   for (LegParams& leg : params.leg) {
     leg.thigh_m *= 2.0F;
     for (int k = 3; k < kLegJoints; ++k) params.joint[leg.joint[k]].mass_kg *= 20.0F;

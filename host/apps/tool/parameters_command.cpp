@@ -64,6 +64,7 @@ constexpr const char* kMeaning[] = {
     "from the pose held to the sitting pose",
     "supply below which the robot sits",
     "servo temperature above which the robot sits",
+    "feet carry nothing this long: sit, let go; a robot that hangs needs more",
 };
 static_assert(std::size(kMeaning) == kTuningCount);
 

@@ -19,6 +19,8 @@ constexpr FaultName kNames[] = {
     {safety::kFaultServoError, "servo hardware error"},
     {safety::kFaultJointBeyond, "joint beyond its limits"},
     {safety::kFaultFlutter, "silent again and again"},
+    {safety::kFaultNotFollowing, "joint does not follow"},
+    {safety::kFaultUnloaded, "feet carry nothing"},
     {safety::kNoteOverrun, "tick overran"},
     {safety::kNoteParameter, "parameter refused"},
     {safety::kNoteStrideLimited, "stride limited"},
@@ -41,6 +43,14 @@ std::string fault_names(std::uint32_t faults) {
     text += (text.empty() ? "" : ", ") + std::string(name);
   }
   return text;
+}
+
+std::string why_it_let_go(std::uint32_t faults) {
+  std::string why = "the robot let go by itself: " + fault_names(faults);
+  if ((faults & safety::kFaultUnloaded) != 0) {
+    why += "; to walk in the air: --set safety.unloaded_s=3600";
+  }
+  return why;
 }
 
 std::string silent_device(const Params& params, const State& state) {

@@ -9,8 +9,7 @@
 namespace verp::bus {
 
 /// Imu of an upright, still body, for a robot without one: it then walks without balance and
-/// detects no fall. The z gyro alternates by one count, because the core treats a constant IMU as
-/// dead.
+/// detects no fall.
 class AssumedImu {
  public:
   explicit AssumedImu(const ImuParams& imu) {
@@ -23,9 +22,8 @@ class AssumedImu {
 
   hal::ImuStatus read(hal::ImuSample& sample) {
     ++sample_.time_us;
-    sample_.gyro_count[2] = sample_.time_us % 2 == 0 ? 1 : -1;
     sample = sample_;
-    return hal::ImuStatus::kFresh;
+    return hal::ImuStatus::kAssumed;
   }
   std::uint32_t faults() const { return 0; }
 

@@ -44,7 +44,7 @@ void expect_total(bool fully, std::uint32_t seed) {
   Outputs outputs;
   std::uint32_t modes = 0;
   for (int tick = 0; tick < kWildTicks; ++tick) {
-    test::wild(random, fully, inputs);
+    test::wild(random, fully, outputs, inputs);
     step(kRobot, state, inputs, outputs);
     expect_safe(state, outputs, tick);
     modes |= 1u << outputs.mode;
@@ -70,7 +70,7 @@ TEST(Step, GoalsKeepTheJointsSpeed) {
   Outputs outputs, before;
   State& state = fresh_state();
   for (int tick = 0; tick < kWildTicks / 2; ++tick) {
-    test::wild(random, false, inputs);
+    test::wild(random, false, outputs, inputs);
     before = outputs;
     step(kRobot, state, inputs, outputs);
     if (tick == 0 || (before.torque_enable & outputs.torque_enable) == 0) continue;
@@ -104,7 +104,7 @@ TEST(Step, IsTotalForAnEmptyRobot) {
   Inputs inputs;
   Outputs outputs;
   for (int tick = 0; tick < 300; ++tick) {
-    test::wild(random, false, inputs);
+    test::wild(random, false, outputs, inputs);
     step(nothing, state, inputs, outputs);
     ASSERT_TRUE(test::struct_is_finite(state)) << "tick " << tick;
   }
@@ -416,6 +416,8 @@ TEST(Step, WalkIsPeriodic) {
   test::write_parameter(0, 0.44F, loop.inputs);
   loop.tick();
   test::write_parameter(16, 0.0F, loop.inputs);  // gait.heading_gain
+  loop.tick();
+  test::write_parameter(kTuningCount - 1, 3600.0F, loop.inputs);  // safety.unloaded_s
   loop.tick();
   loop.inputs.flags = kImuFresh | kFeetFresh | kCommandFresh;
   loop.ticks(20 * kCycle);

@@ -44,7 +44,7 @@ void RunOperator::observe_obeying(std::uint32_t faults) {
   obeyed_s_ += period_s_;
   if (mode_ == Mode::kWalking) walked_s_ += period_s_;
   if (mode_ == Mode::kRelaxed && risen_ && (faults & kStopping) != 0) {
-    fail("the robot let go by itself: " + session::fault_names(faults));
+    fail(session::why_it_let_go(faults));
   }
   if (obeyed_s_ >= most_s_) sitting_ = true;
 }
@@ -65,7 +65,7 @@ void RunOperator::observe_mode(Mode from, const State& state, const Outputs& out
   if (mode_ == Mode::kFallen && !gets_up_) fail("the robot fell");
   if (mode_ == Mode::kStopped && !limp_) fail("stopped");
   if (mode_ == Mode::kRelaxed && risen_ && !sitting_ && !orders_) {
-    fail("the robot let go by itself: " + session::fault_names(outputs.faults));
+    fail(session::why_it_let_go(outputs.faults));
   }
 }
 
