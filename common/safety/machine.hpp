@@ -73,9 +73,9 @@ enum Fault : std::uint32_t {
 };
 
 /// Rest hides their cause, a load or a motion: the reaction must outlast it.
-inline constexpr std::uint32_t kTroubleFaults =
-    kFaultTemperature | kFaultVoltage | kFaultServoError | kFaultFlutter |
-    kFaultNotFollowing | kFaultUnloaded;
+inline constexpr std::uint32_t kTroubleFaults = kFaultTemperature | kFaultVoltage |
+                                                kFaultServoError | kFaultFlutter |
+                                                kFaultNotFollowing | kFaultUnloaded;
 
 /// Each silence that holds the robot adds kForgotten_us, which time takes away: three in ten
 /// seconds, a cable that is touched, never add up. Over kFlutter_us is flutter: five at once.

@@ -55,7 +55,7 @@ struct TrustState {
 };
 VERP_PACKED(TrustState);
 
-/// What the robot does.
+/// The robot's own part in what its devices report.
 struct Deed {
   Mode mode = Mode::kRelaxed;
   bool stepping = false;            ///< a foot is in the air

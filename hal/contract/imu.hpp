@@ -6,8 +6,9 @@
 ///
 /// A backend promises:
 ///  - read(sample): the mean of all complete samples since the last read, or why there is none.
-///    Waits at most kImuMaxWait_us. Only kFresh and kAssumed change the sample. The mean keeps rotation: rates
-///    times intervals sum to the full turn, up to the mismatch of chip rate and read rate.
+///    Waits at most kImuMaxWait_us. Only kFresh and kAssumed change the sample. The mean keeps
+///    rotation: rates times intervals sum to the full turn, up to the mismatch of chip rate and
+///    read rate.
 ///  - Reads at most kImuMostPause_us apart miss nothing. After a longer pause the backend may drop
 ///    samples and return kStale once.
 ///  - All six counts come from the same samples, in the chip's axes and resolution, saturated at

@@ -16,7 +16,7 @@ std::span<const FaultName> all_fault_names();
 /// Names of the set fault bits, e.g. "fall, servo silent"; empty if none is set.
 std::string fault_names(std::uint32_t faults);
 
-/// Of a robot that nobody asked to let go: the faults, and what to do about them.
+/// For a robot that was not asked to: its faults, and what the user can do.
 std::string why_it_let_go(std::uint32_t faults);
 
 /// The devices whose silence held the robot last, e.g. "servo 7", "servos 7, 8", "IMU".

@@ -55,6 +55,8 @@ std::string first_power_checklist(const Params& params) {
   return fmt::format(
       "First power of {}: nobody has proven this program on your robot. Before torque is on:\n"
       "  1. The robot hangs from a strap, its soles clear of the ground; nothing is in its reach.\n"
+      "     In the air, give --set safety.unloaded_s=3600: else it sits when its feet carry "
+      "nothing.\n"
       "  2. A switch cuts the servos' power, within your reach, and you have tried it now.\n"
       "  3. {}\n"
       "  4. Torque is limited: give --torque 30 the first time, raise it when all moves right.\n"
