@@ -59,9 +59,10 @@ void SafeTable::count_silence(const Inputs& inputs) {
     std::copy_n(inputs.gyro_count, kAxes, gyro_);
     std::copy_n(inputs.accel_count, kAxes, accel_);
   }
-  const bool heard = (inputs.flags & kImuFresh) != 0 && alike_ < kFrozen;
+  const bool assumed = (inputs.flags & kImuAssumed) != 0;  // there is no IMU
+  const bool heard = (inputs.flags & kImuFresh) != 0 && (assumed || alike_ < kFrozen);
   count(imu_silent_, heard);
-  count(imu_perhaps_, heard && stirs(inputs));
+  count(imu_perhaps_, heard && (stirs(inputs) || assumed));
   count(operator_silent_, (inputs.flags & kCommandFresh) != 0);
   silent_ = std::max(imu_silent_, begun_ ? periods - 1 : 0);
   perhaps_silent_ = std::max(imu_perhaps_, silent_);
