@@ -229,6 +229,7 @@ int play(const ActionWords& words) {
   if (words.held) {
     plan.twin.cradle = sim::Cradle::kAlways;
     plan.twin.start_m.z() += kStand_m;
+    plan.params.tuning.safety.unloaded_s = 3600;  // it hangs
   }
   record::mcap::StringMap metadata = metadata_of(options, plan, walk.scenario);
   metadata["action"] = words.action;
