@@ -60,7 +60,7 @@ TEST(LiveCheck, RaisesNoFalseAlarmForLostAndLateFrames) {
   EXPECT_GT(gaps, kSeeds) << "this PC missed some, and says so";
 }
 
-// State has 2.5 KB; the check asks once more for lost answers.
+// State has 2.9 KB; the check asks once more for lost answers.
 TEST(LiveCheck, LateAndLostAnswersAloneLeaveNoTickOut) {
   constexpr int kTicks = 1000;
   std::uint64_t compared = 0;
