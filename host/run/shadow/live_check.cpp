@@ -69,9 +69,9 @@ bool LiveCheck::next(CanFrame& frame, std::uint64_t now_us) {
 
 // A lost hold order loses the ticks: retry before SDO's timeout.
 bool LiveCheck::hold_is_late(std::uint64_t now_us) const {
-  constexpr std::uint64_t kAllowance_us = 10'000;
+  constexpr std::uint64_t kAllowance_us = 20'000;
   const bool holds = state_ == State::kReading && step_ == Step::kHold && running_;
-  return holds && now_us > step_began_us_ + 2 * std::uint64_t{params_.period_us} + kAllowance_us;
+  return holds && now_us > step_began_us_ + 3 * std::uint64_t{params_.period_us} + kAllowance_us;
 }
 
 void LiveCheck::ask(Step step) {
