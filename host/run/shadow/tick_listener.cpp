@@ -21,12 +21,34 @@ using canopen::get_le;
 
 constexpr std::size_t kMostRounds = 2;  // a SYNC may overtake the last report
 constexpr std::size_t kMostSaid = 8;
+constexpr std::size_t kMostKept = 2;  // each one multiplies the readings
 
 template <class Value>
 void say(Said<Value>& said, const Value& value) {
   said.erase(std::remove(said.begin(), said.end(), value), said.end());
   said.insert(said.begin(), value);
   if (said.size() > kMostSaid) said.pop_back();
+}
+
+/// Values that a tick did not use may be those of the next: its own are likelier.
+template <class Value>
+void keep_for(Said<Value>& next, const Said<Value>& unused) {
+  for (const Value& value : unused) {
+    const bool there = std::find(next.begin(), next.end(), value) != next.end();
+    if (!there && next.size() < kMostKept) next.push_back(value);
+  }
+}
+
+void keep_unused(const HeardTick& tick, HeardTick& next) {
+  for (std::size_t j = 0; j < kMaxJoints; ++j) {
+    if ((tick.fresh >> j & 1) == 0) keep_for(next.position[j], tick.position[j]);
+  }
+  // Two frames make one reading: a controller that waits for the second is a tick behind.
+  keep_for(next.gyro, tick.gyro);
+  keep_for(next.accel, tick.accel);
+  for (std::size_t foot = 0; foot < kFeet && (tick.flags & kFeetFresh) == 0; ++foot) {
+    keep_for(next.foot[foot], tick.foot[foot]);
+  }
 }
 
 template <class Word, std::size_t kCount>
@@ -172,6 +194,7 @@ void TickListener::take_published(unsigned number, const CanFrame& frame) {
 
 void TickListener::close_if_whole() {
   if (rounds_.front().tick.parts.size() < rounds_.front().parts_due) return;
+  keep_unused(rounds_.front().tick, rounds_.size() > 1 ? rounds_[1].tick : early_);
   ticks_.push_back(std::move(rounds_.front().tick));
   rounds_.pop_front();
 }
