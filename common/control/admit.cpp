@@ -96,8 +96,9 @@ void watch_silence(const Params& params, const Tuning& tuning, const Inputs& inp
                    AdmitOut& out) {
   const std::uint8_t oldest = count_ages(params, inputs.fresh & ~doubted, periods, state);
   const int hold = ticks(params, tuning.safety.stale_hold_s);
-  if (oldest >= hold) {
-    out.faults |= doubted != 0 ? kFaultNotFollowing | 0U : kFaultServoSilent | 0U;
+  for (int j = 0; oldest >= hold && j < params.joint_count; ++j) {
+    if (state.servo_age[j] < hold) continue;
+    out.faults |= (doubted >> j & 1U) != 0 ? kFaultNotFollowing | 0U : kFaultServoSilent | 0U;
   }
   if (state.imu_age >= hold) out.faults |= kFaultImuSilent;
   const std::uint8_t skipped = older(0, periods - 1);

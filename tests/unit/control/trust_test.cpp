@@ -62,6 +62,17 @@ TEST(Trust, JointThatIsStuckForGoodMakesTheRobotSitAndLetGo) {
   EXPECT_TRUE(loop.is_in(Mode::kRelaxed));
 }
 
+// Another joint is doubted in one tick of that silence: too short for a fault of its own.
+TEST(Trust, SilentServoIsNoJointThatDoesNotFollow) {
+  Loop& loop = far_walking();
+  for (int i = 0; i < 6; ++i) {
+    loop.inputs.fresh = ~(1U << 5);
+    if (i == 5) loop.inputs.position_count[kKneeJoint] += 4096;
+    loop.tick();
+  }
+  EXPECT_EQ(loop.outputs.faults & 0xFFFFU, safety::kFaultServoSilent + 0U);
+}
+
 // Servos that lag by three ticks, with play, and noise of a count.
 TEST(Trust, LagAndPlayOfGoodServosRaiseNothing) {
   Loop& loop = far_walking();
