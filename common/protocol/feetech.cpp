@@ -123,7 +123,7 @@ bool Parser::next() {
   }
 }
 
-// Of more than two FF the last two are the header, because FF is no id.
+// The last two FF in a row are the header, because no device has the id FF.
 Parser::Look Parser::look() {
   for (std::size_t i = 0; i < kIdAt && i < size_; ++i) {
     if (buffer_[i] != kHeaderByte) return Look::kDrop;

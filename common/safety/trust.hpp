@@ -5,21 +5,21 @@
 /// Which devices to believe: what they report is compared with what the robot does.
 namespace verp::safety {
 
-/// A servo with its joint follows a goal as a first-order lag of this time constant. Identified on
-/// walks of the twin, tuning seeds 1001-1006 of three robots; 0.03 s fits as well.
+/// A servo with its joint follows a goal as a first-order lag of this time constant: an estimate
+/// from walks of the twin, tuning seeds 1001-1006 of three robots. 0.03 s serves as well.
 inline constexpr float kServoLag_s = 0.02F;
 /// A joint that stays within kStays_rad, about the play of its gears, while kStuck_rad of motion
-/// was due, is stuck: it is jammed, or its encoder is. The same walks, and others on all worlds,
-/// with pushes: at most 0.14. Each leg joint of a walk swings through 0.28 at least.
+/// was due, is stuck: it is jammed, or its encoder is. That is well above the lag of those walks at
+/// their turning points, and below the swing of each pitch joint of a leg.
 inline constexpr float kStays_rad = 0.01F;
 inline constexpr float kStuck_rad = 0.2F;
-/// A joint further than this from where it should be is astray. At most 0.2 on those walks; 0.32
-/// where a robot hit the floor.
+/// A joint further than this from where it should be is astray. More than on those walks, and than
+/// where a robot hits the floor.
 inline constexpr float kAstray_rad = 0.5F;
 
 /// In so many readings of a robot that steps, two axes at least of the gyro and of the
-/// accelerometer move further than this. Those walks: 0.1 rad/s and 0.6 m/s^2, 60 counts of a
-/// coarse IMU. A bit that flickers moves one axis.
+/// accelerometer move further than this: more than a count's noise, far less than a step. A bit
+/// that flickers moves one axis.
 inline constexpr std::uint8_t kImuReadings = 20;
 inline constexpr std::int32_t kImuMoves_count = 4;
 

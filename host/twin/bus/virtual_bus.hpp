@@ -85,7 +85,7 @@ class VirtualBus final : public hal::FrameBus {
   std::uint64_t bytes_on_wire() const { return bytes_on_wire_; }
 
   // For the words.
-  /// A request ended: brings the plant there and tells every device.
+  /// Brings the plant to the end of a request, and lets every device know.
   void request_ended(std::uint64_t end_ns);
   bool hears(const BusDevice& device) const;
   /// Lets devices answer together, after their delays unless `at_once`. say(device) returns the

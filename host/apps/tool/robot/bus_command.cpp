@@ -85,7 +85,7 @@ void refuse_on_can(const std::vector<CLI::App*>& commands, const CLI::App* bench
   }
 }
 
-/// Our controller, the usual device, is none of Feetech's.
+/// The usual device is our controller, which does not speak Feetech's protocol.
 void require_id(const std::vector<CLI::App*>& commands) {
   for (const CLI::App* each : commands) {
     if (!each->parsed()) continue;
