@@ -263,7 +263,7 @@ void run_in_real_time(Board& board, Servos& servos, const Params& params, std::u
 StartFault judge(bool has_desk, control::BootVerdict verdict, const Params& params) {
   if (!has_desk) return StartFault::kOperatorPort;
   if (verdict != control::BootVerdict::kSound) return StartFault::kSelfTest;
-  return params.bus_protocol == kProtocol ? StartFault::kNone : StartFault::kProtocol;
+  return drives(params.bus_protocol) ? StartFault::kNone : StartFault::kProtocol;
 }
 
 /// Keeps its State on the stack, which is free before a loop runs.
@@ -296,7 +296,7 @@ extern "C" int verp_main() {
   const Params& params =
       has_robot ? reinterpret_cast<const ParamsImage*>(verp_params_begin)->params : scratch;
   static board::Board here(start, params, boot_check);
-  board::Servos servos{start, params.baud, has_robot, here.supply};
+  board::Servos servos{start, params, has_robot, here.supply};
   const auto fault = app::open_servos(servos, board::judge(has_desk, boot_check.verdict, params));
   here.say(app::Signals::at_start(fault == board::StartFault::kNone));
   if (fault != board::StartFault::kNone) here.refuse(fault);

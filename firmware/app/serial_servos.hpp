@@ -1,10 +1,25 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 
+#include "common/protocol/control_table.hpp"
+#include "common/protocol/dynamixel2.hpp"
+#include "common/protocol/feetech_table.hpp"
 #include "firmware/app/dynamixel_servos.hpp"
 #include "firmware/app/feetech_servos.hpp"
 
 namespace verp::app {
+
+/// Torque off for all servos, without a reply. Returns the frame's size; `protocol` is serial.
+inline std::size_t encode_torque_off(std::uint8_t* frame, std::size_t capacity,
+                                     BusProtocol protocol) {
+  constexpr std::uint8_t kOff = 0;
+  return protocol == BusProtocol::kFeetech
+             ? feetech::encode_write(frame, capacity, feetech::kBroadcast,
+                                     feetech::address::kTorqueEnable, &kOff, sizeof kOff)
+             : dxl::encode_write(frame, capacity, dxl::kBroadcast, dxl::address::kTorqueEnable,
+                                 &kOff, sizeof kOff);
+}
 
 /// The ServoBinding (contracts.hpp) of a FrameBus, in the protocol of the robot's Params.
 class SerialServos {

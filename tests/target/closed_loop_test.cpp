@@ -36,6 +36,20 @@ TEST(ClosedLoop, WalksTheSameBitsInTheBoardAndOnThePc) {
   EXPECT_GT(there.distance_m, 2.0) << "it should have walked";
 }
 
+TEST(ClosedLoop, WalksTheSameBitsOnFeetechServos) {
+  const char* board = std::getenv("VERP_TEST_BOARD");
+  ASSERT_NE(board, nullptr) << "set VERP_TEST_BOARD";
+  constexpr std::uint32_t kTicks = 850;
+  const Robot robot = load_robot("generic21", "feetech");
+  ASSERT_EQ(robot.params.bus_protocol, BusProtocol::kFeetech);
+  const TwinRun here = run_here(robot, kTicks, false);
+  ASSERT_EQ(here.records.size(), kTicks);
+  const TwinRun there = run_on_board(board, robot, walk_script(robot.params, kTicks));
+  expect_same(here, there);
+  EXPECT_FALSE(there.fallen);
+  EXPECT_GT(there.distance_m, 0.2) << "it should have walked";
+}
+
 TEST(Tour, HasTheSameBitsInTheBoardAndOnThePc) {
   const char* board = std::getenv("VERP_TEST_BOARD");
   ASSERT_NE(board, nullptr) << "set VERP_TEST_BOARD";

@@ -88,6 +88,21 @@ TEST(SerialLoop, WalksTheSameBitsThroughItsUsartsAndInThisProcess) {
   std::printf("%s: %u ticks at %.0f ticks/s\n", test_board().c_str(), ticks, there.ticks_per_s);
 }
 
+// Its Params, not its build, choose the servos' protocol.
+TEST(SerialLoop, StandsOnFeetechServosWithTheSameBits) {
+  constexpr std::uint32_t kTicks = 120;
+  const Robot robot = load_robot("generic21", "feetech");
+  const TwinRun here = run_here(robot, kTicks, false);
+  ASSERT_EQ(here.modes.back(), safety::Mode::kStanding);
+  SerialBoard board(test_board(), params_image(robot));
+  ASSERT_TRUE(board.operator_port().ping(dxl::controller::kDefaultId).has_value());
+  EXPECT_EQ(board.read("start_fault"), 0u);
+  const SerialRun there = run_over_serial(board, robot, kTicks);
+  EXPECT_EQ(there.difference, "");
+  EXPECT_EQ(there.digest, here.records.back().digest.chain);
+  EXPECT_EQ(there.twin.distance_m, here.distance_m);
+}
+
 TEST(SerialLoop, GetsUpByTheActionsInItsFlash) {
   const Robot robot = load_robot("generic21");
   const Script script = fall_script(robot);

@@ -12,7 +12,9 @@
 /// The port to a robot on the board's bxCAN. Alternative: boards/stm32/serial.
 namespace verp::board {
 
-inline constexpr BusProtocol kProtocol = BusProtocol::kCia402;
+constexpr bool drives(BusProtocol protocol) {
+  return protocol == BusProtocol::kCia402;
+}
 inline constexpr unsigned kRobotInterrupts[] = {
     kCanPort.first_interrupt, kCanPort.first_interrupt + 1, kCanPort.first_interrupt + 2,
     kCanPort.first_interrupt + 3};
@@ -42,7 +44,7 @@ struct RobotWiring {
            port.open(clocks, timing);
   }
   /// Resets every node, which removes torque. Three times, since there is no reply.
-  static void release(Port& port) {
+  static void release(Port& port, BusProtocol = BusProtocol::kCia402) {
     for (int times = 0; times < 3; ++times) {
       port.send(canopen::nmt_frame(canopen::NmtCommand::kResetNode, 0));
     }

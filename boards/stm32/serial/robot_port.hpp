@@ -4,16 +4,18 @@
 
 #include "boards/stm32/ports.hpp"
 #include "common/model/params.hpp"
-#include "common/protocol/control_table.hpp"
-#include "common/protocol/dynamixel2.hpp"
 #include "firmware/app/link_bus.hpp"
 #include "firmware/app/lockstep_bus.hpp"
 #include "firmware/app/operator_registers.hpp"
+#include "firmware/app/serial_servos.hpp"
 
 /// The port to a robot on the servo port. Alternative: boards/stm32/can.
 namespace verp::board {
 
-inline constexpr BusProtocol kProtocol = BusProtocol::kDynamixel2;
+/// Params choose the family at boot.
+constexpr bool drives(BusProtocol protocol) {
+  return protocol == BusProtocol::kDynamixel2 || protocol == BusProtocol::kFeetech;
+}
 inline constexpr unsigned kRobotInterrupts[] = {kServoPort.interrupt, kServoPort.dma_interrupt};
 
 template <class Io, class UsartKind, class Timer>
@@ -28,11 +30,9 @@ struct RobotWiring {
     return Side::open(port, kServoPort, clocks, baud);
   }
   /// Sends torque off to all servos, three times, since there is no reply.
-  static void release(Port& port) {
-    constexpr std::uint8_t kOff = 0;
+  static void release(Port& port, BusProtocol protocol) {
     std::uint8_t frame[32];
-    const std::size_t size = dxl::encode_write(frame, sizeof frame, dxl::kBroadcast,
-                                               dxl::address::kTorqueEnable, &kOff, sizeof kOff);
+    const std::size_t size = app::encode_torque_off(frame, sizeof frame, protocol);
     for (int times = 0; times < 3; ++times) port.write(frame, size, 10'000);
   }
 };

@@ -246,15 +246,6 @@ void refuse_beside_scenario(const WalkOptions& options) {
   }
 }
 
-void require_serial(const std::string& command, const model::Entity& entity) {
-  if (entity.protocol == BusProtocol::kDynamixel2) return;
-  throw cli::ToolError(
-      cli::kBadInput,
-      fmt::format("{}: bus '{}' of {} speaks {}, and this needs dynamixel2; choose "
-                  "another of its buses with --bus",
-                  command, entity.bus, entity.name, model::protocol_name(entity.protocol)));
-}
-
 void require_fit(const std::string& command, const std::string& link, const Params& params) {
   const bool can_link = link::parse_endpoint(link).kind == link::Endpoint::Kind::kCan;
   if (can_link == (params.bus_protocol == BusProtocol::kCia402)) return;

@@ -80,7 +80,6 @@ void declare_basics(CLI::App& app, WalkOptions& options);
 /// Physics step, start pose, falls.
 void declare_twin(CLI::App& app, WalkOptions& options);
 
-void require_serial(const std::string& command, const model::Entity& entity);
 /// Both or neither must be CAN. Throws ToolError.
 void require_fit(const std::string& command, const std::string& link, const Params& params);
 

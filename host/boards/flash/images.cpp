@@ -44,11 +44,6 @@ std::uint32_t word(const std::string& bytes, std::size_t index) {
 }  // namespace
 
 std::string loop_image(const Recipe& recipe, BusProtocol protocol) {
-  if (protocol == BusProtocol::kFeetech) {
-    throw FlashError(FlashError::Kind::kUsage,
-                     "no board drives Feetech servos yet: `verp run` does, from this PC; or choose "
-                     "another of the robot's buses with --bus");
-  }
   if (protocol != BusProtocol::kCia402) return std::string("loop_") + recipe.board;
   if (recipe.can_image) return std::string("loop_can_") + recipe.board;
   std::string names;

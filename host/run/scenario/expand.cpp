@@ -54,11 +54,10 @@ void prepare_falls(const Robot& robot, WalkPlan& plan) {
 
 /// Emulated boards have a serial servo bus.
 void require_serial(const Robot& robot, const model::Entity& entity) {
-  if (robot.controller.board.empty() || entity.protocol == BusProtocol::kDynamixel2) return;
-  throw ScenarioError("bus",
-                      fmt::format("bus '{}' of {} speaks {}, and this needs dynamixel2; "
-                                  "choose another of its buses",
-                                  entity.bus, entity.name, model::protocol_name(entity.protocol)));
+  if (robot.controller.board.empty() || entity.protocol != BusProtocol::kCia402) return;
+  throw ScenarioError("bus", fmt::format("bus '{}' of {} is CAN, and emulated boards have a serial "
+                                         "servo bus; choose another of its buses",
+                                         entity.bus, entity.name));
 }
 
 std::string path_of(int robot, const std::string& where) {

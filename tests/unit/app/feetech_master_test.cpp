@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <vector>
 
 #include "common/model/params.hpp"
 #include "common/protocol/feetech_table.hpp"
 #include "firmware/app/plausible_counts.hpp"
+#include "firmware/app/serial_servos.hpp"
 #include "hal/fake/scripted_bus.hpp"
 
 namespace verp::app {
@@ -32,6 +34,21 @@ TEST(FeetechMaster, AnEchoOfItsOwnRequestIsNoAnswer) {
   }));
   EXPECT_EQ(position, 1304);
   EXPECT_EQ(master.counters().strays, 0u);
+}
+
+// What a board sends when it refuses to start.
+TEST(SerialServos, TorqueOffIsInTheWordsOfTheFamily) {
+  const auto sent = [](BusProtocol protocol) {
+    std::uint8_t frame[32];
+    const std::size_t size = encode_torque_off(frame, sizeof frame, protocol);
+    return std::vector<std::uint8_t>(frame, frame + size);
+  };
+  const std::vector<std::uint8_t> feetech = {0xFF, 0xFF, 0xFE, 0x04, 0x03, 0x28, 0x00, 0xD2};
+  EXPECT_EQ(sent(BusProtocol::kFeetech), feetech);
+  const std::vector<std::uint8_t> dynamixel = sent(BusProtocol::kDynamixel2);
+  ASSERT_EQ(dynamixel.size(), 13u);
+  EXPECT_EQ(dynamixel[4], dxl::kBroadcast);
+  EXPECT_EQ(dynamixel[8], 64) << "e-Manual: Torque Enable";
 }
 
 TEST(PlausibleCounts, AJumpCountsOnlyIfTheNextReadingConfirmsIt) {
