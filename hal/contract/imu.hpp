@@ -38,6 +38,14 @@ class ImuMean {
     }
     ++count_;
   }
+  void add(const ImuMean& others) {
+    for (int axis = 0; axis < 3; ++axis) {
+      gyro_[axis] += others.gyro_[axis];
+      accel_[axis] += others.accel_[axis];
+    }
+    count_ += others.count_;
+  }
+  std::int32_t count() const { return count_; }
   /// Takes the mean since the last take(). False: there were no samples.
   bool take(ImuSample& sample) {
     if (count_ == 0) return false;

@@ -8,6 +8,7 @@
 #include "tests/contract/fakes.hpp"
 #include "tests/contract/pc/buses.hpp"
 #include "tests/contract/pc/cameras.hpp"
+#include "tests/contract/pc/imus.hpp"
 #include "tests/contract/pc/lasers.hpp"
 #include "tests/contract/pc/link_pairs.hpp"
 #include "tests/contract/pc/virtual_wire.hpp"
@@ -43,6 +44,6 @@ using Watchdogs =
                      ChipWatchdog<17'000>, ChipWatchdog<32'000>, ChipWatchdog<47'000>>;
 using RangeFinders = ::testing::Types<ScriptedLaser, ScipLaser, TwinLaser>;
 using Cameras = ::testing::Types<ScriptedEye, KernelEye, KernelEyeOfFiles, TwinEye>;
-using Imus = ::testing::Types<ScriptedChip, Mpu9250, Icm20648>;
+using Imus = ::testing::Types<ScriptedChip, Mpu9250, Icm20648, Bno055OnI2c, Bno055OnUart>;
 
 }  // namespace verp::test
