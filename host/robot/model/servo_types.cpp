@@ -187,6 +187,9 @@ const std::vector<ImuType>& imu_types() {
   static const std::vector<ImuType> kTypes = {
       {"icm20648", kDegree / 16.4, kG / 8192, 0.015 * kDegree, 0.1 * kDegree, 190e-6 * kG,
        5e-3 * kG},
+      // Bosch BNO055 data sheet BST-BNO055-DS000 without fusion: 16 LSB/dps and 100 LSB/(m/s^2) at
+      // any range; 0.014 dps/sqrt(Hz) and 150 ug/sqrt(Hz). The rest is assumed as above.
+      {"bno055", kDegree / 16, 0.01, 0.014 * kDegree, 0.1 * kDegree, 150e-6 * kG, 5e-3 * kG},
   };
   return kTypes;
 }

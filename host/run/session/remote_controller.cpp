@@ -50,6 +50,7 @@ bool RemoteController::tick() {
       introduce();
     }
     if (!over()) turn();
+    if (options_.turned) options_.turned(robot_.twin());
   } catch (const bus::SinkError& error) {
     fail(error.what());
   }

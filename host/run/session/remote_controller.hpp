@@ -35,6 +35,8 @@ struct ServeOptions {
   std::function<void(const std::string&)> told = {};  ///< receives events as text
   /// Called before anything is sent on CAN; may throw.
   std::function<void(const link::CanInterface&)> check = {};
+  /// Called after each turn, some ms at most apart: for sensors beside the bus.
+  std::function<void(sim::Plant&)> turned = {};
   std::function<void()> real_time_begins = {};               ///< raise the thread's priority
   std::function<void()> cannot_keep_up = {};                 ///< give it back
   std::function<void(const std::string& why)> gave_up = {};  ///< why this robot is over

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,7 @@
 #include "host/os/link/latency.hpp"
 #include "host/run/session/remote_controller.hpp"
 #include "host/twin/bus/link_fit.hpp"
+#include "host/twin/imu/imu_server.hpp"
 
 namespace verp::tool {
 namespace {
@@ -87,6 +89,7 @@ HilResult serve_controller(const scenario::Expanded& run, session::ServeOptions 
 struct HilWords {
   WalkOptions walk;
   session::ServeOptions hil;
+  std::string imu_link;  ///< empty: none
   bool lockstep = false, real_time = false;
 };
 
@@ -243,6 +246,11 @@ int run_hil(const CLI::App& app, HilWords words) {
   if (!gives_orders) refuse_without_operator(app);
   if (gives_orders && options.report_folder.empty() && !options.json)
     options.report_folder = "report";
+  std::optional<imu::ImuServer> chip;
+  if (!words.imu_link.empty()) {
+    chip.emplace(words.imu_link, plan.params.imu);
+    words.hil.turned = [&chip](sim::Plant& plant) { chip->measured(plant.imu()); };
+  }
   LiveStream live("verp hil", options.live);
   WalkFiles files(options, plan, metadata_of(options, plan, walk.scenario), live.robot());
   cli::Progress progress(!options.json);
@@ -283,6 +291,9 @@ cli::Subcommand add_hil(CLI::App& root) {
       ->required();
   app->add_option("--operator", words->hil.operator_link,
                   "its operator's port: orders go there, digests come back");
+  app->add_option("--imu-serial", words->imu_link,
+                  "serves the twin's IMU there, too, as a BNO055 on a serial line: pty:PATH, for "
+                  "verp run --imu serial:PATH,bno055");
   CLI::Option* lockstep = app->add_flag("--lockstep", words->lockstep,
                                         "time stands until the controller announces lockstep");
   app->add_flag("--realtime", words->real_time, "time goes on by the clock on the wall")

@@ -34,6 +34,16 @@ void judge_fit(const bus::LinkFit& fit, const RunPlan& plan);
 /// Throws ToolError without an IMU on the bus, or if `trouble` is not empty.
 void judge_imu(const RunPlan& plan, const std::string& trouble);
 
+/// The IMU of this PC, or an assumed one.
+struct RunImu {
+  hal::ImuStatus read(hal::ImuSample& sample) {
+    return own == nullptr ? assumed.read(sample) : own->read(sample);
+  }
+  std::uint32_t faults() const { return own == nullptr ? 0 : own->faults(); }
+  imu::ImuPort* own;
+  bus::AssumedImu assumed;
+};
+
 template <class Robot>
 struct RunKeeper {
   void record(const TickRecord& tick, const State& state, const Outputs& outputs) {
@@ -74,14 +84,15 @@ class RobotRun {
         plan_(plan),
         params_(plan.walk.params),
         progress_(progress),
-        imu_(params_.imu),
+        imu_{plan.own_imu, bus::AssumedImu(params_.imu)},
         operator_(
             params_, plan.walk.velocity, plan.walk.walk_s,
             [this](auto from, auto to, auto faults, const std::string& story,
                    const std::string& silent) { tell(from, to, faults, story, silent); },
             plan.walk.get_ups, plan.walk.stands),
         keeper_{robot_, operator_, result_.walk, trace},
-        app_(params_, robot_.bus(), operator_, keeper_, plan.has_imu ? nullptr : &imu_,
+        app_(params_, robot_.bus(), operator_, keeper_,
+             plan.has_imu && plan.own_imu == nullptr ? nullptr : &imu_,
              app::Core{{plan.walk.actions.data(), 4 * plan.walk.actions.size()}}) {
     result_.fit = fit;
     if (plan.action != 0) operator_.play(plan.action);
@@ -110,7 +121,7 @@ class RobotRun {
 
  private:
   static constexpr bool kInLockstep = requires(Robot & robot) { robot.stopped(); };
-  using Loop = app::App<typename Robot::Bus, RunOperator, RunKeeper<Robot>, bus::AssumedImu>;
+  using Loop = app::App<typename Robot::Bus, RunOperator, RunKeeper<Robot>, RunImu>;
 
   std::string place() const { return link::to_text(plan_.link); }
 
@@ -127,6 +138,7 @@ class RobotRun {
       if (twin_ended()) break;
       report(pacer.deadlines());
       watch_link();
+      watch_imu();
       watch_person();
       watch_plan();
       progress_.show(
@@ -179,6 +191,20 @@ class RobotRun {
                          "same port is tried again");
   }
 
+  /// Names an IMU of this PC: the controller knows only that it is silent.
+  void watch_imu() {
+    if (plan_.own_imu == nullptr) return;
+    const bool fresh = (app_.inputs().flags & kImuFresh) != 0;
+    imu_silent_us_ = fresh ? 0 : imu_silent_us_ + params_.period_us;
+    const bool silent = imu_silent_us_ > kImuSilence_us;
+    if (silent == imu_silent_) return;
+    imu_silent_ = silent;
+    say(silent ? plan_.imu_name +
+                     ": the IMU is silent: the robot holds, then sits and lets go; the same chip "
+                     "is tried again"
+               : plan_.imu_name + ": the IMU is back");
+  }
+
   void watch_plan() {
     const std::string news = plan_notes_.news(app_.outputs().faults);
     if (!news.empty()) say(news);
@@ -225,6 +251,9 @@ class RobotRun {
     result_.ended = plan_.has_imu ? operator_.ended() : "unknown: no IMU";
     walk.falls = operator_.falls();
     walk.get_ups = operator_.get_ups();
+    if (imu_silent_ && !walk.failure.empty()) {
+      walk.failure += "; " + plan_.imu_name + " is silent: check its cable and its supply";
+    }
     if (walk.failure.empty() && !operator_.over()) walk.failure = "the twin's run ended before";
     if constexpr (kInLockstep)
       walk.simulated_s = 1e-6 * params_.period_us * static_cast<double>(walk.ticks);
@@ -233,7 +262,7 @@ class RobotRun {
     result_.bus = app_.counters();
     result_.crc_errors = app_.crc_errors();
     result_.link = robot_.link_errors();
-    result_.device_trouble = result_.silent_servos > 0 || !robot_.connected();
+    result_.device_trouble = result_.silent_servos > 0 || !robot_.connected() || imu_silent_;
     if (walk.failure.empty() && result_.silent_servos + result_.stiff_servos > 0) {
       walk.failure = "not every servo let go";
     }
@@ -244,12 +273,15 @@ class RobotRun {
   const Params& params_;
   cli::Progress& progress_;
   link::SystemClock clock_;
-  bus::AssumedImu imu_;
+  RunImu imu_;
   RunResult result_;
   RunOperator operator_;
   RunKeeper<Robot> keeper_;
   Loop app_;
   session::PlanNotes plan_notes_;
+  static constexpr std::uint32_t kImuSilence_us = 60'000;  ///< three of the longest periods
+  std::uint32_t imu_silent_us_ = 0;
+  bool imu_silent_ = false;
   bool connected_ = true;
   int presses_ = 0;
 };

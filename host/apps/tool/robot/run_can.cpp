@@ -151,7 +151,7 @@ bus::LinkFit check_latency(link::CanPort& port, const RunPlan& plan) {
 }
 
 void check_imu(link::CanPort& port, const RunPlan& plan) {
-  if (!plan.has_imu) return;
+  if (!plan.has_imu || plan.own_imu != nullptr) return;
   judge_imu(plan, "");
   can::Client client(port, plan.link, kAnswer_us);
   const auto found = client.identify(plan.walk.params.imu.device_id);

@@ -11,6 +11,7 @@
 #include "host/apps/cli/interrupt.hpp"
 #include "host/apps/cli/json.hpp"
 #include "host/apps/cli/other_program.hpp"
+#include "host/apps/cli/real_time.hpp"
 #include "host/apps/tool/bit_rate.hpp"
 #include "host/apps/tool/robot/action_words.hpp"
 #include "host/apps/tool/robot/commands.hpp"
@@ -99,6 +100,7 @@ RunPlan make_plan(const RunWords& words) {
   RunPlan plan;
   plan.link = link::parse_endpoint(words.link);
   plan.has_imu = words.params.has_imu();
+  if (const auto own = words.params.own_imu()) plan.imu_name = imu::to_text(*own);
   plan.torque_percent = words.torque_percent;
   plan.takes_orders = words.take_orders;
   plan.lockstep = words.lockstep;
@@ -107,6 +109,11 @@ RunPlan make_plan(const RunWords& words) {
                          fmt::format("verp run: --lockstep is for a twin on a byte link, and "
                                      "{} is a CAN interface; leave it out, in real time",
                                      words.link));
+  }
+  if (words.lockstep && !plan.imu_name.empty()) {
+    throw cli::ToolError(cli::kBadInput, "verp run: --lockstep is in the twin's time, and " +
+                                             plan.imu_name +
+                                             " in this PC's; leave out one of them");
   }
   if (words.take_orders && plan.link.kind != link::Endpoint::Kind::kCan) {
     throw cli::ToolError(cli::kBadInput,
@@ -144,13 +151,17 @@ const char* scheduler_name(const cli::RealTime& got) {
   return got.fifo ? "SCHED_FIFO" : "an ordinary program's";
 }
 
+std::string imu_word(const RunPlan& plan) {
+  return !plan.has_imu ? "none" : plan.imu_name.empty() ? "bus" : plan.imu_name;
+}
+
 cli::Json to_json(const RunPlan& plan, const RunResult& result) {
   const WalkResult& walk = result.walk;
   const app::Deadlines& deadlines = result.deadlines;
   const bus::LinkFit& fit = result.fit;
   return {{"model", plan.walk.params.name},
           {"link", link::to_text(plan.link)},
-          {"imu", plan.has_imu ? "bus" : "none"},
+          {"imu", imu_word(plan)},
           {"period_us", plan.walk.params.period_us},
           {"ticks", walk.ticks},
           {"walked_s", result.walked_s},
@@ -221,8 +232,10 @@ std::string to_text(const RunPlan& plan, const RunResult& result) {
                          plan.walk.params.bus_protocol == BusProtocol::kCia402 ? "error frames"
                                                                                : "CRC errors",
                          result.link.overruns, result.link.losses)) +
-         row("IMU", plan.has_imu ? fmt::format("device {}", plan.walk.params.imu.device_id)
-                                 : "none: upright was assumed, balance was off") +
+         row("IMU", !plan.has_imu ? "none: upright was assumed, balance was off"
+                    : plan.imu_name.empty()
+                        ? fmt::format("device {}", plan.walk.params.imu.device_id)
+                        : plan.imu_name) +
          row("ended", result.ended) +
          row("torque", result.silent_servos + result.stiff_servos == 0
                            ? "off, said every servo"
@@ -266,6 +279,17 @@ int run_on(Link& link, const RunWords& words, const RunPlan& plan, WalkFiles& fi
   return tell(words, plan, files, live, drive(link, plan, fit, files.trace(), progress));
 }
 
+/// The IMU of this PC, open and measuring; null: it is none.
+std::unique_ptr<imu::ImuPort> open_imu(const RunWords& words) {
+  const auto place = words.params.own_imu();
+  if (!place) return nullptr;
+  auto port = std::make_unique<imu::ImuPort>(*place, [] { return cli::interrupted(); });
+  if (cli::interrupted())
+    throw cli::ToolError(cli::kRunFailed, "verp run: interrupted; torque was never on");
+  port->start(cli::kLoopPriority + 1);
+  return port;
+}
+
 /// Retries, because a lockstep twin and its controllers start in any order.
 link::Link open_link(const RunPlan& plan) {
   using Kind = link::Endpoint::Kind;
@@ -286,15 +310,17 @@ link::Link open_link(const RunPlan& plan) {
 }
 
 int run_robot(const RunWords& words) {
-  const RunPlan plan = make_plan(words);
+  RunPlan plan = make_plan(words);
   if (!plan.walk.remark.empty()) cli::complain("verp run: " + plan.walk.remark);
   LiveStream live("verp run", words.walk.live);
   record::mcap::StringMap facts = metadata_of(words.walk, plan.walk, scenario_of(words.walk, {}));
   facts["link"] = words.link;
-  facts["imu"] = plan.has_imu ? "bus" : "none: assumed upright";
+  facts["imu"] = plan.has_imu ? imu_word(plan) : "none: assumed upright";
   if (plan.action != 0) facts["action"] = words.action;
   if (words.gains_percent < 100) facts["gains_percent"] = std::to_string(words.gains_percent);
   WalkFiles files(words.walk, plan.walk, facts, live.robot());
+  const std::unique_ptr<imu::ImuPort> own_imu = open_imu(words);
+  plan.own_imu = own_imu.get();
   live.wait_for_viewer();
   if (plan.link.kind == link::Endpoint::Kind::kCan) {
     link::CanPort port(plan.link);

@@ -1,7 +1,9 @@
 #pragma once
+#include <optional>
 #include <string>
 
 #include "common/model/params.hpp"
+#include "host/os/imu/imu_place.hpp"
 
 namespace CLI {
 class App;
@@ -14,7 +16,9 @@ struct RunParams {
   std::string imu = "bus";
   double period_ms = 0;  ///< 0: the model's
 
-  bool has_imu() const { return imu == "bus"; }
+  bool has_imu() const { return imu != "none"; }
+  /// The IMU of this PC, if it is one. Throws link::EndpointError.
+  std::optional<imu::ImuPlace> own_imu() const;
 };
 
 void declare_run_params(CLI::App& app, RunParams& words);

@@ -65,7 +65,7 @@ bus::LinkFit check_latency(link::Link& link, const RunPlan& plan) {
 }
 
 void check_imu(link::Link& link, const RunPlan& plan) {
-  if (!plan.has_imu) return;
+  if (!plan.has_imu || plan.own_imu != nullptr) return;
   judge_imu(plan, "");
   bus::Client client(link, plan.link, kAnswer_us, plan.walk.params.bus_protocol);
   const auto found = client.ping(plan.walk.params.imu.device_id);

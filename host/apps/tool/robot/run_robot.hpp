@@ -8,6 +8,7 @@
 #include "host/apps/cli/progress.hpp"
 #include "host/apps/cli/real_time.hpp"
 #include "host/apps/tool/walk_run.hpp"
+#include "host/os/imu/imu_port.hpp"
 #include "host/os/link/link.hpp"
 #include "host/trace/record/trace_writer.hpp"
 #include "host/twin/bus/link_fit.hpp"
@@ -17,7 +18,9 @@ namespace verp::tool {
 struct RunPlan {
   WalkPlan walk;  ///< Params of this PC's controller
   link::Endpoint link;
-  bool has_imu = true;  ///< false: `--imu none`
+  bool has_imu = true;              ///< false: `--imu none`
+  std::string imu_name;             ///< of an IMU of this PC; empty: none
+  imu::ImuPort* own_imu = nullptr;  ///< open; null: none
   int torque_percent = 100;
   bool lockstep = false;
   int action = 0;             ///< instead of a walk; 0: walk
