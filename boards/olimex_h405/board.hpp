@@ -37,6 +37,7 @@ inline constexpr SerialPort kOperatorPort = kF4OperatorPort;
 inline constexpr Pin kLed = {'C', 12};
 inline constexpr Pin kServoPower = {};  ///< not switched on this board
 inline constexpr ImuPort kImu = {};
+inline constexpr ImuPort kSensorImu = kF4SensorImu;
 inline constexpr stm32::AnalogWiring kBattery = {};
 inline constexpr Pin kEmergencyStop = {};
 inline constexpr Button kButtons[2] = {};

@@ -63,6 +63,7 @@ inline constexpr ImuPort kImu = {.wiring = {.base = stm32::base::kSpi1,
                                             .select = {'A', 4},
                                             .function = 5},
                                  .on_apb2 = true};
+inline constexpr ImuPort kSensorImu = kImu;
 /// 3.3 V mean 18.81 V at the battery: variant.cpp, getPowerInVoltage().
 inline constexpr stm32::AnalogWiring kBattery = {.base = stm32::base::kAdc3,
                                                  .mask = stm32::rcc::kApb2Adc3,

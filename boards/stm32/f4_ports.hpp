@@ -28,6 +28,16 @@ inline constexpr CanPort kF4CanPort = {.base = hal::stm32::base::kCan1,
                                        .receive = {'B', 8},
                                        .function = 9,
                                        .first_interrupt = hal::stm32::irq::kCan1Tx};
+/// SPI2 on PB12 to PB15, to a motion sensor: image `sensor` only.
+inline constexpr ImuPort kF4SensorImu = {.wiring = {.base = hal::stm32::base::kSpi2,
+                                                    .enable_register = hal::stm32::rcc::kApb1enr,
+                                                    .mask = hal::stm32::rcc::kApb1Spi2,
+                                                    .clock = {'B', 13},
+                                                    .data_in = {'B', 14},
+                                                    .data_out = {'B', 15},
+                                                    .select = {'B', 12},
+                                                    .function = 5},
+                                         .on_apb2 = false};
 /// USART2 on PA2 and PA3.
 inline constexpr SerialPort kF4OperatorPort = {
     .wiring = {.base = hal::stm32::base::kUsart2,

@@ -1,10 +1,15 @@
 # loop_<board>.elf, checked against its budget of flash, RAM and stack.
 set(VERP_STM32_DIR ${CMAKE_CURRENT_LIST_DIR})
 
-# <image>.elf with the robot_port.hpp of `way`: serial or can.
+# <image>.elf with the robot_port.hpp of `way`: serial or can. Its main is loop_main.cpp or that of `ARGV2`; further
+# folders have the headers that it chooses.
 function(verp_add_stm32_image image way)
-  add_executable(${image} ${VERP_STM32_DIR}/loop_main.cpp ${VERP_STM32_DIR}/hardware.cpp ${VERP_STM32_DIR}/end.cpp)
-  target_include_directories(${image} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${VERP_STM32_DIR}/${way})
+  set(what loop)
+  if(ARGN)
+    list(POP_FRONT ARGN what)
+  endif()
+  add_executable(${image} ${VERP_STM32_DIR}/${what}_main.cpp ${VERP_STM32_DIR}/hardware.cpp ${VERP_STM32_DIR}/end.cpp)
+  target_include_directories(${image} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${VERP_STM32_DIR}/${way} ${ARGN})
   target_link_libraries(${image} PRIVATE verp_boot verp_law verp_app verp_core verp_warnings)
   # Flash is scarce here, not time: verp_core has its own flags.
   target_compile_options(${image} PRIVATE -Os)
@@ -36,6 +41,18 @@ endfunction()
 function(verp_add_stm32_can_loop)
   verp_add_stm32_image(loop_can_${VERP_BOARD} can)
   verp_add_budget_test(budget.${VERP_BOARD}.can loop_can_${VERP_BOARD})
+endfunction()
+
+# The board as a robot's IMU device; board.hpp has kSensorImu. With `machine`, in an emulator, with an IMU that turns.
+function(verp_add_stm32_sensor)
+  verp_add_stm32_image(sensor_${VERP_BOARD} serial sensor ${VERP_STM32_DIR}/sensor/chip)
+  verp_add_budget_test(budget.${VERP_BOARD}.sensor sensor_${VERP_BOARD})
+  if(ARGN)
+    verp_add_stm32_image(sensor_turning_${VERP_BOARD} serial sensor ${VERP_STM32_DIR}/sensor/turning)
+    add_test(NAME hil.${VERP_BOARD}.sensor COMMAND ${CMAKE_SOURCE_DIR}/tests/target/ask_sensor
+      ${ARGN} $<TARGET_FILE:sensor_turning_${VERP_BOARD}> ${VERP_HOST_DIR}/host/apps/tool/verp)
+    set_tests_properties(hil.${VERP_BOARD}.sensor PROPERTIES LABELS "hil;target")
+  endif()
 endfunction()
 
 # The image through a flash tool, without silicon: `tests` of tests/host/flash.

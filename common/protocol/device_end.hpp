@@ -7,6 +7,9 @@
 /// The device side of Protocol 2.0, common to all devices. Rules from the e-Manual.
 namespace verp::dxl {
 
+/// Answers to a Ping to all are so far apart, by id: the vendor's SDK waits so long for each.
+inline constexpr std::uint32_t kPingSlot_us = 3000;
+
 /// One device's part of a Sync or Bulk Read.
 struct ReadEntry {
   std::uint8_t id = 0;

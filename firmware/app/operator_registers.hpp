@@ -61,6 +61,16 @@ class OperatorRegisters {
   bool take_relax() { return standing_.take_relax(); }
   void offer_actions(int count, action::KeptFault fault = action::KeptFault::kNone);
   TickReport& report() { return report_; }
+
+  // DynamixelDevice; this port's answers leave at once.
+  static constexpr std::uint16_t model() { return table::kModel; }
+  static constexpr std::uint8_t version() { return table::kTableVersion; }
+  static constexpr bool holds() { return false; }
+  void answers_after(std::uint32_t) {}
+  void heard() { report_.heard(); }
+  void link(std::uint32_t crc_errors, const hal::LinkErrors& errors) {
+    report_.link(crc_errors, errors);
+  }
   /// Whether a write there may have its effect (OperatorSetup).
   bool obeys(std::uint16_t address) const { return takes_orders_ || only_shows(address); }
 

@@ -42,7 +42,7 @@ DebugPlan debug_chip(const std::string& gdb, const Recipe& recipe, BusProtocol p
   if (!probe.empty()) openocd.insert(openocd.end(), {"-c", "adapter serial " + probe});
   // A log would mix with the gdb protocol.
   openocd.insert(openocd.end(), {"-c", "gdb_port pipe; log_output /dev/null"});
-  return {gdb_words(gdb, symbols_of(code_image(recipe, protocol)),
+  return {gdb_words(gdb, symbols_of(code_image(recipe, loop_image(recipe, protocol))),
                     "target extended-remote | exec " + files::shell_line(openocd),
                     {"monitor reset halt", "tbreak verp_main", "continue"})};
 }

@@ -89,8 +89,8 @@ EmulationPlan plan_emulation(const Recipe& recipe, BusProtocol protocol,
   const board::EmulatedBoard& emulated = board::find_emulated_board(board);
   // The chip's raw image: for an ELF file QEMU also clears memory behind the code, where the robot
   // may be.
-  const fs::path image =
-      recipe.chip != nullptr ? code_image(recipe, protocol) : firmware_image(emulated, "loop");
+  const fs::path image = recipe.chip != nullptr ? code_image(recipe, loop_image(recipe, protocol))
+                                                : firmware_image(emulated, "loop");
   EmulationPlan plan{.launch = {.board = emulated, .image = image, .arguments = {}},
                      .links = {},
                      .protocol = protocol};

@@ -56,13 +56,29 @@ std::string loop_image(const Recipe& recipe, BusProtocol protocol) {
                                recipe.board, names));
 }
 
-std::filesystem::path code_image(const Recipe& recipe, BusProtocol protocol) {
+std::string sensor_image(const Recipe& recipe, const Params* robot) {
+  const auto refuse = [&](const std::string& why) {
+    throw FlashError(FlashError::Kind::kUsage, "--image sensor: " + why);
+  };
+  if (recipe.chip == nullptr) refuse(std::string(recipe.board) + " has no pins; name an STM32");
+  if (robot == nullptr) return std::string("sensor_") + recipe.board;
+  const std::string name = robot->name;
+  if (robot->bus_protocol != BusProtocol::kDynamixel2) {
+    refuse("that bus of " + name + " has no Dynamixel servos; name another with --bus");
+  }
+  if (robot->imu.device_id == 0) {
+    refuse(name + " has no IMU on its bus; give the <verp:imu> of its file an id");
+  }
+  return std::string("sensor_") + recipe.board;
+}
+
+std::filesystem::path code_image(const Recipe& recipe, const std::string& image) {
   const std::string board = recipe.board;
   const char* folder = std::getenv("VERP_FIRMWARE_DIR");
   const std::filesystem::path file =
       (folder != nullptr ? std::filesystem::path(folder)
                          : files::source_dir() / "build" / ("fw-" + board) / "images") /
-      (loop_image(recipe, protocol) + ".bin");
+      (image + ".bin");
   if (!std::filesystem::exists(file)) {
     refuse(file, fmt::format("not built; run ./verp flash --board {0}, which builds it, or: cmake "
                              "--preset fw-{0} && cmake --build --preset fw-{0}",

@@ -13,8 +13,12 @@ namespace verp::flash {
 /// CAN.
 std::string loop_image(const Recipe& recipe, BusProtocol protocol);
 
+/// sensor_<board>, which makes the board the IMU of `robot` (null: named later). Throws FlashError
+/// if there is none, or it cannot be.
+std::string sensor_image(const Recipe& recipe, const Params* robot);
+
 /// The binary: in $VERP_FIRMWARE_DIR, else the build folder of the preset fw-<board>.
-std::filesystem::path code_image(const Recipe& recipe, BusProtocol protocol);
+std::filesystem::path code_image(const Recipe& recipe, const std::string& image);
 
 /// Requires a fitting size, and a vector table for this map: stack in RAM, entry in the code.
 void check_code(const std::filesystem::path& file, const MemoryMap& map);

@@ -164,7 +164,7 @@ void DynamixelWords::ping(std::uint8_t id) {
   for (int i = 0; i <= dxl::kMaxId; ++i) {
     const auto each = static_cast<std::uint8_t>(i);
     if (devices(each).empty()) continue;
-    const std::uint64_t slot_ns = end_ns + each * kPingSlot_us * 1000;
+    const std::uint64_t slot_ns = end_ns + std::uint64_t{each} * dxl::kPingSlot_us * 1000;
     line_.hold_wire_until(slot_ns);
     identify(each);
   }

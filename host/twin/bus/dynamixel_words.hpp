@@ -30,9 +30,6 @@ class DynamixelWords final : public BusWords {
   std::size_t frame_size(std::span<const std::uint8_t> bytes) const override;
 
  private:
-  /// A broadcast Ping is answered in slots: id n in slot n.
-  static constexpr std::uint64_t kPingSlot_us = 3000;
-
   /// More than one only if ids are duplicated.
   std::vector<Device*> devices(std::uint8_t id) const;
   /// `for_group`: by Secondary ID too. Only a device addressed by its own id replies.

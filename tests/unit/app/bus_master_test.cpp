@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <new>
 
 #include "common/protocol/control_table.hpp"
 #include "firmware/app/read_chain.hpp"
@@ -42,9 +44,18 @@ struct Exchange {
   std::uint8_t value = 0;
 };
 
+struct LateReply {
+  Exchange exchange;
+  BusMaster master{exchange.bus};
+};
+/// In one place, for the RAM of a microcontroller.
+LateReply& late_reply() {
+  alignas(LateReply) static std::byte place[sizeof(LateReply)];
+  return *new (place) LateReply;
+}
+
 TEST(BusMaster, GivesUpWhenTheTimeIsOverAndCountsIt) {
-  static Exchange exchange;
-  static BusMaster master(exchange.bus);
+  auto& [exchange, master] = late_reply();
   EXPECT_FALSE(exchange.ask(master, kLateUs - 1));
   EXPECT_EQ(exchange.bus.now_us(), kLateUs - 1);
   EXPECT_EQ(master.counters().timeouts, 1u);
@@ -52,8 +63,7 @@ TEST(BusMaster, GivesUpWhenTheTimeIsOverAndCountsIt) {
 }
 
 TEST(BusMaster, ARequestIsNotAnsweredByItsPredecessorsReply) {
-  static Exchange exchange;
-  static BusMaster master(exchange.bus);
+  auto& [exchange, master] = late_reply();
   EXPECT_FALSE(exchange.ask(master, kLateUs - 1));
   std::uint8_t seen = 0;
   EXPECT_EQ(exchange.bus.poll(&seen, 1, kLateUs), 1u);
@@ -63,8 +73,7 @@ TEST(BusMaster, ARequestIsNotAnsweredByItsPredecessorsReply) {
 }
 
 TEST(BusMaster, RepliesMayComeByteByByte) {
-  static Exchange exchange;
-  static BusMaster master(exchange.bus);
+  auto& [exchange, master] = late_reply();
   exchange.bus.set_piece(1);
   EXPECT_TRUE(exchange.ask(master, kLateUs));
   EXPECT_EQ(exchange.value, 1);

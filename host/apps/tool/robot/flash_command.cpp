@@ -17,11 +17,13 @@ namespace {
 struct FlashWords {
   FlashOptions flash;
   std::string controller;  ///< empty: the core's
+  std::string image;
   bool code = false, json = false;
 };
 
 int run_flash(FlashWords words) {
   const bool data = !words.flash.params.empty() || !words.flash.actions.empty();
+  words.flash.sensor = words.image == "sensor";
   words.flash.code = words.code || !data || !words.controller.empty();
   cli::Progress progress(!words.json);
   if (!words.controller.empty()) {
@@ -58,6 +60,10 @@ cli::Subcommand add_flash(CLI::App& root) {
                   "write these: a FILE.bin of verp action export, or what a run that failed has "
                   "kept (it names the file). A robot that --params makes brings its own; none "
                   "leaves those on the board as they are");
+  app->add_option("--image", words->image,
+                  "loop: the controller (default); sensor: the robot's IMU as device on its servo "
+                  "bus, which takes id, rate and scales from the robot of --params")
+      ->check(CLI::IsMember({"loop", "sensor"}));
   app->add_flag("--code", words->code, "with --params or --actions: the firmware as well");
   declare_controller(*app, words->controller);
   cli::add_json_flag(*app, words->json);

@@ -68,7 +68,7 @@ RobotFiles robot_files(const FlashOptions& options, const flash::MemoryMap& map,
   const ParamsImage image = model::make_image(entity);
   made.params = folder / "params.bin";
   write_piece(made.params, &image, sizeof image);
-  if (!options.actions.empty() || map.actions.bytes == 0) return made;
+  if (options.sensor || !options.actions.empty() || map.actions.bytes == 0) return made;
   const action::CompiledActions own = make_actions(entity, image.params, "");
   if (own.documents.empty()) return made;
   const std::vector<std::uint8_t> kept = action::kept_image(own, image.params);
@@ -97,9 +97,10 @@ Cargo load(const FlashOptions& options, const flash::Recipe& recipe, const flash
   } else if (!options.bus.empty()) {
     cargo.protocol = model::load_robot(model::find_model(kUsualRobot), options.bus).protocol;
   }
-  cargo.image = flash::loop_image(recipe, cargo.protocol);
+  cargo.image = options.sensor ? flash::sensor_image(recipe, robot ? &*robot : nullptr)
+                               : flash::loop_image(recipe, cargo.protocol);
   if (code) {
-    const fs::path file = flash::code_image(recipe, cargo.protocol);
+    const fs::path file = flash::code_image(recipe, cargo.image);
     flash::check_code(file, map);
     cargo.pieces.insert(cargo.pieces.begin(),
                         {"code " + cargo.image, fs::absolute(file), map.code});
@@ -118,6 +119,7 @@ std::string beside(const FlashOptions& options, const Cargo& cargo) {
     return fmt::format("; this robot takes firmware {}, which --code writes too", cargo.image);
   }
   if (!options.code || !options.params.empty()) return "";
+  if (options.sensor) return "; it is the IMU of the robot in its flash, which --params writes";
   return fmt::format("; it drives a robot whose bus speaks {}, with any other start_fault is 8",
                      model::protocol_name(cargo.protocol));
 }
@@ -266,6 +268,10 @@ flash::EmulationPlan emulation_of(const FlashOptions& options, const flash::Reci
 FlashAnswer flash_board(const FlashOptions& options, cli::Progress& progress,
                         const std::function<void(const std::string&)>& say) {
   const flash::Recipe& recipe = flash::find_recipe(options.board);
+  if (options.sensor && options.emulate) {
+    throw flash::FlashError(flash::FlashError::Kind::kUsage,
+                            "--image sensor: QEMU has no motion sensor; leave out --emulate");
+  }
   if (recipe.chip == nullptr || options.emulate) return emulate(options, recipe, say);
   return flash_silicon(options, recipe, progress);
 }
