@@ -7,6 +7,11 @@
 namespace verp::gait {
 namespace {
 
+/// Indices of the rings count modulo 256.
+constexpr std::uint8_t wrapped(int index) {
+  return static_cast<std::uint8_t>(index);
+}
+
 struct Momentum {
   Vec3 linear;
   Xy angular;  // about x and y through the origin
@@ -87,7 +92,7 @@ Laid lay_key_point(const Params& params, const Tuning& tuning, const Step* queue
   const Xy miss_m = state.zmp_m - zmp_m;
 
   state.ring[state.head % kRing].zmp_miss_m = miss_m;
-  ++state.head;
+  state.head = wrapped(state.head + 1);
   ++state.head_key;
   state.ring[state.head % kRing] = KeyPoint{body_m, Xy{}};
   for (int i = 0; i < kPoints; ++i) state.point_m[i] = math::to_xyz(masses.point_m[i]);
@@ -101,11 +106,11 @@ Laid lay_key_point(const Params& params, const Tuning& tuning, const Step* queue
 }
 
 void fix_key_point(const Step& step, PreviewState& state) {
-  ++state.fixed;
+  state.fixed = wrapped(state.fixed + 1);
   const float keep = math::exp(-state.omega * step.key_s());
   Xy dcm_m{};  // of the correction, backwards
-  for (std::uint8_t i = static_cast<std::uint8_t>(state.head - 1);
-       i != static_cast<std::uint8_t>(state.fixed - 1); --i) {
+  for (std::uint8_t i = wrapped(state.head - 1); i != wrapped(state.fixed - 1);
+       i = wrapped(i - 1)) {
     const Xy miss_m = state.ring[i % kRing].zmp_miss_m;
     dcm_m = miss_m + keep * (dcm_m - miss_m);
   }
