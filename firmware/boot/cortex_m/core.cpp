@@ -33,17 +33,19 @@ union Vector {
 
 }  // namespace
 
+extern const Vector verp_vectors[16];
+
 namespace verp::boot {
 
-#ifdef __ARM_FP
-// CPACR (ARMv7-M ARM, B3.2.20): full access to CP10 and CP11. Float instructions fault before.
 void enable_core() {
+  // VTOR (ARMv7-M ARM, B3.2.5): a boot loader may have left its own table there.
+  reg(0xE000ED08u) = reinterpret_cast<std::uintptr_t>(verp_vectors);
+#ifdef __ARM_FP
+  // CPACR (ARMv7-M ARM, B3.2.20): full access to CP10 and CP11. Float instructions fault before.
   reg(0xE000ED88u) |= 0xFu << 20;
+#endif
   __asm__ volatile("dsb\n isb" ::: "memory");
 }
-#else
-void enable_core() {}
-#endif
 
 #if __ARM_ARCH >= 8
 // ARMv8-M has a stack limit register (MSPLIM); its MPU cannot forbid every access.
@@ -67,7 +69,6 @@ bool guard_stack() {
 
 // The table of ARMv7-M ARM, B1.5.3. A board's interrupt table follows in section
 // .vectors.interrupts.
-extern const Vector verp_vectors[16];
 __attribute__((section(".vectors"), used)) const Vector verp_vectors[16] = {
     {.stack = verp_stack_top},      // initial stack
     {.handler = verp_reset},        // reset

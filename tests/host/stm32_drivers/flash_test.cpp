@@ -5,6 +5,7 @@
 
 #include "firmware/store/flash_store.hpp"
 #include "firmware/store/shared_page.hpp"
+#include "hal/chip/stm32/brown_out.hpp"
 #include "hal/chip/stm32/watchdog.hpp"
 #include "tests/host/stm32_drivers/rig.hpp"
 #include "tests/support/stm32/flash_model.hpp"
@@ -135,6 +136,28 @@ TEST_P(FlashDriver, WatchdogSleepsThroughAnEraseAndWakesAfterIt) {
   EXPECT_EQ(rig.machine.resets(), 0u);
   rig.machine.advance(ms(70));
   EXPECT_EQ(rig.machine.resets(), 1u) << "it guards again";
+}
+
+TEST_P(FlashDriver, BrownOutLevelIsWrittenOnceAndKeepsTheOtherOptions) {
+  Io io = rig.machine.io();
+  const std::uint32_t before = io.read32(base::kFlash + flash::kOptcr);
+  ASSERT_EQ(before & flash::kOptcrBorLev, flash::kOptcrBorLev) << "delivered without one";
+  EXPECT_TRUE(keep_brown_out(io));
+  const std::uint32_t after = io.read32(base::kFlash + flash::kOptcr);
+  EXPECT_EQ(after, before & ~flash::kOptcrBorLev) << "locked again, all else as it was";
+  const auto begun = rig.machine.now();
+  EXPECT_TRUE(keep_brown_out(io));
+  EXPECT_LT(rig.machine.now() - begun, ms(1)) << "no second write";
+}
+
+TEST_P(FlashDriver, BrownOutLevelOfABusyFlashIsLeftForTheNextStart) {
+  Io io = rig.machine.io();
+  rig.machine.flash().busy_stuck = true;
+  io.write32(base::kFlash + flash::kKeyr, flash::kKey1);
+  io.write32(base::kFlash + flash::kKeyr, flash::kKey2);
+  pages.erase(0);
+  EXPECT_FALSE(keep_brown_out(io));
+  EXPECT_EQ(io.read32(base::kFlash + flash::kOptcr) & flash::kOptcrBorLev, flash::kOptcrBorLev);
 }
 
 TEST_P(FlashDriver, CarriesTheStore) {

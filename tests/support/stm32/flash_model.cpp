@@ -42,7 +42,7 @@ void FlashModel::option_key_written(std::uint32_t key) {
   }
   if (++option_keys_ < 2) return;
   option_keys_ = 0;
-  clear(kOptcr, bit(0));
+  clear(kOptcr, kOptcrOptlock);
 }
 
 bool FlashModel::may_write(std::uint32_t offset, std::uint32_t raw) {
@@ -54,8 +54,12 @@ bool FlashModel::may_write(std::uint32_t offset, std::uint32_t raw) {
     violate("write to CR while BSY");
     return false;
   }
-  if (offset == kOptcr && has(kOptcr, bit(0)) && raw != reg(kOptcr)) {
+  if (offset == kOptcr && has(kOptcr, kOptcrOptlock) && raw != reg(kOptcr)) {
     violate("write to OPTCR while it is locked");
+    return false;
+  }
+  if (offset == kOptcr && has(kSr, kSrBsy)) {
+    violate("write to OPTCR while BSY");
     return false;
   }
   const bool f4 = machine().family() != Family::kF746;
@@ -75,6 +79,7 @@ void FlashModel::on_write(std::uint32_t offset, std::uint32_t raw, std::uint32_t
   if (offset == kKeyr) key_written(raw);
   if (offset == kOptkeyr) option_key_written(raw);
   if (offset == kAcr) machine().rcc().check_limits();
+  if (offset == kOptcr && (raw & kOptcrOptstrt) != 0) begin(erase_time_per_kb);
   if (offset != kCr) return;
   const std::uint32_t modes = reg(kCr) & (kCrPg | kCrSer | kCrMer);
   if ((modes & (modes - 1)) != 0) violate("more than one of PG, SER and MER");
@@ -99,6 +104,7 @@ void FlashModel::run() {
   done_at_ = kNever;
   clear(kSr, kSrBsy);
   clear(kCr, kCrStrt);
+  clear(kOptcr, kOptcrOptstrt);
   if (error_pending_) {
     set(kSr, kSrOperr);
   } else if (has(kCr, kCrEopie)) {

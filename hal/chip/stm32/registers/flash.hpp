@@ -22,6 +22,8 @@ inline constexpr std::uint32_t kSrErrors = kSrOperr | kSrWrperr | kSrPgaerr | kS
 inline constexpr std::uint32_t kCrPg = bit(0), kCrSer = bit(1), kCrMer = bit(2),
                                kCrSnb = bits(3, 4), kCrPsize = bits(8, 2), kCrStrt = bit(16),
                                kCrEopie = bit(24), kCrErrie = bit(25), kCrLock = bit(31);
+inline constexpr std::uint32_t kOptcrOptlock = bit(0), kOptcrOptstrt = bit(1),
+                               kOptcrBorLev = bits(2, 2);
 inline constexpr unsigned kCrSnbShift = 3, kCrPsizeShift = 8;
 /// PSIZE; 32 bits need 2.7 to 3.6 V.
 inline constexpr std::uint32_t kPsize32 = 2;
