@@ -7,8 +7,10 @@
 namespace verp::board {
 
 Timer timer(stm32::base::kTim2);
-Port robot_port = RobotSide::make(timer);
-OperatorPort operator_port = OperatorSide::make(kOperatorPort, kFamily, timer);
+// A DMA writes into their rings, also while the core sleeps (boards/opencr/memory.ld).
+[[gnu::section(".bss.dma")]] Port robot_port = RobotSide::make(timer);
+[[gnu::section(".bss.dma")]] OperatorPort operator_port =
+    OperatorSide::make(kOperatorPort, kFamily, timer);
 Battery battery(kBattery, timer);
 stm32::Buzzer<Io> buzzer(kBuzzer);
 

@@ -11,6 +11,8 @@ extern std::uint32_t verp_data_begin[];
 extern std::uint32_t verp_data_end[];
 extern std::uint32_t verp_bss_begin[];
 extern std::uint32_t verp_bss_end[];
+extern std::uint32_t verp_dma_begin[];
+extern std::uint32_t verp_dma_end[];
 using Constructor = void (*)();
 extern const Constructor verp_init_begin[];
 extern const Constructor verp_init_end[];
@@ -23,6 +25,7 @@ void fill_memory() {
   const volatile std::uint32_t* from = verp_data_image;
   for (volatile std::uint32_t* to = verp_data_begin; to != verp_data_end; ++to) *to = *from++;
   for (volatile std::uint32_t* word = verp_bss_begin; word != verp_bss_end; ++word) *word = 0;
+  for (volatile std::uint32_t* word = verp_dma_begin; word != verp_dma_end; ++word) *word = 0;
 }
 
 }  // namespace
