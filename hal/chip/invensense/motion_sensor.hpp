@@ -22,15 +22,29 @@ concept SpiBus = requires(Spi& spi, const std::uint8_t* out, std::uint8_t* in, s
   { spi.exchange(out, in, size, max_hz) } -> std::same_as<bool>;
 };
 
+struct SpiKinds {
+  static constexpr const Kind* kAll[] = {&kMpu9250, &kIcm20648};
+};
+
 /// `Clock` has now_us(), the board's TickSource. A sample's time is when it was fetched; it may be
 /// one sample period (2 ms) older.
-template <SpiBus Spi, class Clock>
+template <SpiBus Spi, class Clock, class Kinds = SpiKinds>
 class MotionSensor {
  public:
   MotionSensor(Spi& spi, const Clock& clock, const Ranges& ranges = {})
       : spi_(spi), clock_(clock), ranges_(ranges) {}
 
   ImuStatus read(ImuSample& sample) {
+    ImuMean mean;
+    std::uint64_t time_us = 0;
+    const ImuStatus status = collect(mean, time_us);
+    if (status != ImuStatus::kFresh) return status;
+    mean.take(sample);
+    sample.time_us = time_us;
+    return status;
+  }
+  /// A read that leaves the mean to the caller: kFresh adds the samples and sets time_us.
+  ImuStatus collect(ImuMean& mean, std::uint64_t& time_us) {
     switch (phase_) {
       case Phase::kSearch:
         return search() ? ImuStatus::kStale : fault();
@@ -40,7 +54,7 @@ class MotionSensor {
         return step(Phase::kRunning, 0, [this] { return configure(); });
       case Phase::kRunning:
       default:
-        return fetch(sample);
+        return fetch(mean, time_us);
     }
   }
   std::uint32_t faults() const { return faults_; }
@@ -67,7 +81,7 @@ class MotionSensor {
   }
 
   bool search() {
-    for (const Kind* kind : {&kMpu9250, &kIcm20648}) {
+    for (const Kind* kind : Kinds::kAll) {
       kind_ = kind;
       bank_ = kUnknownBank;
       if (!is_there()) continue;
@@ -94,7 +108,7 @@ class MotionSensor {
     return select_bank(0) && fetch_register(kind_->who_am_i_at, who) && who == kind_->who_am_i;
   }
   bool wake() {
-    return is_there() && write(0, kind_->user_control, kI2cOff) &&
+    return is_there() && write(0, kind_->user_control, kind_->port) &&
            write(0, kind_->power, kAutoClock);
   }
   bool configure() {
@@ -122,7 +136,7 @@ class MotionSensor {
 
   // Empties a FIFO that holds too much (after a pause) or is out of step: its bytes would belong to
   // other axes. The guard register, read last, vouches for the data.
-  ImuStatus fetch(ImuSample& sample) {
+  ImuStatus fetch(ImuMean& mean, std::uint64_t& time_us) {
     std::uint8_t data[1 + kMostSize] = {};
     std::size_t size = 0;
     if (!fetch_size(size)) return fault();
@@ -134,8 +148,8 @@ class MotionSensor {
     overfull_ = !fits;  // once: a pause; twice: it does not empty
     if (now_us - alive_us_ > kSilence_us) return fault();
     if (!fits || !in_step || size == 0) return ImuStatus::kStale;
-    take_mean(data + 1, size, sample);
-    sample.time_us = now_us;
+    add(data + 1, size, mean);
+    time_us = now_us;
     return ImuStatus::kFresh;
   }
   /// Reads the size twice if a sample is just being written.
@@ -151,8 +165,7 @@ class MotionSensor {
   bool fetch_fifo(std::uint8_t* data, std::size_t size) {
     return size == 0 || fetch_bytes(kind_->fifo_at, data, size, kind_->data_hz);
   }
-  static void take_mean(const std::uint8_t* data, std::size_t size, ImuSample& sample) {
-    ImuMean mean;
+  static void add(const std::uint8_t* data, std::size_t size, ImuMean& mean) {
     for (const std::uint8_t* const end = data + size; data != end; data += kSampleSize) {
       ImuSample one;
       for (int axis = 0; axis < 3; ++axis) {
@@ -161,7 +174,6 @@ class MotionSensor {
       }
       mean.add(one);
     }
-    mean.take(sample);
   }
   static std::int16_t count(const std::uint8_t* data) {
     return static_cast<std::int16_t>(static_cast<std::uint16_t>(data[0] << 8 | data[1]));
@@ -169,7 +181,7 @@ class MotionSensor {
 
   // Until the chip is known, uses the clock that both kinds accept.
   std::uint32_t registers_hz() const {
-    return phase_ == Phase::kSearch ? kMpu9250.registers_hz : kind_->registers_hz;
+    return phase_ == Phase::kSearch ? Kinds::kAll[0]->registers_hz : kind_->registers_hz;
   }
   bool select_bank(std::uint8_t bank) {
     if (!kind_->has_banks || bank == bank_) return true;
@@ -202,7 +214,7 @@ class MotionSensor {
   Spi& spi_;
   const Clock& clock_;
   Ranges ranges_;
-  const Kind* kind_ = &kMpu9250;
+  const Kind* kind_ = Kinds::kAll[0];
   std::uint64_t ready_us_ = 0;  ///< when the chip has executed the last command
   std::uint64_t alive_us_ = 0;  ///< when the FIFO last held samples
   std::uint32_t faults_ = 0;

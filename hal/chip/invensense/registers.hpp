@@ -38,6 +38,7 @@ struct Setting {
 struct Kind {
   std::uint8_t who_am_i_at, who_am_i;
   std::uint8_t power, user_control;  ///< PWR_MGMT_1, USER_CTRL
+  std::uint8_t port;                 ///< USER_CTRL: kI2cOff behind SPI
   std::uint8_t fifo_size_at;         ///< bytes, high byte first
   std::uint8_t fifo_at;              ///< each read returns the next byte
   Setting empty_fifo[2];             ///< written in turn; bank 0
@@ -62,6 +63,7 @@ inline constexpr Kind kMpu9250 = {
     .who_am_i = 0x71,
     .power = 0x6B,
     .user_control = 0x6A,
+    .port = kI2cOff,
     .fifo_size_at = 0x72,
     .fifo_at = 0x74,
     .empty_fifo = {{0, 0x6A, kI2cOff | 0x04}, {0, 0x6A, kI2cOff | kFifoOn}},
@@ -89,6 +91,7 @@ inline constexpr Kind kIcm20648 = {.who_am_i_at = 0x00,
                                    .who_am_i = 0xE0,
                                    .power = 0x06,
                                    .user_control = 0x03,
+                                   .port = kI2cOff,
                                    .fifo_size_at = 0x70,
                                    .fifo_at = 0x72,
                                    .empty_fifo = {{0, 0x68, 0x1F}, {0, 0x68, 0}},
@@ -99,5 +102,28 @@ inline constexpr Kind kIcm20648 = {.who_am_i_at = 0x00,
                                    .guard = kAutoClock,
                                    .settings = kIcm20648Settings,
                                    .setting_count = 8};
+
+/// SMPLRT_DIV, CONFIG, GYRO_CONFIG, ACCEL_CONFIG, FIFO_EN. 1 kHz / 2; 20 and 21 Hz.
+inline constexpr Setting kMpu6050Settings[] = {{0, 0x19, 1},
+                                               {0, 0x1A, 4},
+                                               {0, 0x1B, 0, Setting::kGyro, 3},
+                                               {0, 0x1C, 0, Setting::kAccel, 3},
+                                               {0, 0x23, 0x78}};
+/// RM-MPU-6000A-00. Only on I2C, so the speeds have no meaning.
+inline constexpr Kind kMpu6050 = {.who_am_i_at = 0x75,
+                                  .who_am_i = 0x68,
+                                  .power = 0x6B,
+                                  .user_control = 0x6A,
+                                  .port = 0,
+                                  .fifo_size_at = 0x72,
+                                  .fifo_at = 0x74,
+                                  .empty_fifo = {{0, 0x6A, 0x04}, {0, 0x6A, kFifoOn}},
+                                  .has_banks = false,
+                                  .registers_hz = 400'000,
+                                  .data_hz = 400'000,
+                                  .guard_at = 0x1A,
+                                  .guard = 4,
+                                  .settings = kMpu6050Settings,
+                                  .setting_count = 5};
 
 }  // namespace verp::hal::invensense

@@ -11,6 +11,14 @@ constexpr ChipType kChips[] = {
      {0x28, 0x29},
      true,
      "RST high, PS0 and PS1 low for I2C, PS1 high for serial"},
+    {Chip::kMpu6050, "mpu6050", 0x75, 0x68, {0x68, 0x69}, false, "AD0 low for 0x68, high for 0x69"},
+    {Chip::kIcm42688p,
+     "icm42688p",
+     0x75,
+     0x47,
+     {0x68, 0x69},
+     false,
+     "CS high for I2C, AD0 low for 0x68, high for 0x69"},
 };
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 namespace verp::imu {
 
-enum class Chip : std::uint8_t { kBno055 };
+enum class Chip : std::uint8_t { kBno055, kMpu6050, kIcm42688p };
 
 /// Where an IMU of this PC is, as users write it:
 ///

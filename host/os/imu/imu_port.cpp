@@ -5,6 +5,9 @@
 
 #include "hal/chip/bosch/bno055.hpp"
 #include "hal/chip/bosch/bno055_uart.hpp"
+#include "hal/chip/invensense/icm42688.hpp"
+#include "hal/chip/invensense/motion_sensor.hpp"
+#include "hal/chip/invensense/register_spi.hpp"
 #include "host/os/imu/chips.hpp"
 #include "host/os/link/link.hpp"
 #include "host/os/link/system_clock.hpp"
@@ -46,6 +49,33 @@ std::string elsewhere(const ImuPlace& place, I2cCalls& calls) {
   return "";
 }
 
+template <class Driver>
+Collect kept(std::shared_ptr<Driver> driver) {
+  return [driver](hal::ImuMean& mean, std::uint64_t& time_us) {
+    return driver->collect(mean, time_us);
+  };
+}
+
+struct Mpu6050 : hal::invensense::RegisterSpi {
+  Mpu6050(hal::RegisterBus& bus, const Clock& clock) : RegisterSpi(bus), sensor(*this, clock) {}
+  hal::ImuStatus collect(hal::ImuMean& mean, std::uint64_t& time_us) {
+    return sensor.collect(mean, time_us);
+  }
+  hal::invensense::MotionSensor<RegisterSpi, Clock, hal::invensense::I2cKinds> sensor;
+};
+
+Collect driver_of(Chip chip, hal::RegisterBus& bus, const Clock& clock) {
+  switch (chip) {
+    case Chip::kMpu6050:
+      return kept(std::make_shared<Mpu6050>(bus, clock));
+    case Chip::kIcm42688p:
+      return kept(std::make_shared<hal::invensense::Icm42688<Clock>>(bus, clock));
+    case Chip::kBno055:
+    default:
+      return kept(std::make_shared<hal::bosch::Bno055<Clock>>(bus, clock));
+  }
+}
+
 }  // namespace
 
 struct ImuPort::Bus {
@@ -56,25 +86,19 @@ struct ImuPort::Bus {
     } else {
       i2c.emplace(place.device, place.address, calls);
     }
-    bno055.emplace(registers(), clock);
+    collect = driver_of(place.chip, registers(), clock);
   }
   hal::RegisterBus& registers() { return uart ? static_cast<hal::RegisterBus&>(*uart) : *i2c; }
-  hal::ImuStatus collect(hal::ImuMean& mean, std::uint64_t& time_us) {
-    return bno055->collect(mean, time_us);
-  }
-
   Clock clock;
   std::optional<link::Link> link;
   std::optional<hal::bosch::Bno055Uart<Clock>> uart;
   std::optional<I2cBus> i2c;
-  std::optional<hal::bosch::Bno055<Clock>> bno055;
+  Collect collect;
 };
 
 ImuPort::ImuPort(const ImuPlace& place, const std::function<bool()>& interrupted, I2cCalls& calls)
     : bus_(std::make_unique<Bus>(place, calls)),
-      reader_(std::make_unique<ImuReader>([bus = bus_.get()](auto& mean, std::uint64_t& time_us) {
-        return bus->collect(mean, time_us);
-      })) {
+      reader_(std::make_unique<ImuReader>(bus_->collect)) {
   const std::uint64_t begun_us = bus_->clock.now_us();
   bool answered = false;
   while (!interrupted()) {

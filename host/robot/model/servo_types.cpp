@@ -190,6 +190,11 @@ const std::vector<ImuType>& imu_types() {
       // Bosch BNO055 data sheet BST-BNO055-DS000 without fusion: 16 LSB/dps and 100 LSB/(m/s^2) at
       // any range; 0.014 dps/sqrt(Hz) and 150 ug/sqrt(Hz). The rest is assumed as above.
       {"bno055", kDegree / 16, 0.01, 0.014 * kDegree, 0.1 * kDegree, 150e-6 * kG, 5e-3 * kG},
+      // TDK InvenSense MPU-6050 (PS-MPU-6000A) and ICM-42688-P (DS-000347), ranges as the first.
+      {"mpu6050", kDegree / 16.4, kG / 8192, 0.005 * kDegree, 0.1 * kDegree, 400e-6 * kG,
+       5e-3 * kG},
+      {"icm42688p", kDegree / 16.4, kG / 8192, 0.0028 * kDegree, 0.1 * kDegree, 70e-6 * kG,
+       5e-3 * kG},
   };
   return kTypes;
 }

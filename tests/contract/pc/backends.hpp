@@ -44,6 +44,7 @@ using Watchdogs =
                      ChipWatchdog<17'000>, ChipWatchdog<32'000>, ChipWatchdog<47'000>>;
 using RangeFinders = ::testing::Types<ScriptedLaser, ScipLaser, TwinLaser>;
 using Cameras = ::testing::Types<ScriptedEye, KernelEye, KernelEyeOfFiles, TwinEye>;
-using Imus = ::testing::Types<ScriptedChip, Mpu9250, Icm20648, Bno055OnI2c, Bno055OnUart>;
+using Imus = ::testing::Types<ScriptedChip, Mpu9250, Icm20648, Bno055OnI2c, Bno055OnUart,
+                              Mpu6050Rig, Icm42688Rig>;
 
 }  // namespace verp::test

@@ -4,10 +4,15 @@
 
 #include "hal/chip/bosch/bno055.hpp"
 #include "hal/chip/bosch/bno055_uart.hpp"
+#include "hal/chip/invensense/icm42688.hpp"
+#include "hal/chip/invensense/motion_sensor.hpp"
+#include "hal/chip/invensense/register_spi.hpp"
 #include "hal/fake/manual_clock.hpp"
 #include "host/os/imu/imu_reader.hpp"
 #include "host/twin/imu/bno055_model.hpp"
 #include "host/twin/imu/bno055_port.hpp"
+#include "tests/support/icm42688_model.hpp"
+#include "tests/support/stm32/imu_device.hpp"
 
 namespace verp::test {
 
@@ -88,6 +93,110 @@ struct Bno055Rig {
   ModelBus<imu::Bno055Model> i2c{model, clock};
   hal::RegisterBus& bus = kUart ? static_cast<hal::RegisterBus&>(uart) : i2c;
   hal::bosch::Bno055<Clock> chip{bus, clock};
+  imu::ImuReader reader{
+      [this](hal::ImuMean& mean, std::uint64_t& time_us) { return chip.collect(mean, time_us); }};
+};
+
+struct Icm42688Rig {
+  Icm42688Rig() { settle(); }
+  void measure(std::int16_t gyro_x) {
+    model.measure({gyro_x, 0, 0}, {0, 0, 8192});
+    turn();
+  }
+  void break_chip(bool yes) { model.silent = yes; }
+  hal::ImuStatus read(hal::ImuSample& sample) {
+    turn();
+    return reader.read(sample);
+  }
+  std::uint32_t faults() const { return reader.faults(); }
+  /// Until the chip has measured for 70 ms, or for half a second.
+  void settle() {
+    for (int i = 0, measuring = 0; i < 100 && measuring < 14; ++i) {
+      turn(5'000);
+      measuring = model.measures() ? measuring + 1 : 0;
+    }
+  }
+  hal::ImuStatus turn(std::uint32_t after_us = 100) {
+    clock.advance(after_us);
+    return reader.turn();
+  }
+
+  hal::ManualClock clock;
+  Icm42688Model model;
+  ModelBus<Icm42688Model> i2c{model, clock};
+  hal::invensense::Icm42688<hal::ManualClock> chip{i2c, clock};
+  imu::ImuReader reader{
+      [this](hal::ImuMean& mean, std::uint64_t& time_us) { return chip.collect(mean, time_us); }};
+};
+
+/// The model of the chip behind SPI, as if on I2C.
+class Mpu6050Model : public hal::stm32::model::ImuDevice {
+ public:
+  Mpu6050Model() : ImuDevice(hal::stm32::model::ImuKind::kMpu6050) {}
+  bool read(std::uint8_t address, std::uint8_t* data, std::size_t size, std::uint64_t now_us) {
+    const auto now = hal::stm32::model::us(now_us);
+    if (silent) return false;
+    select(true, now);
+    exchange(static_cast<std::uint8_t>(0x80 | address), now);
+    for (std::size_t i = 0; i < size; ++i) data[i] = exchange(0, now);
+    select(false, now);
+    return true;
+  }
+  bool write(std::uint8_t address, const std::uint8_t* data, std::size_t size,
+             std::uint64_t now_us) {
+    const auto now = hal::stm32::model::us(now_us);
+    if (silent) return false;
+    select(true, now);
+    exchange(address, now);
+    for (std::size_t i = 0; i < size; ++i) exchange(data[i], now);
+    select(false, now);
+    i2c_off |= address == 0x6A && (data[0] & 0x10) != 0;
+    return true;
+  }
+  bool i2c_off = false;  ///< I2C was switched off by somebody on I2C
+};
+
+struct Mpu6050Rig {
+  using Spi = hal::invensense::RegisterSpi;
+  using Clock = hal::ManualClock;
+
+  Mpu6050Rig() { settle(); }
+  ~Mpu6050Rig() {
+    EXPECT_EQ(model.violations(), 0u) << "against the chip's data sheet";
+    EXPECT_FALSE(model.i2c_off);
+  }
+  void measure(std::int16_t gyro_x) {
+    model.motion({gyro_x, 0, 0}, {0, 0, 8192});
+    look();
+    model.frozen = false;
+    const std::uint32_t taken = model.samples_taken();
+    while (model.samples_taken() == taken) look();
+    model.frozen = true;
+  }
+  void break_chip(bool yes) { model.silent = yes; }
+  hal::ImuStatus read(hal::ImuSample& sample) {
+    clock.advance(100);
+    reader.turn();
+    return reader.read(sample);
+  }
+  std::uint32_t faults() const { return reader.faults(); }
+  void settle() {
+    model.frozen = true;
+    for (int tick = 0; tick < 30; ++tick) {
+      reader.turn();
+      clock.advance(8'000);
+    }
+  }
+  void look() {
+    clock.advance(100);
+    model.update(hal::stm32::model::us(clock.now_us()));
+  }
+
+  Clock clock;
+  Mpu6050Model model;
+  ModelBus<Mpu6050Model> i2c{model, clock};
+  Spi spi{i2c};
+  hal::invensense::MotionSensor<Spi, Clock, hal::invensense::I2cKinds> chip{spi, clock};
   imu::ImuReader reader{
       [this](hal::ImuMean& mean, std::uint64_t& time_us) { return chip.collect(mean, time_us); }};
 };

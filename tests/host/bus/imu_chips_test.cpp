@@ -98,6 +98,48 @@ TEST(Bno055Uart, WaitsNoLongerThanARegisterBusMay) {
   EXPECT_LE(rig.clock.now_us() - before_us, hal::kRegisterMaxWait_us);
 }
 
+TEST(Icm42688, ReadsBothSensorsAndIsSetUpAgainAfterADip) {
+  Icm42688Rig rig;
+  rig.model.measure({-1, 2000, -3000}, {-5, 60, -8192});
+  hal::ImuSample sample;
+  ASSERT_EQ(rig.read(sample), ImuStatus::kFresh);
+  const std::int16_t gyro[] = {-1, 2000, -3000}, accel[] = {-5, 60, -8192};
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_EQ(sample.gyro_count[axis], gyro[axis]);
+    EXPECT_EQ(sample.accel_count[axis], accel[axis]);
+  }
+  EXPECT_EQ(rig.model.reg(0x4F), 0x0F) << "2000 deg/s, 500 Hz";
+  EXPECT_EQ(rig.model.reg(0x50), 0x4F) << "4 g, 500 Hz";
+  rig.model.dip(rig.clock.now_us());
+  for (int i = 0; i < 40; ++i) {
+    rig.model.measure({1, 2, 3}, {0, 0, 8192});
+    rig.turn(5'000);
+  }
+  EXPECT_EQ(rig.read(sample), ImuStatus::kFresh);
+  EXPECT_EQ(rig.model.reg(0x52), 0x66) << "low pass";
+}
+
+TEST(Mpu6050, ReadsBothSensorsAndIsSetUpAgainAfterADip) {
+  Mpu6050Rig rig;
+  rig.model.motion({-1, 2000, -3000}, {-5, 60, -8192});
+  rig.model.frozen = false;
+  rig.clock.advance(10'000);
+  hal::ImuSample sample;
+  ASSERT_EQ(rig.read(sample), ImuStatus::kFresh);
+  EXPECT_EQ(sample.gyro_count[2], -3000);
+  EXPECT_EQ(sample.accel_count[1], 60);
+  EXPECT_EQ(rig.model.reg(0, 0x1C), 8) << "4 g";
+  EXPECT_EQ(rig.model.reg(0, 0x1B), 0x18) << "2000 deg/s";
+  rig.model.forget();
+  EXPECT_EQ(rig.read(sample), ImuStatus::kFault);
+  for (int i = 0; i < 60; ++i) {
+    rig.clock.advance(5'000);
+    rig.reader.turn();
+  }
+  EXPECT_EQ(rig.read(sample), ImuStatus::kFresh);
+  EXPECT_EQ(rig.model.reg(0, 0x1C), 8);
+}
+
 TEST(ImuReader, AfterAPauseOldSamplesDoNotCount) {
   Bno055OnI2c rig;
   for (int i = 0; i < 100; ++i) rig.measure(1000);

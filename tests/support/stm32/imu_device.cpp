@@ -68,8 +68,8 @@ void ImuDevice::power_on() {
   fifo_.clear();
   on_the_way_.clear();
   if (mpu()) {
-    registers_[0][kMpuPower] = 0x01;
-    registers_[0][kMpuWho] = 0x71;
+    registers_[0][kMpuPower] = kind_ == ImuKind::kMpu6050 ? kSleep : 0x01;
+    registers_[0][kMpuWho] = kind_ == ImuKind::kMpu6050 ? 0x68 : 0x71;
   } else {
     registers_[0][kIcmWho] = 0xE0;
     registers_[0][kIcmPower] = 0x41;

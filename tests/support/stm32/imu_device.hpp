@@ -5,12 +5,13 @@
 
 #include "tests/support/stm32/spi_model.hpp"
 
-/// An MPU-9250 (RM-MPU-9250A-00) or an ICM-20648 (DS-000179) behind SPI. All counts of a sample are
-/// of one instant. The FIFO holds 512 bytes of what FIFO_EN selects. When full it loses single
-/// bytes, the oldest or newest by its mode, and is out of step. Unknown registers are stored.
+/// An MPU-9250 (RM-MPU-9250A-00), an MPU-6050 (RM-MPU-6000A-00) or an ICM-20648 (DS-000179). All
+/// counts of a sample are of one instant. The FIFO holds 512 bytes of what FIFO_EN selects. When
+/// full it loses single bytes, the oldest or newest by its mode, and is out of step. Unknown
+/// registers are stored.
 namespace verp::hal::stm32::model {
 
-enum class ImuKind : std::uint8_t { kMpu9250, kIcm20648 };
+enum class ImuKind : std::uint8_t { kMpu9250, kIcm20648, kMpu6050 };
 
 class ImuDevice : public SpiDevice {
  public:
@@ -58,7 +59,7 @@ class ImuDevice : public SpiDevice {
   unsigned bank() const;
   bool asleep() const;
   Time period() const;
-  bool mpu() const { return kind_ == ImuKind::kMpu9250; }
+  bool mpu() const { return kind_ != ImuKind::kIcm20648; }
 
   ImuKind kind_;
   std::uint8_t registers_[4][128] = {};
