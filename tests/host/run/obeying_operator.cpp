@@ -4,6 +4,7 @@
 
 #include "common/safety/machine.hpp"
 #include "host/apps/tool/robot/run_operator.hpp"
+#include "tests/support/gpio_pin.hpp"
 
 // `verp run --take-orders`: the client decides.
 namespace verp::tool {
@@ -59,6 +60,19 @@ TEST_F(Obeying, PassesOnWhatIsOrderedUntilItsTimeIsOverThenSitsDown) {
   EXPECT_TRUE(who.over());
   EXPECT_EQ(who.failure(), "");
   EXPECT_EQ(who.ended(), "is upright");
+}
+
+TEST_F(Obeying, ThePressedButtonStopsItWhateverIsOrderedAndEndsTheRunByName) {
+  test::GpioPin pin;
+  link::StopLine stop(link::parse_stop("gpio:/dev/gpiochip0,17"), pin);
+  who.stop_at(stop);
+  EXPECT_EQ(who.order(ticks).flags & kEmergencyStop, 0);
+  pin.grounded = false;
+  who.order(ticks);
+  EXPECT_NE(who.order(ticks).flags & kEmergencyStop, 0);
+  tick(Mode::kStopped);
+  EXPECT_EQ(who.failure(), "stopped by the button at gpio:/dev/gpiochip0,17");
+  EXPECT_EQ(tick(Mode::kStopped), Request::kRelax) << "and is not raised again";
 }
 
 TEST_F(Obeying, ARobotThatWasOrderedToLetGoHasNotFailed) {

@@ -96,6 +96,7 @@ class RobotRun {
              app::Core{{plan.walk.actions.data(), 4 * plan.walk.actions.size()}}) {
     result_.fit = fit;
     if (plan.action != 0) operator_.play(plan.action);
+    if (plan.stop != nullptr) operator_.stop_at(*plan.stop);
     if constexpr (requires { robot.order(0u); }) {
       if (plan.takes_orders) operator_.obey([this](auto tick) { return robot_.order(tick); });
     }

@@ -43,7 +43,7 @@ constexpr std::uint32_t kArrival_us = 10'000'000;  // for the other end of `pty:
 struct RunWords {
   WalkOptions walk;
   RunParams params;
-  std::string link, action;
+  std::string link, action, stop;
   int torque_percent = 100, gains_percent = 100;
   bool yes = false;
   bool take_orders = false;
@@ -122,6 +122,7 @@ RunPlan make_plan(const RunWords& words) {
                                      words.link));
   }
   WalkPlan& walk = plan.walk;
+  if (!words.stop.empty()) link::parse_stop(words.stop);
   walk.entity = model::load_robot_on_any_bus(model::find_model(words.walk.model), words.walk.bus);
   soften(walk.entity, words.gains_percent);
   walk.params = model::make_params(walk.entity);
@@ -290,6 +291,17 @@ std::unique_ptr<imu::ImuPort> open_imu(const RunWords& words) {
   return port;
 }
 
+/// The stop button of this PC, not pressed; null: it is none.
+std::unique_ptr<link::StopLine> open_stop(const RunWords& words) {
+  if (words.stop.empty()) return nullptr;
+  auto stop = std::make_unique<link::StopLine>(link::parse_stop(words.stop));
+  if (!stop->is_pressed()) return stop;
+  throw cli::ToolError(cli::kBadInput,
+                       fmt::format("verp run: the stop button at {} is pressed, or its circuit is "
+                                   "open; release it, or check its wires to ground",
+                                   stop->name()));
+}
+
 /// Retries, because a lockstep twin and its controllers start in any order.
 link::Link open_link(const RunPlan& plan) {
   using Kind = link::Endpoint::Kind;
@@ -321,6 +333,8 @@ int run_robot(const RunWords& words) {
   WalkFiles files(words.walk, plan.walk, facts, live.robot());
   const std::unique_ptr<imu::ImuPort> own_imu = open_imu(words);
   plan.own_imu = own_imu.get();
+  const std::unique_ptr<link::StopLine> stop = open_stop(words);
+  plan.stop = stop.get();
   live.wait_for_viewer();
   if (plan.link.kind == link::Endpoint::Kind::kCan) {
     link::CanPort port(plan.link);
@@ -369,6 +383,9 @@ cli::Subcommand add_run(CLI::App& root) {
                 "a fall ends no walk, and one that lies begins it: the robot falls softly, gets up "
                 "by its actions fall_safe and get_up_..., three tries, and walks on")
       ->excludes("--action");
+  app->add_option("--stop", words->stop,
+                  "gpio:/dev/gpiochip0,17: a stop button of this PC, a normally closed contact to "
+                  "ground; an open circuit stops the robot");
   app->add_flag("--yes", words->yes, "the first-power checklist is confirmed; for a twin, too");
   app->add_option("--record", words->walk.record_file, "write the trace here (.mcap)");
   app->add_flag("--record-state", words->walk.record_state,

@@ -21,6 +21,12 @@ RunOperator::RunOperator(const Params& params, const Command& velocity, double w
       story_(get_ups) {}
 
 app::OperatorOrder RunOperator::order(std::uint32_t tick) {
+  app::OperatorOrder order = wish(tick);
+  if (stop_ != nullptr && stop_->pressed()) order.flags |= kEmergencyStop;
+  return order;
+}
+
+app::OperatorOrder RunOperator::wish(std::uint32_t tick) {
   if (!sitting_ && !limp_) {
     return orders_ ? orders_(tick) : player_ ? player_->order(tick) : walker_.order(tick);
   }
@@ -63,7 +69,10 @@ void RunOperator::observe_mode(Mode from, const State& state, const Outputs& out
   if (mode_ != from) told_(from, mode_, outputs.faults, story, holds ? silent_ : "");
   risen_ = risen_ || outputs.torque_enable != 0;
   if (mode_ == Mode::kFallen && !gets_up_) fail("the robot fell");
-  if (mode_ == Mode::kStopped && !limp_) fail("stopped");
+  if (mode_ == Mode::kStopped && !limp_) {
+    const bool here = stop_ != nullptr && stop_->is_pressed();
+    fail(here ? "stopped by the button at " + stop_->name() : "stopped");
+  }
   if (mode_ == Mode::kRelaxed && risen_ && !sitting_ && !orders_) {
     fail(session::why_it_let_go(outputs.faults));
   }

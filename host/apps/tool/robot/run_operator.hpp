@@ -10,6 +10,7 @@
 #include "firmware/app/contracts.hpp"
 #include "host/apps/tool/robot/run_ending.hpp"
 #include "host/author/action/play_operator.hpp"
+#include "host/os/link/stop_line.hpp"
 #include "host/run/session/fall_story.hpp"
 #include "host/run/session/walk_operator.hpp"
 
@@ -36,6 +37,9 @@ class RunOperator {
   using Orders = std::function<app::OperatorOrder(std::uint32_t tick)>;
   void obey(Orders orders) { orders_ = std::move(orders); }
 
+  /// A button that stops the robot while it is pressed, and ends the run.
+  void stop_at(link::StopLine& stop) { stop_ = &stop; }
+
   /// Plays the action once, instead of a walk.
   void play(int number) { player_.emplace(number, period_s_); }
 
@@ -61,6 +65,7 @@ class RunOperator {
   static constexpr int kQuietTicks = 10;   ///< over three times App's repeats
   static constexpr double kFalls_s = 2.0;  ///< a crouch that tips over lies after 1.5 s
 
+  app::OperatorOrder wish(std::uint32_t tick);
   void fail(const std::string& why);
   void observe_mode(safety::Mode from, const State& state, const Outputs& outputs);
   void observe_obeying(std::uint32_t faults);
@@ -71,6 +76,7 @@ class RunOperator {
   std::optional<action::PlayOperator> player_;
   Told told_;
   Orders orders_;
+  link::StopLine* stop_ = nullptr;
   const double period_s_, most_s_;
   const bool gets_up_;
   session::FallStory story_;

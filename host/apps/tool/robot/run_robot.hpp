@@ -10,6 +10,7 @@
 #include "host/apps/tool/walk_run.hpp"
 #include "host/os/imu/imu_port.hpp"
 #include "host/os/link/link.hpp"
+#include "host/os/link/stop_line.hpp"
 #include "host/trace/record/trace_writer.hpp"
 #include "host/twin/bus/link_fit.hpp"
 
@@ -21,6 +22,7 @@ struct RunPlan {
   bool has_imu = true;              ///< false: `--imu none`
   std::string imu_name;             ///< of an IMU of this PC; empty: none
   imu::ImuPort* own_imu = nullptr;  ///< open; null: none
+  link::StopLine* stop = nullptr;   ///< a button at this PC; null: none
   int torque_percent = 100;
   bool lockstep = false;
   int action = 0;             ///< instead of a walk; 0: walk
