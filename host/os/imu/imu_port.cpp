@@ -125,7 +125,7 @@ void ImuPort::refuse_silent(const ImuPlace& place, I2cCalls& calls) {
   const std::string where = to_text(place) + ": ";
   const ChipType* found = identify(bus_->registers());
   if (found != nullptr && found != &wanted) {
-    throw link::LinkError(Kind::kUnsuitable, where + "that chip is a " + found->name +
+    throw link::LinkError(Kind::kUnsuitable, where + "the chip there is " + found->name +
                                                  "; give --imu i2c:" + place.device + "," +
                                                  found->name + ",address=" + hex(place.address));
   }

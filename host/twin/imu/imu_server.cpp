@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/os/link/system_clock.hpp"
+#include "host/twin/bus/assumed_imu.hpp"
 
 namespace verp::imu {
 namespace {
@@ -27,6 +28,11 @@ ImuServer::ImuServer(const std::string& link, const ImuParams& scale)
     : link_(link::parse_endpoint(link)),
       gyro_per_count_(kGyro_count_s_rad * static_cast<double>(scale.gyro_rad_s_per_count)),
       accel_per_count_(kAccel_count_s2_m * static_cast<double>(scale.accel_m_s2_per_count)) {
+  hal::ImuSample upright;
+  bus::AssumedImu(scale).read(upright);
+  sim::ImuMeasurement at_rest;
+  std::ranges::copy(upright.accel_count, at_rest.accel_count.begin());
+  measured(at_rest);
   thread_ = std::thread([this] { serve(); });
 }
 
@@ -36,12 +42,13 @@ ImuServer::~ImuServer() {
 }
 
 void ImuServer::measured(const sim::ImuMeasurement& twin) {
+  constexpr std::array<std::int16_t, 3> kNone{};
+  if (twin.accel_count == kNone && twin.gyro_count == kNone) return;  // its time has not begun
   const std::scoped_lock lock(mutex_);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     newest_.gyro_count[axis] = to_count(gyro_per_count_ * twin.gyro_count[axis]);
     newest_.accel_count[axis] = to_count(accel_per_count_ * twin.accel_count[axis]);
   }
-  measures_ = true;
 }
 
 void ImuServer::serve() {
@@ -57,7 +64,7 @@ void ImuServer::serve() {
     const std::uint64_t now_us = link::monotonic_ns() / 1000;
     if (now_us >= next_us) {
       const std::scoped_lock lock(mutex_);
-      if (measures_) chip.measure(newest_);
+      chip.measure(newest_);
       next_us = now_us + kSample_us;
     }
     answer.clear();

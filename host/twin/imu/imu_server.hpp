@@ -20,7 +20,7 @@ class ImuServer {
   ImuServer(const ImuServer&) = delete;
   ImuServer& operator=(const ImuServer&) = delete;
 
-  /// The newest counts of the twin.
+  /// The newest counts of the twin. Before the first ones it stands upright.
   void measured(const sim::ImuMeasurement& twin);
 
  private:
@@ -30,7 +30,6 @@ class ImuServer {
   const double gyro_per_count_, accel_per_count_;
   std::mutex mutex_;
   sim::ImuMeasurement newest_;  ///< guarded; in the chip's counts
-  bool measures_ = false;       ///< guarded
   std::atomic<bool> over_ = false;
   std::thread thread_;
 };

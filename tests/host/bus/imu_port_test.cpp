@@ -8,6 +8,7 @@
 #include <map>
 
 #include "host/os/imu/imu_port.hpp"
+#include "host/os/imu/mount.hpp"
 #include "host/os/link/endpoint.hpp"
 #include "host/os/link/link_error.hpp"
 #include "host/os/link/system_clock.hpp"
@@ -33,12 +34,14 @@ class FakeI2c final : public I2cCalls {
     if (messages.nmsgs == 1 && part->len > 1) {
       return chip.write(at, part->buf + 1, part->len - 1u, now_us) ? 1 : (errno = EIO, -1);
     }
+    if (at == 0x75 && who_am_i != 0) return part[1].buf[0] = who_am_i, 2;
     chip.measure({.gyro_count = {7, 8, 9}, .accel_count = {0, 0, 981}});
     return chip.read(at, part[1].buf, part[1].len, now_us) ? 2 : (errno = EIO, -1);
   }
 
   Bno055Model chip;
   std::uint16_t address = 0x28;
+  std::uint8_t who_am_i = 0;  ///< of another chip
   int error = 0, opened = 0;
   std::atomic<bool> gone = false;
 };
@@ -86,8 +89,14 @@ TEST(ImuPort, SaysWhatIsWrongAndHowToMendIt) {
   bus.address = 0x29;
   EXPECT_NE(refusal("i2c:/dev/i2c-1,bno055", bus).find("--imu i2c:/dev/i2c-1,bno055,address=0x29"),
             std::string::npos);
-  bus.address = 0x28;
+  bus.address = 0x68;
   bus.chip.chip_id = 0x11;
+  bus.who_am_i = 0x47;
+  EXPECT_NE(refusal("i2c:/dev/i2c-1,mpu6050", bus)
+                .find("is icm42688p; give --imu i2c:/dev/i2c-1,icm42688p,address=0x68"),
+            std::string::npos);
+  bus.address = 0x28;
+  bus.who_am_i = 0;
   EXPECT_NE(refusal("i2c:/dev/i2c-1,bno055", bus).find("no such chip answers; check 3.3 V"),
             std::string::npos);
   bus.error = EACCES;
@@ -95,6 +104,31 @@ TEST(ImuPort, SaysWhatIsWrongAndHowToMendIt) {
   bus.error = ENOENT;
   EXPECT_NE(refusal("i2c:/dev/i2c-1,bno055", bus).find("/dev/i2c-1: no such device"),
             std::string::npos);
+}
+
+/// What a chip so mounted feels: upright, and tilted forward by 30 degrees.
+Mount mount_felt(const std::string& words) {
+  const std::array<float, 9> body_imu = *parse_imu("i2c:/dev/i2c-1,bno055," + words).body_imu;
+  const double poses[2][3] = {{0, 0, 9.8}, {-4.9, 0, 8.49}};
+  std::array<double, 3> felt[2] = {};
+  for (std::size_t pose = 0; pose < 2; ++pose) {
+    for (std::size_t i = 0; i < 9; ++i) {
+      felt[pose][i % 3] += static_cast<double>(body_imu[i]) * poses[pose][i / 3];
+    }
+  }
+  return find_mount(felt[0], felt[1]);
+}
+
+TEST(Mount, IsFoundByTwoPosesOfTheRobot) {
+  for (const std::string words : {"mount=x:y:z", "mount=-y:x:z", "mount=x:-y:-z", "mount=z:x:y",
+                                  "mount=y:-z:-x", "mount=-z:-y:-x"}) {
+    EXPECT_EQ(mount_felt(words).words, words);
+    EXPECT_LT(mount_felt(words).askew_rad, 0.01);
+  }
+  EXPECT_EQ(find_mount({0, 0, 9.8}, {0, 0, 9.8}).words, "") << "not tilted";
+  EXPECT_EQ(find_mount({0, 0, 0}, {0, 0, 9.8}).words, "") << "nothing felt";
+  EXPECT_NEAR(find_mount({0, 0, 9.8}, {-4.2, 2.45, 8.49}).askew_rad, 0.53, 0.01)
+      << "turned by 30 degrees";
 }
 
 TEST(ImuPlace, MountTellsWhereTheChipsAxesPoint) {

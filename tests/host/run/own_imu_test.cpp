@@ -85,6 +85,15 @@ TEST_F(TimelyImu, ItsOwnImuUnpluggedIsNamedAndEndsByTheTable) {
   expect_table(trace());
 }
 
+TEST_F(RealImu, ShowsWhatItFeels) {
+  serve_with_imu("");
+  const Outcome felt = verp("bus imu --for 0.3 --json --imu serial:" + imu() + ",bno055");
+  ASSERT_EQ(felt.status, 0) << felt.err;
+  const Json accel = Json::parse(felt.out).at("accel_m_s2");
+  EXPECT_NEAR(accel.at(2).get<double>(), 9.8, 0.5);
+  EXPECT_NEAR(accel.at(0).get<double>(), 0, 1.5);
+}
+
 TEST_F(RealImu, AnOwnImuThatCannotBeIsRefusedBeforeTorque) {
   const std::string run = "run --link pty: --imu ";
   expect_refused(run + "i2c:/dev/i2c-1,bno056", "bno055");

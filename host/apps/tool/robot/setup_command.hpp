@@ -8,6 +8,7 @@ cli::Subcommand add_bus_checklist(CLI::App& bus);
 cli::Subcommand add_bus_load(CLI::App& bus);
 cli::Subcommand add_bus_laser(CLI::App& bus);
 cli::Subcommand add_bus_camera(CLI::App& bus);
+cli::Subcommand add_bus_imu(CLI::App& bus);
 cli::Subcommand add_bus_doctor(CLI::App& bus);
 
 }  // namespace verp::tool
