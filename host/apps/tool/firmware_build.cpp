@@ -11,6 +11,25 @@
 
 namespace verp::tool {
 
+namespace {
+
+std::string line_at(const std::string& text, std::size_t place) {
+  const std::size_t begin = text.rfind('\n', place) + 1;
+  return text.substr(begin, text.find('\n', place) - begin);
+}
+
+/// The line that says why. The linker's of an image that is too large has no "error".
+std::string reason_of(const std::string& output) {
+  const std::size_t over = output.find("overflowed by"), error = output.find("rror: ");
+  if (over != std::string::npos) {
+    const std::string line = line_at(output, over);
+    return "the image is too large: " + line.substr(line.find("region"));
+  }
+  return error != std::string::npos ? line_at(output, error) : process::last_line(output);
+}
+
+}  // namespace
+
 void run_build(const std::vector<std::string>& command, const std::filesystem::path& lock,
                const std::filesystem::path& log, cli::Progress& progress) {
   std::vector<std::string> locked = {"flock", lock.string()};
@@ -23,14 +42,8 @@ void run_build(const std::vector<std::string>& command, const std::filesystem::p
   if (run.interrupted) throw cli::ToolError(cli::kRunFailed, "interrupted");
   if (run.status == 0) return;
   const files::Trouble lost = files::replace(log, run.output);
-  const std::size_t error = run.output.find("rror: ");
-  std::string words = process::last_line(run.output);
-  if (error != std::string::npos) {
-    const std::size_t begin = run.output.rfind('\n', error) + 1;
-    words = run.output.substr(begin, run.output.find('\n', error) - begin);
-  }
   throw cli::ToolError(cli::kRunFailed,
-                       fmt::format("{}; {}{}", words,
+                       fmt::format("{}; {}{}", reason_of(run.output),
                                    lost.any() ? "its log is lost: " : "all of it: ", log.string()));
 }
 

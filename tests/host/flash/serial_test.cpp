@@ -107,7 +107,7 @@ TEST_F(SerialFlash, CodeIsThatOfTheRobotsBus) {
     EXPECT_NE(outcome.out.find(told), std::string::npos) << outcome.out;
     expect_code(chip, "loop_can_");
   };
-  expect_can("--bus can", "a robot whose bus speaks cia402");
+  expect_can("--bus can", "it drives a robot on CAN");
   expect_can("--code --params generic21 --bus can", "robot generic21");
   expect_can("--code --params can.bin", "code loop_can_" + board_);
 }

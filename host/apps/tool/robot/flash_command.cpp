@@ -10,6 +10,9 @@
 #include "host/apps/tool/own_controller.hpp"
 #include "host/apps/tool/robot/commands.hpp"
 #include "host/apps/tool/robot/flash_run.hpp"
+#include "host/boards/flash/images.hpp"
+#include "host/boards/flash/recipe.hpp"
+#include "host/os/files/temporary_directory.hpp"
 
 namespace verp::tool {
 namespace {
@@ -21,15 +24,26 @@ struct FlashWords {
   bool code = false, json = false;
 };
 
+/// Builds the image that this robot takes, and no other: a controller may fit into one only. The
+/// folder of the image.
+std::string build_with_controller(const FlashWords& words, cli::Progress& progress) {
+  if (words.flash.sensor) {
+    throw cli::ToolError(cli::kBadInput,
+                         "verp flash: --image sensor runs no controller; leave out --controller");
+  }
+  const flash::Recipe& recipe = flash::find_recipe(words.flash.board);
+  const files::TemporaryDirectory folder;
+  const std::string image = flash::loop_image(recipe, bus_of(words.flash, recipe, folder.path()));
+  return build_firmware_of(words.controller, words.flash.board, image, progress);
+}
+
 int run_flash(FlashWords words) {
   const bool data = !words.flash.params.empty() || !words.flash.actions.empty();
   words.flash.sensor = words.image == "sensor";
   words.flash.code = words.code || !data || !words.controller.empty();
   cli::Progress progress(!words.json);
   if (!words.controller.empty()) {
-    const std::string images =
-        build_firmware_of(words.controller, words.flash.board, "loops", progress);
-    setenv("VERP_FIRMWARE_DIR", images.c_str(), 1);
+    setenv("VERP_FIRMWARE_DIR", build_with_controller(words, progress).c_str(), 1);
   }
   const FlashAnswer result = flash_board(words.flash, progress, [&](const std::string& text) {
     if (words.json) {

@@ -120,8 +120,9 @@ std::string beside(const FlashOptions& options, const Cargo& cargo) {
   }
   if (!options.code || !options.params.empty()) return "";
   if (options.sensor) return "; it is the IMU of the robot in its flash, which --params writes";
-  return fmt::format("; it drives a robot whose bus speaks {}, with any other start_fault is 8",
-                     model::protocol_name(cargo.protocol));
+  return cargo.protocol == BusProtocol::kCia402
+             ? "; it drives a robot on CAN, with any other start_fault is 8"
+             : "; it drives a robot on a serial bus, on CAN start_fault is 8";
 }
 
 cli::Json to_json(const std::vector<flash::Piece>& pieces) {
