@@ -91,7 +91,7 @@ TEST_F(NewController, RefusesWhatItCannotLayOut) {
   expect_refused("flash --board mps2_an386 --controller nowhere", "has no controller.hpp");
   ASSERT_EQ(verp("new controller mine").status, 0);
   expect_refused("walk --controller mine --get-up", "no actions to get up by");
-  expect_refused("flash --board nonesuch --controller mine", "no board 'nonesuch'");
+  expect_refused("flash --board nonesuch --controller mine", "no such board; give one of");
 }
 
 std::vector<std::string> cells(const std::string& line) {
