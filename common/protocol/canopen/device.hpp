@@ -65,6 +65,7 @@ class Device {
     take_sync(frame, events);
     take_rpdo(frame, events);
     servers_.receive(frame, now_us);
+    if (!objects_.consumer.lost()) settle(kMasterSilent);  // 1016h was written anew
     return events;
   }
 

@@ -201,6 +201,13 @@ class HeartbeatConsumer {
     return LifeEvent::kNone;
   }
 
+  /// True while a watched node is lost.
+  constexpr bool lost() const {
+    for (const Watched& each : entries_) {
+      if (each.life == Life::kLost) return true;
+    }
+    return false;
+  }
   /// Reports each loss once. Call until false.
   constexpr bool next_lost(std::uint64_t now_us, std::uint8_t& subindex) {
     for (std::size_t i = 0; i < kNodes; ++i) {

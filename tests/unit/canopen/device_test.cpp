@@ -297,6 +297,19 @@ TEST(Device, NoticesAMasterThatFallsSilent) {
   EXPECT_EQ(emergency.code, 0x8130);
 }
 
+TEST(Device, ForgetsTheSilentMasterWhenItIsWatchedNoLonger) {
+  Node node;
+  node.operate();
+  EXPECT_TRUE(node.write({0x1016, 1}, 0x007F0032, 4) == Abort::kNone);
+  node.device.receive(heartbeat_frame(127, NmtState::kOperational), 1'000'000);
+  ASSERT_TRUE(node.device.heartbeat_lost(1'050'000));
+  EXPECT_TRUE(node.device.standing_error() == ErrorCode::kHeartbeatLost);
+  EXPECT_NE(node.device.objects().error_register, 0);
+  EXPECT_TRUE(node.write({0x1016, 1}, 0, 4) == Abort::kNone);
+  EXPECT_TRUE(node.device.standing_error() == ErrorCode::kNoError);
+  EXPECT_EQ(node.device.objects().error_register, 0);
+}
+
 TEST(Device, ForgetsWhatWaitedForASyncWhenItLeavesOperational) {
   Node node;
   node.operate();
