@@ -35,8 +35,8 @@ class StopLine {
   /// Throws LinkError: no such chip, no permission, a line that another program has, no pull-up.
   explicit StopLine(const StopPlace& place, GpioCalls& calls = kernel_gpio_calls());
 
-  /// Once a tick; a system call of microseconds. A spark, open for one reading, is none; once
-  /// pressed it stays so until kReleased readings in a row are closed.
+  /// Call it once a tick; it takes microseconds. Two open readings in a row count as pressed, one
+  /// may be a spark. kReleased closed readings in a row end that.
   bool pressed();
   /// As the last pressed() said.
   bool is_pressed() const { return pressed_; }

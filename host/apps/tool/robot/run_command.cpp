@@ -280,7 +280,7 @@ int run_on(Link& link, const RunWords& words, const RunPlan& plan, WalkFiles& fi
   return tell(words, plan, files, live, drive(link, plan, fit, files.trace(), progress));
 }
 
-/// The IMU of this PC, open and measuring; null: it is none.
+/// The IMU of this PC, open and measuring; null without one.
 std::unique_ptr<imu::ImuPort> open_imu(const RunWords& words) {
   const auto place = words.params.own_imu();
   if (!place) return nullptr;
@@ -291,7 +291,7 @@ std::unique_ptr<imu::ImuPort> open_imu(const RunWords& words) {
   return port;
 }
 
-/// The stop button of this PC, not pressed; null: it is none.
+/// The stop button of this PC, not pressed; null without one.
 std::unique_ptr<link::StopLine> open_stop(const RunWords& words) {
   if (words.stop.empty()) return nullptr;
   auto stop = std::make_unique<link::StopLine>(link::parse_stop(words.stop));
