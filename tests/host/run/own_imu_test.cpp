@@ -16,6 +16,9 @@ class OwnImuBench : public RunBench {
                   "--imu-serial", "unix-listen:" + (folder_ / "chip").string()}));
     ASSERT_TRUE(twin_->says("waits for a controller")) << twin_->said();
     plug({1000, 1000});
+    plug_imu();
+  }
+  void plug_imu() {
     imu_cable_ = std::make_unique<verp::test::DelayingLink>(
         "pty:" + imu(), "unix:" + (folder_ / "chip").string(), verp::test::Latency{});
   }
@@ -69,10 +72,15 @@ TEST_F(TimelyImu, WalksByABno055BesideFeetechServos) {
   expect_walks();
 }
 
-TEST_F(TimelyImu, ItsOwnImuUnpluggedIsNamedAndEndsByTheTable) {
+TEST_F(TimelyImu, ItsOwnImuUnpluggedIsNamedAndFoundAgainOrEndsByTheTable) {
   serve_with_imu("");
   auto program = run_with_imu({"--for", "60"});
   ASSERT_TRUE(program->says("standing to walking")) << program->said();
+  imu_cable_.reset();
+  ASSERT_TRUE(program->says("to holding (")) << program->said();
+  plug_imu();
+  EXPECT_TRUE(program->says("the IMU is back")) << program->said();
+  EXPECT_TRUE(program->says("standing to walking")) << program->said();
   imu_cable_.reset();
   const Outcome outcome = program->wait();
   EXPECT_EQ(outcome.status, 3);

@@ -197,7 +197,7 @@ class RobotRun {
     if (plan_.own_imu == nullptr) return;
     const bool fresh = (app_.inputs().flags & kImuFresh) != 0;
     imu_silent_us_ = fresh ? 0 : imu_silent_us_ + params_.period_us;
-    const bool silent = imu_silent_us_ > kImuSilence_us;
+    const bool silent = imu_silent_us_ >= kImuSilence_us;
     if (silent == imu_silent_) return;
     imu_silent_ = silent;
     say(silent ? plan_.imu_name +
@@ -280,7 +280,7 @@ class RobotRun {
   RunKeeper<Robot> keeper_;
   Loop app_;
   session::PlanNotes plan_notes_;
-  static constexpr std::uint32_t kImuSilence_us = 60'000;  ///< three of the longest periods
+  static constexpr std::uint32_t kImuSilence_us = 40'000;  ///< before it holds (stale_hold_s)
   std::uint32_t imu_silent_us_ = 0;
   bool imu_silent_ = false;
   bool connected_ = true;
