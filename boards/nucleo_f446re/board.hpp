@@ -31,6 +31,7 @@ inline constexpr Pin kLed = {'A', 5};
 inline constexpr Pin kServoPower = {};  ///< not switched on this board
 inline constexpr ImuPort kImu = {};
 inline constexpr ImuPort kSensorImu = kF4SensorImu;
+inline constexpr FootPort kFootPort = kF4FootPort;
 inline constexpr stm32::AnalogWiring kBattery = {};
 inline constexpr Pin kEmergencyStop = {};
 inline constexpr Button kButtons[2] = {};

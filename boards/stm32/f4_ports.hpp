@@ -38,6 +38,12 @@ inline constexpr ImuPort kF4SensorImu = {.wiring = {.base = hal::stm32::base::kS
                                                     .select = {'B', 12},
                                                     .function = 5},
                                          .on_apb2 = false};
+/// ADC1 on PC0 to PC3: image `foot` only.
+inline constexpr FootPort kF4FootPort = {.cells = {.base = hal::stm32::base::kAdc1,
+                                                   .mask = hal::stm32::rcc::kApb2Adc1,
+                                                   .pin = {{'C', 0}, {'C', 1}, {'C', 2}, {'C', 3}},
+                                                   .channel = {10, 11, 12, 13}},
+                                         .right = {'C', 4}};
 /// USART2 on PA2 and PA3.
 inline constexpr SerialPort kF4OperatorPort = {
     .wiring = {.base = hal::stm32::base::kUsart2,

@@ -55,6 +55,12 @@ function(verp_add_stm32_sensor)
   endif()
 endfunction()
 
+# The board as a robot's foot; board.hpp has kFootPort.
+function(verp_add_stm32_foot)
+  verp_add_stm32_image(foot_${VERP_BOARD} serial sensor ${VERP_STM32_DIR}/sensor/foot)
+  verp_add_budget_test(budget.${VERP_BOARD}.foot foot_${VERP_BOARD})
+endfunction()
+
 # The image through a flash tool, without silicon: `tests` of tests/host/flash.
 function(verp_add_flash_tests tests)
   add_test(NAME flash.${VERP_BOARD}.real COMMAND ${VERP_HOST_DIR}/tests/host/flash/verp_flash_test --gtest_filter=${tests})

@@ -6,9 +6,10 @@
 #include "firmware/boot/boot.hpp"
 #include "sensor_chip.hpp"
 
-/// sensor_<board>: the board as the IMU device of a robot on its Dynamixel bus, at the servo port.
-/// The robot in its flash decides id, rate and scales. The LED blinks while samples come and stays
-/// lit otherwise; it counts a start fault, and then no device answers.
+/// sensor_<board>, foot_<board>: the board as the IMU device, or a foot, of a robot on its
+/// Dynamixel bus, at the servo port. The robot in its flash decides id, rate and scales. The LED
+/// blinks while samples come and stays lit otherwise; it counts a start fault, and then no device
+/// answers.
 extern "C" const std::uint8_t verp_params_begin[];
 extern "C" const std::uint8_t verp_params_bytes[];  ///< the address is the size (memory.ld)
 
@@ -18,10 +19,7 @@ namespace {
 using app::table::StartFault;
 
 constexpr std::uint32_t kWatchdog_us = 100'000;
-/// Half the chip's sample period: one sample a read, and none is lost.
-constexpr std::uint64_t kSample_us = 1'000;
-/// A read of the chip takes up to 0.1 ms. It must not delay an answer, so it waits for a pause on
-/// the bus, but not for ever.
+/// A sample that waits must not delay an answer, so it begins in a pause on the bus, but not never.
 constexpr std::uint64_t kPause_us = 200;
 constexpr std::uint64_t kPatience_us = 5'000;
 
@@ -53,10 +51,10 @@ const Params& robot() {
     const std::uint64_t now_us = timer.now_us();
     device.registers().set_time(now_us);
     const std::uint64_t since_us = now_us - sampled_us;
-    if (since_us > kPatience_us || (since_us >= kSample_us && now_us - heard_us > kPause_us)) {
+    const bool pause = !SensorChip::kWaits || now_us - heard_us > kPause_us;
+    if (since_us > kPatience_us || (since_us >= SensorChip::kSample_us && pause)) {
       sampled_us = now_us;
-      hal::ImuSample sample;
-      if (chip.read(sample) == hal::ImuStatus::kFresh) device.registers().add(sample);
+      chip.sample(device.registers());
       const bool blink = life.at(now_us, StartFault::kNone).lit;
       gpio.write(kLed, blink || !device.registers().fresh());
     }
@@ -76,10 +74,10 @@ extern "C" int verp_main() {
   if (!start.good) board::refuse_without_time(start);
   const Params& params = board::robot();
   if (params.bus_protocol != BusProtocol::kDynamixel2) board::refuse(StartFault::kProtocol);
-  static board::SensorChip chip(params.imu);
-  if (params.imu.device_id == 0 || !chip.open(start)) board::refuse(StartFault::kSelfTest);
+  static board::SensorChip chip(params);
+  if (!chip.open(start) || chip.id() == 0) board::refuse(StartFault::kSelfTest);
   if (!board::open_robot_port(start, params.baud)) board::refuse(StartFault::kServoPort);
-  static app::SensorDevice device(board::robot_port, params.imu.device_id, params.baud);
+  static app::SensorDevice device(board::robot_port, chip.id(), chip.kModel, params.baud);
   hal::stm32::IndependentWatchdog<board::Io> dog(start.cause);
   dog.start(board::kWatchdog_us);
   board::serve(device, chip, dog);

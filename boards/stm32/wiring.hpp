@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-#include "hal/chip/stm32/analog_input.hpp"
+#include "hal/chip/stm32/analog_scan.hpp"
 #include "hal/chip/stm32/bxcan.hpp"
 #include "hal/chip/stm32/clock.hpp"
 #include "hal/chip/stm32/gpio.hpp"
@@ -58,6 +58,12 @@ struct ImuPort {
   bool on_apb2 = false;
 
   constexpr bool exists() const { return wiring.base != 0; }
+};
+
+/// A foot's force cells: front left and right, back left and right.
+struct FootPort {
+  hal::stm32::ScanWiring cells;
+  Pin right;  ///< joined to ground: the right foot
 };
 
 struct Button {

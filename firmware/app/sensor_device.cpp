@@ -7,9 +7,9 @@ template class DynamixelDevice<SensorRegisters>;
 namespace at = dxl::address;
 namespace block = dxl::sensor_block;
 
-SensorRegisters::SensorRegisters(std::uint8_t id, std::uint32_t baud) {
+SensorRegisters::SensorRegisters(std::uint8_t id, std::uint16_t model, std::uint32_t baud) {
   constexpr std::uint8_t kFactoryDelay = 250;  // e-Manual, Return Delay Time
-  dxl::put_u16(image_ + at::kModelNumber, model());
+  dxl::put_u16(image_ + at::kModelNumber, model);
   image_[at::kFirmwareVersion] = version();
   image_[at::kId] = id;
   image_[at::kBaudRate] = dxl::baud_rate_code(baud);
@@ -22,8 +22,12 @@ void SensorRegisters::add(const hal::ImuSample& sample) {
     begun_us_ = now_us_;
   }
   mean_.add(sample);
-  added_us_ = now_us_;
-  has_sample_ = true;
+  note_sample();
+}
+
+void SensorRegisters::set(const std::uint16_t (&counts)[4]) {
+  for (int i = 0; i < 4; ++i) dxl::put_u16(image_ + block::kFoot + 2 * i, counts[i]);
+  note_sample();
 }
 
 void SensorRegisters::refresh() {

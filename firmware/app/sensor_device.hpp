@@ -6,11 +6,11 @@ namespace verp::app {
 
 extern template class DynamixelDevice<SensorRegisters>;
 
-/// The robot's IMU as a device on its servo bus.
+/// The robot's IMU, or one of its feet, as a device on its servo bus.
 class SensorDevice : public DynamixelDevice<SensorRegisters> {
  public:
-  SensorDevice(hal::ByteLink& link, std::uint8_t id, std::uint32_t baud)
-      : DynamixelDevice(link, id, baud) {}
+  SensorDevice(hal::ByteLink& link, std::uint8_t id, std::uint16_t model, std::uint32_t baud)
+      : DynamixelDevice(link, id, model, baud) {}
 };
 
 }  // namespace verp::app

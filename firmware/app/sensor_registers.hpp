@@ -9,24 +9,27 @@
 
 namespace verp::app {
 
-/// The control table of an IMU device on the servo bus, as the twin's: id, rate, return delay, LED,
-/// and the sensor block (common/protocol/control_table.hpp). A read of the block takes the mean of
-/// the samples since the last one, of kImuMostPause_us at most. Without a sample for kSilent_us
-/// such a read is refused: no master takes old counts for new ones.
+/// The control table of an IMU or foot device on the servo bus, as the twin's: id, rate, return
+/// delay, LED, and the sensor block (common/protocol/control_table.hpp). A read of an IMU's block
+/// takes the mean of the samples since the last one, of kImuMostPause_us at most; a foot's gives
+/// the newest. Without a sample for kSilent_us such a read is refused: no master takes old counts
+/// for new ones.
 class SensorRegisters {
  public:
   static constexpr std::uint64_t kSilent_us = 10'000;
 
-  SensorRegisters(std::uint8_t id, std::uint32_t baud);
+  SensorRegisters(std::uint8_t id, std::uint16_t model, std::uint32_t baud);
 
   /// The board's clock; call before each poll() of the device.
   void set_time(std::uint64_t now_us) { now_us_ = now_us; }
   void add(const hal::ImuSample& sample);
+  /// A foot's cells.
+  void set(const std::uint16_t (&counts)[4]);
   bool fresh() const { return has_sample_ && now_us_ - added_us_ <= kSilent_us; }
 
   // DynamixelDevice
   std::uint8_t id() const { return image_[dxl::address::kId]; }
-  static constexpr std::uint16_t model() { return dxl::kModelImu; }
+  std::uint16_t model() const { return dxl::get_u16(image_ + dxl::address::kModelNumber); }
   static constexpr std::uint8_t version() { return 1; }
   static constexpr std::uint8_t status_level() { return 2; }
   static constexpr bool alert() { return false; }
@@ -50,6 +53,10 @@ class SensorRegisters {
   static constexpr std::size_t kBytes = dxl::sensor_block::kAddress + dxl::sensor_block::kBytes;
 
   void refresh();
+  void note_sample() {
+    added_us_ = now_us_;
+    has_sample_ = true;
+  }
 
   std::uint8_t image_[kBytes] = {};
   hal::ImuMean mean_;

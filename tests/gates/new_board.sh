@@ -31,5 +31,5 @@ sed -i "s/^| \`$old\/\` .*/&\n| \`$new\/\` | Cortex-M4F | mine |/" boards/README
 tests/gates/boards.sh .
 
 cmake --preset "fw-$new" >/dev/null
-cmake --build --preset "fw-$new" --target "loop_$new" "loop_can_$new" "sensor_$new" "unit_base_$new"
+cmake --build --preset "fw-$new" --target "loop_$new" "loop_can_$new" "sensor_$new" "foot_$new" "unit_base_$new"
 ctest --preset "fw-$new" -R "^(unit.$new.base|budget.$new)" --output-on-failure

@@ -20,6 +20,30 @@ struct AnalogWiring {
   constexpr bool exists() const { return base != 0; }
 };
 
+namespace detail {
+
+/// DS8626, ADC characteristics: 36 MHz, 3 us to power up; F446 and F746 likewise.
+inline constexpr std::uint32_t kAdcMost_hz = 36'000'000;
+inline constexpr std::uint64_t kAdcPowerUp_us = 4;
+
+/// The converters share one divider. `bus_hz` is the APB2 clock.
+template <Io Access>
+void set_adc_clock(Access& io, std::uint32_t bus_hz) {
+  std::uint32_t divider = 0;  // ADC clock = APB2 / (2 * (divider + 1))
+  while (divider < 3 && bus_hz / (2 * (divider + 1)) > kAdcMost_hz) ++divider;
+  modify32(io, base::kAdcCommon + adc::kCommonCcr, adc::kCcrAdcpre,
+           divider << adc::kCcrAdcpreShift);
+}
+/// `code`: of SMPR.
+template <Io Access>
+void set_sampling(Access& io, std::uint32_t base, unsigned channel, std::uint32_t code) {
+  const bool upper = channel >= 10;
+  const unsigned shift = 3u * (channel - (upper ? 10u : 0u));
+  modify32(io, base + (upper ? adc::kSmpr1 : adc::kSmpr2), 7u << shift, code << shift);
+}
+
+}  // namespace detail
+
 /// `Timer` is a TickTimer.
 template <Io Access, class Timer>
 class AnalogInput {
@@ -27,18 +51,13 @@ class AnalogInput {
   AnalogInput(const AnalogWiring& wiring, Timer& timer, Access io = {})
       : io_(io), wiring_(wiring), timer_(timer) {}
 
-  /// Call once, first. `bus_hz` is the APB2 clock. The converters share one divider.
+  /// Call once, first. `bus_hz` is the APB2 clock.
   void open(std::uint32_t bus_hz) {
     if (!wiring_.exists()) return;
     enable_clock(io_, rcc::kApb2enr, wiring_.mask);
     Gpio<Access>(io_).analog(wiring_.pin);
-    std::uint32_t divider = 0;  // ADC clock = APB2 / (2 * (divider + 1))
-    while (divider < 3 && bus_hz / (2 * (divider + 1)) > kMost_hz) ++divider;
-    modify32(io_, base::kAdcCommon + adc::kCommonCcr, adc::kCcrAdcpre,
-             divider << adc::kCcrAdcpreShift);
-    const bool upper = wiring_.channel >= 10;
-    const unsigned shift = 3u * (wiring_.channel - (upper ? 10u : 0u));
-    modify32(io_, at(upper ? adc::kSmpr1 : adc::kSmpr2), 7u << shift, kLongest << shift);
+    detail::set_adc_clock(io_, bus_hz);
+    detail::set_sampling(io_, wiring_.base, wiring_.channel, kLongest);
     io_.write32(at(adc::kSqr1), 0);  // one conversion
     io_.write32(at(adc::kSqr3), wiring_.channel);
     io_.write32(at(adc::kCr2), adc::kCr2Adon);
@@ -51,7 +70,8 @@ class AnalogInput {
     if (!wiring_.exists()) return 0;
     const std::uint64_t now_us = timer_.now_us();
     const bool done = (io_.read32(at(adc::kSr)) & adc::kSrEoc) != 0;
-    if (!done && now_us - asked_us_ < (asked_ ? kPatience_us : kPowerUp_us)) return mean_mv();
+    if (!done && now_us - asked_us_ < (asked_ ? kPatience_us : detail::kAdcPowerUp_us))
+      return mean_mv();
     if (done) {
       take(io_.read32(at(adc::kDr)) & 0xFFF);
     } else if (asked_) {
@@ -67,9 +87,6 @@ class AnalogInput {
   std::uint32_t timeouts() const { return timeouts_; }
 
  private:
-  /// DS8626, ADC characteristics: 36 MHz, 3 us to power up; F446 and F746 likewise.
-  static constexpr std::uint32_t kMost_hz = 36'000'000;
-  static constexpr std::uint64_t kPowerUp_us = 4;
   /// A conversion takes 492 cycles of at least 2 MHz (APB2 16 MHz / 8).
   static constexpr std::uint64_t kPatience_us = 1000;
   static constexpr std::uint32_t kLongest = 7;  ///< SMPR: 480 cycles, for a divider of 100 kohm

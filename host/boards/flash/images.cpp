@@ -56,20 +56,26 @@ std::string loop_image(const Recipe& recipe, BusProtocol protocol) {
                                recipe.board, names));
 }
 
-std::string sensor_image(const Recipe& recipe, const Params* robot) {
+std::string sensor_image(const Recipe& recipe, const std::string& what, const Params* robot) {
+  const std::string image = what + "_" + recipe.board;
   const auto refuse = [&](const std::string& why) {
-    throw FlashError(FlashError::Kind::kUsage, "--image sensor: " + why);
+    throw FlashError(FlashError::Kind::kUsage, "--image " + what + ": " + why);
   };
-  if (recipe.chip == nullptr) refuse(std::string(recipe.board) + " has no pins; name an STM32");
-  if (robot == nullptr) return std::string("sensor_") + recipe.board;
+  const bool foot = what == "foot";
+  if (recipe.chip == nullptr || (foot && !recipe.foot_image)) {
+    refuse(std::string(recipe.board) + " has no pins for it; name olimex_h405 or nucleo_f446re");
+  }
+  if (robot == nullptr) return image;
   const std::string name = robot->name;
   if (robot->bus_protocol != BusProtocol::kDynamixel2) {
     refuse("that bus of " + name + " has no Dynamixel servos; name another with --bus");
   }
-  if (robot->imu.device_id == 0) {
-    refuse(name + " has no IMU on its bus; give the <verp:imu> of its file an id");
+  const auto& feet = robot->feet.device_id;
+  if (foot ? feet[0] == 0 && feet[1] == 0 : robot->imu.device_id == 0) {
+    refuse(fmt::format("{} has none on its bus; give the <verp:{}> of its file an id", name,
+                       foot ? "feet" : "imu"));
   }
-  return std::string("sensor_") + recipe.board;
+  return image;
 }
 
 std::filesystem::path code_image(const Recipe& recipe, const std::string& image) {

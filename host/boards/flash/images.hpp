@@ -13,9 +13,9 @@ namespace verp::flash {
 /// CAN.
 std::string loop_image(const Recipe& recipe, BusProtocol protocol);
 
-/// sensor_<board>, which makes the board the IMU of `robot` (null: named later). Throws FlashError
-/// if there is none, or it cannot be.
-std::string sensor_image(const Recipe& recipe, const Params* robot);
+/// sensor_<board> or foot_<board> by `what`: the board becomes the IMU or a foot of `robot` (null:
+/// named later). Throws FlashError if it cannot be.
+std::string sensor_image(const Recipe& recipe, const std::string& what, const Params* robot);
 
 /// The binary: in $VERP_FIRMWARE_DIR, else the build folder of the preset fw-<board>.
 std::filesystem::path code_image(const Recipe& recipe, const std::string& image);

@@ -33,6 +33,7 @@ struct Recipe {
   const char* serial_pins;   ///< serial port of the boot loader
   const char* replay_board;  ///< emulated board with the same core
   bool can_image = false;    ///< a second image for CAN
+  bool foot_image = false;   ///< pins for a foot's cells
 };
 
 const std::vector<Recipe>& recipes();

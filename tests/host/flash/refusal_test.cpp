@@ -94,17 +94,18 @@ TEST_F(Refusal, WordsThatMakeNoSense) {
   expect_refused("deploy nobody --board olimex_h405", "nobody");
 }
 
-TEST_F(Refusal, OnlyAnImuOfADynamixelBusCanBeTheSensorImage) {
+TEST_F(Refusal, OnlyTheSensorsOfADynamixelBusHaveAnImage) {
   expect_refused_file("--image sensor --params generic21 --bus feetech", "no Dynamixel servos");
   expect_refused_file("--image sensor --params generic21 --bus can", "another with --bus");
   EXPECT_EQ(shell("sed 's/sensor=\"imu\" id=\"120\"/sensor=\"imu\" id=\"0\"/' " +
                   fs::absolute(model::find_model("generic21")).string() + " >own.sdf")
                 .status,
             0);
-  expect_refused_file("--image sensor --params own.sdf", "has no IMU on its bus");
+  expect_refused_file("--image sensor --params own.sdf", "has none on its bus");
   expect_refused_file("--image sensor --emulate", "leave out --emulate");
   expect_refused_file("--image sensors", "--image");
-  expect_refused("flash --board mps2_an386 --image sensor", "name an STM32");
+  expect_refused("flash --board mps2_an386 --image sensor", "name olimex_h405");
+  expect_refused("flash --board opencr --image foot", "no pins for it");
   const Outcome told = flash("--image sensor --params generic21 --dry-run --json");
   EXPECT_EQ(told.status, 0) << told.err;
   EXPECT_NE(told.out.find("\"image\": \"sensor_" + board_), std::string::npos) << told.out;

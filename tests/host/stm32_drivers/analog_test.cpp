@@ -1,4 +1,4 @@
-#include "hal/chip/stm32/analog_input.hpp"
+#include "hal/chip/stm32/analog_scan.hpp"
 
 #include "tests/host/stm32_drivers/rig.hpp"
 #include "tests/support/stm32/adc_model.hpp"
@@ -75,6 +75,55 @@ TEST_P(AnalogDriver, WhereThereIsNoneNothingIsTouched) {
   AnalogInput<Io, Timer> none({}, rig.timer, rig.machine.io());
   none.open(rig.clocks.apb2_hz);
   EXPECT_EQ(none.poll_mv(), 0u);
+}
+
+/// Feet of boards/stm32/f4_ports.hpp.
+constexpr ScanWiring kCells = {.base = base::kAdc1,
+                               .mask = rcc::kApb2Adc1,
+                               .pin = {{'C', 0}, {'C', 1}, {'C', 2}, {'C', 3}},
+                               .channel = {10, 11, 12, 13}};
+
+class ScanDriver : public EachFamily {
+ protected:
+  ScanDriver() { scan.open(rig.clocks.apb2_hz); }
+  /// False: nothing new within 2 ms.
+  bool fetch() {
+    const std::uint64_t end_us = rig.timer.now_us() + 2000;
+    while (rig.timer.now_us() < end_us) {
+      const std::uint64_t before_us = rig.timer.now_us();
+      if (scan.poll(counts)) return true;
+      EXPECT_LE(rig.timer.now_us() - before_us, 5u) << "no poll waits";
+      rig.machine.advance(us(1));
+    }
+    return false;
+  }
+  Rig rig{GetParam()};
+  model::AdcModel& adc_ = rig.machine.adc(1);
+  AnalogScan<Io, Timer> scan{kCells, rig.timer, rig.machine.io()};
+  std::uint16_t counts[4] = {};
+};
+INSTANTIATE_TEST_SUITE_P(, ScanDriver, kFamilies, name_of);
+
+TEST_P(ScanDriver, GivesSixteenTimesEachChannelsCount) {
+  const std::uint16_t given[4] = {0, 100, 2048, 4095};
+  for (int i = 0; i < 4; ++i) adc_.input[10 + i] = given[i];
+  for (int times = 0; times < 3; ++times) {
+    ASSERT_TRUE(fetch());
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(counts[i], 16 * given[i]) << i;
+  }
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(rig.machine.gpio('C').mode(static_cast<unsigned>(i)), 3u);
+}
+
+TEST_P(ScanDriver, AStoppedConverterGivesNothingUntilItRunsAgain) {
+  adc_.input[10] = 1000;
+  ASSERT_TRUE(fetch());
+  adc_.conversion_stuck = true;
+  fetch();  // what had begun
+  EXPECT_FALSE(fetch());
+  adc_.conversion_stuck = false;
+  adc_.input[10] = 3000;
+  ASSERT_TRUE(fetch());
+  EXPECT_EQ(counts[0], 16 * 3000) << "none of the sum before";
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ struct SensorBench {
   }
 
   hal::MemoryWire wire;
-  SensorDevice device{wire.left(), kImu, 1'000'000};
+  SensorDevice device{wire.left(), kImu, dxl::kModelImu, 1'000'000};
   dxl::Parser parser;
   std::uint64_t now_us = 0;
   std::uint8_t frame[32];
@@ -139,6 +139,19 @@ TEST(SensorDevice, RefusesToGiveOldCountsForNewOnes) {
   EXPECT_TRUE(refused()) << "its chip is silent";
   bench.add(1, 2);
   EXPECT_FALSE(refused());
+}
+
+TEST(SensorDevice, AFootGivesItsNewestCountsAndFourZeros) {
+  SensorBench& bench = fresh_sensor();
+  bench.answer_at_once();
+  bench.device.registers().set({1, 2, 3, 4});
+  bench.device.registers().set({5, 6, 7, 65520});
+  bench.ask_block();
+  ASSERT_TRUE(bench.hear());
+  EXPECT_EQ(bench.word(0), 5);
+  EXPECT_EQ(static_cast<std::uint16_t>(bench.word(3)), 65520);
+  EXPECT_EQ(bench.word(4), 0);
+  EXPECT_EQ(bench.word(5), 0);
 }
 
 }  // namespace

@@ -27,9 +27,9 @@ struct FlashWords {
 /// Builds the image that this robot takes, and no other: a controller may fit into one only. The
 /// folder of the image.
 std::string build_with_controller(const FlashWords& words, cli::Progress& progress) {
-  if (words.flash.sensor) {
-    throw cli::ToolError(cli::kBadInput,
-                         "verp flash: --image sensor runs no controller; leave out --controller");
+  if (!words.flash.sensor.empty()) {
+    throw cli::ToolError(cli::kBadInput, "verp flash: --image " + words.flash.sensor +
+                                             " runs no controller; leave out --controller");
   }
   const flash::Recipe& recipe = flash::find_recipe(words.flash.board);
   const files::TemporaryDirectory folder;
@@ -39,7 +39,7 @@ std::string build_with_controller(const FlashWords& words, cli::Progress& progre
 
 int run_flash(FlashWords words) {
   const bool data = !words.flash.params.empty() || !words.flash.actions.empty();
-  words.flash.sensor = words.image == "sensor";
+  if (words.image != "loop") words.flash.sensor = words.image;
   words.flash.code = words.code || !data || !words.controller.empty();
   cli::Progress progress(!words.json);
   if (!words.controller.empty()) {
@@ -74,10 +74,11 @@ cli::Subcommand add_flash(CLI::App& root) {
                   "write these: a FILE.bin of verp action export, or what a run that failed has "
                   "kept (it names the file). A robot that --params makes brings its own; none "
                   "leaves those on the board as they are");
-  app->add_option("--image", words->image,
-                  "loop: the controller (default); sensor: the robot's IMU as device on its servo "
-                  "bus, which takes id, rate and scales from the robot of --params")
-      ->check(CLI::IsMember({"loop", "sensor"}));
+  app->add_option(
+         "--image", words->image,
+         "loop: the controller (default); sensor, foot: the robot's IMU or foot as a device on "
+         "its servo bus, with id, rate and scales of the robot of --params")
+      ->check(CLI::IsMember({"loop", "sensor", "foot"}));
   app->add_flag("--code", words->code, "with --params or --actions: the firmware as well");
   declare_controller(*app, words->controller);
   cli::add_json_flag(*app, words->json);

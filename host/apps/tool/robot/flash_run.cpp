@@ -68,7 +68,7 @@ RobotFiles robot_files(const FlashOptions& options, const flash::MemoryMap& map,
   const ParamsImage image = model::make_image(entity);
   made.params = folder / "params.bin";
   write_piece(made.params, &image, sizeof image);
-  if (options.sensor || !options.actions.empty() || map.actions.bytes == 0) return made;
+  if (!options.sensor.empty() || !options.actions.empty() || map.actions.bytes == 0) return made;
   const action::CompiledActions own = make_actions(entity, image.params, "");
   if (own.documents.empty()) return made;
   const std::vector<std::uint8_t> kept = action::kept_image(own, image.params);
@@ -97,8 +97,9 @@ Cargo load(const FlashOptions& options, const flash::Recipe& recipe, const flash
   } else if (!options.bus.empty()) {
     cargo.protocol = model::load_robot(model::find_model(kUsualRobot), options.bus).protocol;
   }
-  cargo.image = options.sensor ? flash::sensor_image(recipe, robot ? &*robot : nullptr)
-                               : flash::loop_image(recipe, cargo.protocol);
+  cargo.image = options.sensor.empty()
+                    ? flash::loop_image(recipe, cargo.protocol)
+                    : flash::sensor_image(recipe, options.sensor, robot ? &*robot : nullptr);
   if (code) {
     const fs::path file = flash::code_image(recipe, cargo.image);
     flash::check_code(file, map);
@@ -119,7 +120,7 @@ std::string beside(const FlashOptions& options, const Cargo& cargo) {
     return fmt::format("; this robot takes firmware {}, which --code writes too", cargo.image);
   }
   if (!options.code || !options.params.empty()) return "";
-  if (options.sensor) return "; it is the IMU of the robot in its flash, which --params writes";
+  if (!options.sensor.empty()) return "; its robot is the one in its flash, which --params writes";
   return cargo.protocol == BusProtocol::kCia402
              ? "; it drives a robot on CAN, with any other start_fault is 8"
              : "; it drives a robot on a serial bus, on CAN start_fault is 8";
@@ -269,9 +270,10 @@ flash::EmulationPlan emulation_of(const FlashOptions& options, const flash::Reci
 FlashAnswer flash_board(const FlashOptions& options, cli::Progress& progress,
                         const std::function<void(const std::string&)>& say) {
   const flash::Recipe& recipe = flash::find_recipe(options.board);
-  if (options.sensor && options.emulate) {
-    throw flash::FlashError(flash::FlashError::Kind::kUsage,
-                            "--image sensor: QEMU has no motion sensor; leave out --emulate");
+  if (!options.sensor.empty() && options.emulate) {
+    throw flash::FlashError(
+        flash::FlashError::Kind::kUsage,
+        "--image " + options.sensor + ": QEMU has no such sensors; leave out --emulate");
   }
   if (recipe.chip == nullptr || options.emulate) return emulate(options, recipe, say);
   return flash_silicon(options, recipe, progress);

@@ -18,7 +18,7 @@ struct FlashOptions {
   std::string params;   ///< a Params image, or a robot to make it from; empty: none
   std::string bus;      ///< empty: the robot's first; selects the image
   std::string actions;  ///< a file; empty: the robot's; "none": not written
-  bool sensor = false;  ///< the board becomes the robot's IMU, not its controller
+  std::string sensor;   ///< "sensor", "foot": the robot's IMU or foot; empty: its controller
   bool code = true;     ///< write the firmware
   bool emulate = false;
   bool dry_run = false;
