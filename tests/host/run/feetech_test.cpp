@@ -68,6 +68,23 @@ TEST_F(FeetechClient, BusWordsFindReadAndWriteServos) {
   EXPECT_NE(bus("read").err.find("Give --id"), std::string::npos);
 }
 
+TEST_F(FeetechClient, DoctorNamesWhoIsSilentAndWhatIsSetWrong) {
+  serve_port();
+  const std::string line = "--link serial:" + port() + "@1000000 --timeout 20";
+  const Outcome sound = verp("bus doctor generic21 --bus feetech " + line);
+  EXPECT_EQ(sound.status, 0) << sound.out << sound.err;
+  EXPECT_NE(sound.out.find("24 answer"), std::string::npos) << sound.out;
+  EXPECT_EQ(bus("write", "--id 8 --register return_delay 100").status, 0);
+  EXPECT_EQ(bus("write", "--id 7 --register lock 0").status, 0);
+  bus("write", "--id 7 --register id 57 --timeout 20");
+  const Outcome ill = verp("bus doctor generic21 --bus feetech " + line);
+  EXPECT_EQ(ill.status, 3) << ill.out << ill.err;
+  for (const char* words : {"(id 7)", "does not answer", "which wastes time of each tick: 8",
+                            "verp bus setup generic21 --link", "--bus feetech --joint"}) {
+    EXPECT_NE(ill.out.find(words), std::string::npos) << words << "\n" << ill.out;
+  }
+}
+
 TEST_F(FeetechClient, SetupMakesTheMiddleTheModelsZero) {
   serve_port();
   Process setup(folder_, "setup",

@@ -37,23 +37,19 @@ std::size_t silent_end(const std::vector<int>& ids, const std::set<int>& silent)
 }
 
 BusCase case_of(const std::string& link, const std::string& model, const std::string& bus,
-                double timeout_ms) {
+                const std::string& protocol, double timeout_ms) {
   BusCase made{.link = link,
                .endpoint = link::parse_endpoint(link),
                .timeout_us = static_cast<std::uint32_t>(1000 * timeout_ms),
-               .model = model};
+               .model = model,
+               .bus = bus};
+  if (protocol == "feetech") made.protocol = BusProtocol::kFeetech;
   if (model.empty()) return made;
   const bool can = made.endpoint.kind == link::Endpoint::Kind::kCan;
   const std::string file = model::find_model(model);
   made.robot = can ? model::load_robot_on_can(file, bus) : model::load_robot(file, bus);
   made.params = model::make_params(*made.robot);
-  if (made.robot->protocol == BusProtocol::kFeetech) {
-    throw cli::ToolError(cli::kBadInput,
-                         fmt::format("verp bus doctor: bus '{}' of {} has Feetech servos, which it "
-                                     "does not know; `verp bus scan --protocol feetech --link {}` "
-                                     "shows who answers",
-                                     made.robot->bus, made.robot->name, link));
-  }
+  made.protocol = made.robot->protocol;
   if (can == (made.robot->protocol == BusProtocol::kCia402)) return made;
   throw cli::ToolError(cli::kBadInput,
                        fmt::format("verp bus doctor: bus '{}' of {} is not of the kind of {}; name "
@@ -92,6 +88,7 @@ std::string BusCase::set_up(int id, bool wired) const {
   std::string command =
       fmt::format("verp bus setup {} --link {}", model.empty() ? "ROBOT" : model,
                   endpoint.kind == Kind::kSerial ? "serial:" + endpoint.place : link);
+  if (!bus.empty()) command += " --bus " + bus;
   if (robot) {
     for (const model::Joint& each : robot->joints) {
       if (each.follows < 0 && each.servo.id == id) command += " --joint " + each.name;
@@ -144,7 +141,7 @@ cli::Subcommand add_bus_doctor(CLI::App& bus) {
   CLI::App* app = bus.add_subcommand(
       "doctor", "why servos are silent or answer garbage, and how to mend it; writes nothing");
   struct Words {
-    std::string link, model, bus;
+    std::string link, model, bus, protocol;
     double timeout_ms = kTimeout_ms;
     bool json = false;
   };
@@ -154,13 +151,15 @@ cli::Subcommand add_bus_doctor(CLI::App& bus) {
   app->add_option("--link", words->link,
                   "serial:/dev/ttyUSB0@1000000, tcp:HOST:PORT, unix:PATH, can:can0")
       ->required();
+  app->add_option("--protocol", words->protocol, "of a serial link without MODEL")
+      ->check(CLI::IsMember({"dynamixel2", "feetech"}));
   app->add_option("--timeout", words->timeout_ms, "what an answer may take, ms")
       ->transform(cli::number_between(1, 10000, "ms"))
       ->capture_default_str();
   cli::add_json_flag(*app, words->json);
   return {app, [words] {
             const BusCase examined =
-                case_of(words->link, words->model, words->bus, words->timeout_ms);
+                case_of(words->link, words->model, words->bus, words->protocol, words->timeout_ms);
             Findings found;
             const bool can = examined.endpoint.kind == link::Endpoint::Kind::kCan;
             (can ? examine_can_bus : examine_serial_bus)(Machine(), examined, found);

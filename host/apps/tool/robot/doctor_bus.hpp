@@ -19,7 +19,9 @@ struct BusCase {
   std::string link;
   link::Endpoint endpoint;
   std::uint32_t timeout_us = 0;
-  std::string model = {};                   ///< as the user named it
+  std::string model = {};  ///< as the user named it
+  std::string bus = {};    ///< likewise; empty: the first
+  BusProtocol protocol = BusProtocol::kDynamixel2;
   std::optional<model::Entity> robot = {};  ///< none: judges only what answers
   std::optional<Params> params = {};        ///< with `robot`
 

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
 #include <vector>
 
+#include "common/protocol/feetech_table.hpp"
 #include "common/protocol/servo_models.hpp"
+#include "firmware/app/feetech_servos.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/tool/robot/doctor_bus.hpp"
 #include "host/apps/tool/robot/doctor_checks.hpp"
@@ -31,6 +34,40 @@ struct Troubles {
   double lowest_v = 0, wanted_v = 0;
 };
 
+/// What a protocol calls these registers.
+struct DoctorWords {
+  std::span<const std::uint32_t> rates;
+  std::uint16_t delay, level, error, voltage, position;
+  std::uint8_t all_answers;  ///< of `level`
+  std::uint16_t voltage_bytes, position_bytes;
+  const char *delay_name, *level_name, *servos;
+};
+namespace ft = feetech::address;
+constexpr DoctorWords kDynamixelWords = {dxl::kBaudRates,
+                                         at::kReturnDelay,
+                                         at::kStatusReturnLevel,
+                                         at::kHardwareError,
+                                         at::kPresentVoltage,
+                                         at::kPresentPosition,
+                                         2,
+                                         2,
+                                         4,
+                                         "return_delay_time",
+                                         "status_return_level",
+                                         "Dynamixel"};
+constexpr DoctorWords kFeetechWords = {feetech::kBaudRates,
+                                       ft::kReturnDelay,
+                                       ft::kStatusLevel,
+                                       ft::kStatus,
+                                       ft::kPresentVoltage,
+                                       ft::kPresentPosition,
+                                       1,
+                                       1,
+                                       2,
+                                       "return_delay",
+                                       "status_level",
+                                       "Feetech"};
+
 class SerialDoctor {
  public:
   SerialDoctor(const BusCase& bus, Findings& found) : bus_(bus), found_(found) {}
@@ -38,11 +75,16 @@ class SerialDoctor {
   void examine();
 
  private:
+  /// False: somebody else talks there.
+  bool may_ask(const LineAnswer& before);
+  bool feetech() const { return bus_.protocol == BusProtocol::kFeetech; }
+  /// Feetech servos collide in a Ping to all, and their requests look like answers: each of the
+  /// robot's is asked, without a robot each id.
+  std::set<int> ask_each(bus::Client& client) const;
   void examine_servos(link::Link& link, std::set<int> ids);
   /// False: answers come damaged.
   bool examine_servo(link::Link& link, bus::Client& client, const bus::Identity& servo);
-  void read_registers(bus::Client& client, const bus::Identity& servo,
-                      const dxl::ServoModel& model);
+  void read_registers(bus::Client& client, const bus::Identity& servo, double low_v);
   void judge_model(const bus::Identity& servo);
   void judge_troubles();
   void judge_damaged();
@@ -57,10 +99,30 @@ class SerialDoctor {
   std::string mend(const std::set<int>& ids, const char* name, int value) const;
 
   const BusCase& bus_;
+  const DoctorWords& words_ = feetech() ? kFeetechWords : kDynamixelWords;
   Findings& found_;
   LineAnswer heard_;
   Troubles troubles_;
 };
+
+bool SerialDoctor::may_ask(const LineAnswer& before) {
+  if (feetech() && before.bytes > 0) {
+    found_.bad(
+        "bus", "another master talks on this bus, or it is noise; nothing was sent",
+        "end `verp run`, or the robot's controller; if there is none, check plugs and ground");
+    return false;
+  }
+  if (before.master || !before.ids.empty()) {
+    found_.bad("bus", "another master talks on this bus; nothing was sent",
+               "end it: `verp run`, a controller on the robot, or Dynamixel Wizard");
+    return false;
+  }
+  if (before.bytes > 0) {
+    found_.bad("noise", fmt::format("{} bytes came before anything was asked", before.bytes),
+               "swap A and B (D+ and D-), and join the grounds of adapter and servos");
+  }
+  return true;
+}
 
 void SerialDoctor::examine() {
   bool silent = false;
@@ -70,21 +132,13 @@ void SerialDoctor::examine() {
       return found_.bad("link", fmt::format("no program is at the other end of {}", bus_.link),
                         "start it (verp hil --link LINK), or correct the path");
     }
-    const LineAnswer before = listen(link, kQuiet_us);
-    if (before.master || !before.ids.empty()) {
-      return found_.bad("bus", "another master talks on this bus; nothing was sent",
-                        "end it: `verp run`, a controller on the robot, or Dynamixel Wizard");
-    }
-    if (before.bytes > 0) {
-      found_.bad("noise", fmt::format("{} bytes came before anything was asked", before.bytes),
-                 "swap A and B (D+ and D-), and join the grounds of adapter and servos");
-    }
-    heard_ = ping_all(link);
+    if (!may_ask(listen(link, kQuiet_us))) return;
+    if (!feetech()) heard_ = ping_all(link);
     if (heard_.echo) {
       found_.bad("echo", "the adapter returns the bytes that it sends",
                  "switch its receiver off while it sends (its jumper or switch), or use a U2D2");
     }
-    silent = heard_.ids.empty() && heard_.damaged == 0;
+    silent = !feetech() && heard_.ids.empty() && heard_.damaged == 0;
     if (!silent) examine_servos(link, heard_.ids);
   }
   std::set<int> present = troubles_.present;
@@ -98,16 +152,30 @@ void SerialDoctor::examine() {
   judge_strangers(bus_, present, found_);
 }
 
+std::set<int> SerialDoctor::ask_each(bus::Client& client) const {
+  std::set<int> found;
+  if (feetech() && bus_.robot) {
+    for (const int id : devices_of(bus_)) {
+      if (client.ping(static_cast<std::uint8_t>(id), 1)) found.insert(id);
+    }
+    return found;
+  }
+  if (feetech()) cli::complain("verp bus doctor: asking each id; MODEL makes it short");
+  for (const bus::Identity& each : client.scan()) found.insert(each.id);
+  return found;
+}
+
 void SerialDoctor::examine_servos(link::Link& link, std::set<int> ids) {
-  bus::Client client(link, bus_.endpoint, bus_.timeout_us);
-  ids.merge(devices_of(bus_));
+  bus::Client client(link, bus_.endpoint, bus_.timeout_us, bus_.protocol);
+  ids.merge(feetech() && !bus_.robot ? ask_each(client) : devices_of(bus_));
   for (const int id : ids) {
     const auto servo = client.ping(static_cast<std::uint8_t>(id), 2);
     const bool clear = servo ? examine_servo(link, client, *servo)
-                             : ping_one(link, id, bus_.timeout_us).bytes == 0;
+                             : feetech() || ping_one(link, id, bus_.timeout_us).bytes == 0;
     if (servo || !clear) troubles_.present.insert(id);
     if (!clear) troubles_.damaged.insert(id);
   }
+  if (troubles_.present.empty()) return;
   judge_troubles();
   if (!found_.any_bad()) judge_link(client);
 }
@@ -116,39 +184,41 @@ bool SerialDoctor::examine_servo(link::Link& link, bus::Client& client,
                                  const bus::Identity& servo) {
   judge_model(servo);
   const dxl::ServoModel* model = dxl::find_servo_model(servo.model);
-  if (model == nullptr) return true;  // a sensor or the controller
+  const bool sensor = servo.model == dxl::kModelImu || servo.model == dxl::kModelFoot;
+  if (feetech() ? sensor : model == nullptr) return true;  // or the controller
   const std::uint32_t before = client.crc_errors();
   int good = 0, asked = 0;
   while (asked < kPositionReads && (asked < 2 || good > 0)) {
     ++asked;
-    if (client.read_once(servo.id, at::kPresentPosition, 4)) ++good;
+    if (client.read_once(servo.id, words_.position, words_.position_bytes)) ++good;
   }
   if (client.crc_errors() != before) return false;
-  if (good == 0 && read_one(link, servo.id, bus_.timeout_us).bytes > 0) return false;
+  if (good == 0 && !feetech() && read_one(link, servo.id, bus_.timeout_us).bytes > 0) return false;
   if (good == 0) troubles_.quiet.insert(servo.id);  // it answers pings only
   try {
-    if (good > 0) read_registers(client, servo, *model);
+    if (good > 0) read_registers(client, servo, feetech() ? 0 : 0.1 * model->low_dv);
   } catch (const bus::DeviceError& error) {
     found_.bad(fmt::format("id {}", servo.id), error.what(), "check its cable and its plug");
   }
   return true;
 }
 
-void SerialDoctor::read_registers(bus::Client& client, const bus::Identity& servo,
-                                  const dxl::ServoModel& model) {
+void SerialDoctor::read_registers(bus::Client& client, const bus::Identity& servo, double low_v) {
   const auto byte = [&](std::uint16_t address) { return client.read(servo.id, address, 1)[0]; };
-  if (byte(at::kReturnDelay) != 0) troubles_.slow.insert(servo.id);
-  if (byte(at::kStatusReturnLevel) != 2) troubles_.quiet.insert(servo.id);
-  if (const unsigned errors = byte(at::kHardwareError); errors != 0) {
+  if (byte(words_.delay) != 0) troubles_.slow.insert(servo.id);
+  if (byte(words_.level) != words_.all_answers) troubles_.quiet.insert(servo.id);
+  const std::uint8_t status = byte(words_.error);
+  if (const unsigned errors = feetech() ? app::hardware_error_of(status) : status; errors != 0) {
     found_.bad(fmt::format("id {}", servo.id),
                fmt::format("{} has a hardware error: {}", bus_.name_of(servo.id),
                            bus::hardware_errors(errors)),
                "cure it, then switch the servo off and on, which clears it");
   }
-  const double supply_v = 0.1 * dxl::get_u16(client.read(servo.id, at::kPresentVoltage, 2).data());
-  const double wanted_v = bus_.params
-                              ? static_cast<double>(bus_.params->tuning.safety.voltage_low_v)
-                              : 0.1 * model.low_dv;
+  std::vector<std::uint8_t> voltage = client.read(servo.id, words_.voltage, words_.voltage_bytes);
+  voltage.resize(2);
+  const double supply_v = 0.1 * dxl::get_u16(voltage.data());
+  const double wanted_v =
+      bus_.params ? static_cast<double>(bus_.params->tuning.safety.voltage_low_v) : low_v;
   if (supply_v >= wanted_v || (troubles_.lowest_id != 0 && supply_v >= troubles_.lowest_v)) return;
   troubles_.lowest_id = servo.id;
   troubles_.lowest_v = supply_v;
@@ -163,7 +233,8 @@ void SerialDoctor::judge_model(const bus::Identity& servo) {
     if (joint.servo_id != servo.id || wanted == servo.model) continue;
     found_.bad(fmt::format("id {}", servo.id),
                fmt::format("{} is a {}, the robot's file says {}", bus_.name_of(servo.id),
-                           bus::model_name(servo.model), bus::model_name(wanted)),
+                           bus::model_name(servo.model, bus_.protocol),
+                           bus::model_name(wanted, bus_.protocol)),
                "take the right servo, or correct type=\"...\" of its <verp:servo>: verp check " +
                    bus_.model);
   }
@@ -172,21 +243,21 @@ void SerialDoctor::judge_model(const bus::Identity& servo) {
 std::string SerialDoctor::mend(const std::set<int>& ids, const char* name, int value) const {
   if (bus_.robot && ids.size() > 1) return bus_.set_up(-1, true);
   if (bus_.robot) return bus_.set_up(*ids.begin(), true);
-  return fmt::format("for each: verp bus write --link {} --id {} --register {} {}", bus_.link,
-                     *ids.begin(), name, value);
+  return fmt::format("for each: verp bus write{} --link {} --id {} --register {} {}",
+                     feetech() ? " --protocol feetech" : "", bus_.link, *ids.begin(), name, value);
 }
 
 void SerialDoctor::judge_troubles() {
   judge_damaged();
   if (!troubles_.quiet.empty()) {
     found_.bad("status level", "not all requests are answered by ids " + list(troubles_.quiet),
-               mend(troubles_.quiet, "status_return_level", 2));
+               mend(troubles_.quiet, words_.level_name, words_.all_answers));
   }
   if (!troubles_.slow.empty()) {
     found_.advise("return delay",
                   "not 0, which wastes time of each tick: " + list(troubles_.slow) +
                       "; `verp run` sets it to 0",
-                  mend(troubles_.slow, "return_delay_time", 0));
+                  mend(troubles_.slow, words_.delay_name, 0));
   }
   if (troubles_.lowest_id != 0) {
     found_.bad(
@@ -230,13 +301,14 @@ void SerialDoctor::judge_link(bus::Client& client) {
 
 void SerialDoctor::judge_other_rates(std::set<int>& present) {
   if (bus_.endpoint.kind != link::Endpoint::Kind::kSerial) return;
-  cli::complain("verp bus doctor: trying the other baud rates, 6 s");
+  cli::complain(fmt::format("verp bus doctor: trying the other baud rates, {} s",
+                            feetech() && !bus_.robot ? 60 : 6));
   std::map<std::uint32_t, std::set<int>> elsewhere;
-  bus::SetupLine line(bus_.endpoint, bus_.endpoint.baud);
-  for (const std::uint32_t rate : dxl::kBaudRates) {
+  bus::SetupLine line(bus_.endpoint, bus_.endpoint.baud, bus_.protocol);
+  for (const std::uint32_t rate : words_.rates) {
     if (rate == bus_.endpoint.baud) continue;
     try {
-      for (const bus::Identity& each : line.at(rate).scan()) elsewhere[rate].insert(each.id);
+      if (const std::set<int> ids = ask_each(line.at(rate)); !ids.empty()) elsewhere[rate] = ids;
     } catch (const link::LinkError&) {  // not a rate of the adapter
     }
   }
@@ -271,16 +343,17 @@ void SerialDoctor::judge_silence() {
   std::set<int> elsewhere;
   judge_other_rates(elsewhere);
   if (!elsewhere.empty()) return;
-  if (answers_old()) {
+  if (!feetech() && answers_old()) {
     return found_.bad(
         "protocol", "servos answer in Protocol 1, and not in Protocol 2",
         "set Protocol Type (13) to 2 with Dynamixel Wizard; AX servos have Protocol 1 "
-        "only");
+        "only; Feetech servos answer likewise: give --protocol feetech, or MODEL and --bus");
   }
   if (heard_.bytes > 0) {
     return found_.bad("garbage",
                       fmt::format("{} bytes came, and no packet at any baud rate", heard_.bytes),
-                      "see that these are Dynamixel servos, and that the grounds are joined");
+                      fmt::format("see that these are {} servos, and that the grounds are joined",
+                                  words_.servos));
   }
   const char* what = heard_.echo ? "only our own bytes come back" : "nothing answers";
   found_.bad("silence", fmt::format("{}, at any baud rate", what),
