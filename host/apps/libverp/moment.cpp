@@ -29,8 +29,10 @@ std::uint64_t next_token() {
 
 }  // namespace
 
-Moment::Moment(const Params& params, State& state, const Inputs& inputs, Outputs& outputs)
+Moment::Moment(const Params& params, const action::Library& actions, State& state,
+               const Inputs& inputs, Outputs& outputs)
     : params_(params),
+      actions_(actions),
       state_(state),
       inputs_(inputs),
       outputs_(outputs),
@@ -62,13 +64,13 @@ int Moment::run(verp_controller controller, void* user, std::uint32_t robot) {
 
 void Moment::decide() {
   if (decided_) throw Failure(VERP_BAD_ARGUMENT, "it has decided this moment already");
-  step(params_, state_, inputs_, outputs_);
+  step(params_, actions_, state_, inputs_, outputs_);
   core_ = outputs_;
   decided_ = true;
 }
 
 void Moment::judge() {
-  if (!decided_) step(params_, state_, inputs_, core_);
+  if (!decided_) step(params_, actions_, state_, inputs_, core_);
   control::guard(params_, inputs_, sent_, core_, outputs_);
 }
 

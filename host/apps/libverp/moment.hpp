@@ -1,6 +1,7 @@
 #pragma once
 #include <thread>
 
+#include "common/action/library.hpp"
 #include "common/control/state.hpp"
 #include "common/io/io.hpp"
 #include "common/model/params.hpp"
@@ -11,7 +12,8 @@ namespace verp::abi {
 /// One tick, passed to a user's controller. verp_decide() finds it by its token.
 class Moment {
  public:
-  Moment(const Params& params, State& state, const Inputs& inputs, Outputs& outputs);
+  Moment(const Params& params, const action::Library& actions, State& state, const Inputs& inputs,
+         Outputs& outputs);
   ~Moment();
   Moment(const Moment&) = delete;
   Moment& operator=(const Moment&) = delete;
@@ -26,6 +28,7 @@ class Moment {
 
  private:
   const Params& params_;
+  const action::Library& actions_;
   State& state_;
   const Inputs& inputs_;
   Outputs& outputs_;

@@ -15,6 +15,7 @@
 #include "host/apps/libverp/moment.hpp"
 #include "host/apps/libverp/robot_file.hpp"
 #include "host/apps/libverp/velocity.hpp"
+#include "host/author/action/get_up.hpp"
 #include "host/run/scenario/expand.hpp"
 #include "host/trace/record/trace_error.hpp"
 
@@ -136,7 +137,19 @@ RobotInstance::RobotInstance(const verp_robot& what, std::uint32_t index) : inde
   own_orders_ = what.walk_s == 0;
   open_end_ = own_orders_ || (what.flags & VERP_OPEN_END) != 0;
   if (own_orders_) orders_.take({});
+  take_actions();
   if (what.record != nullptr) open_trace(what.record);
+}
+
+/// What `verp walk` gives a robot: its lie_down. One that obeys orders may be ordered to get up.
+void RobotInstance::take_actions() {
+  if (own_orders_) {
+    const std::string why = action::offer_get_up_actions(plan_);
+    if (!why.empty()) plan_.remark = "it has no actions, because " + why;
+  } else {
+    action::take_lie_down(plan_);
+  }
+  actions_ = {plan_.actions.data(), 4 * plan_.actions.size()};
 }
 
 void RobotInstance::open_trace(const char* file) {
@@ -146,7 +159,8 @@ void RobotInstance::open_trace(const char* file) {
                                      1e-4 * v.vy_tenth_mm_s, 1e-3 * v.wz_mrad_s);
   metadata["walk_s"] = fmt::format("{}", plan_.walk_s);
   metadata["controller"] = "libverp";
-  trace_ = std::make_unique<record::TraceWriter>(file, plan_.params, metadata);
+  trace_ = std::make_unique<record::TraceWriter>(file, plan_.params, metadata,
+                                                 record::TraceOptions{.actions = plan_.actions});
 }
 
 session::Hooks RobotInstance::hooks() {
@@ -165,8 +179,8 @@ session::Hooks RobotInstance::hooks() {
 
 void RobotInstance::decide(const Params& params, State& state, const Inputs& inputs,
                            Outputs& outputs) {
-  if (controller_ == nullptr) return step(params, state, inputs, outputs);
-  Moment moment(params, state, inputs, outputs);
+  if (controller_ == nullptr) return step(params, actions_, state, inputs, outputs);
+  Moment moment(params, actions_, state, inputs, outputs);
   deciding_ = inputs.tick;
   const int answer = moment.run(controller_, user_, index_);
   if (answer != 0) {

@@ -71,6 +71,7 @@ class RobotInstance {
   const session::WalkResult& finish(session::Session& session);
 
  private:
+  void take_actions();
   void open_trace(const char* file);
   void decide(const Params& params, State& state, const Inputs& inputs, Outputs& outputs);
   void ticked(const session::Tick& tick);
@@ -78,6 +79,7 @@ class RobotInstance {
 
   const std::uint32_t index_;
   session::WalkPlan plan_;
+  action::Library actions_;  ///< in plan_.actions
   bool open_end_ = false, own_orders_ = false;
   std::unique_ptr<record::TraceWriter> trace_;
   session::LiveOrders orders_;

@@ -155,5 +155,24 @@ TEST(Libverp, DrivesARobotByOrders) {
   EXPECT_FALSE(result.fallen);
 }
 
+TEST(Libverp, ARobotLiesDownBeforeItLetsGoAndGetsUpWhenOrdered) {
+  Opened opened;
+  opened.add([](verp_robot& robot) { robot.walk_s = 0; });
+  verp_tick seen = {};
+  seen.size = sizeof seen;
+  ASSERT_EQ(verp_session_view(opened.session, 0, &seen), VERP_OK);
+  const auto order = [&](std::uint32_t request, std::uint32_t ticks) {
+    ASSERT_EQ(verp_session_command(opened.session, 0, request, 0, 0, 0, 0, 0), VERP_OK);
+    ASSERT_EQ(verp_session_tick(opened.session, ticks, nullptr, nullptr), VERP_OK);
+  };
+  order(VERP_STAND, 400);
+  order(VERP_RELAX, 1400);
+  EXPECT_EQ(seen.outputs.torque_enable, 0U);
+  EXPECT_GT(seen.truth.body_rpy_rad[1], 1.2) << "on its front";
+  order(VERP_GET_UP, 1700);
+  EXPECT_NEAR(seen.truth.body_rpy_rad[1], 0, 0.2);
+  EXPECT_NE(seen.outputs.torque_enable, 0U);
+}
+
 }  // namespace
 }  // namespace verp::abi::test
