@@ -1,11 +1,15 @@
 #pragma once
 #include <cstdint>
 
-#include "tests/hil/line_faults.hpp"
+#include "host/twin/bus/faulty_line.hpp"
 #include "tests/hil/run_result.hpp"
 #include "tests/target/twin_run.hpp"
 
 namespace verp::test {
+
+using bus::FaultyLine;
+using bus::LineDamage;
+using bus::LineFaults;
 
 enum class Event {
   kNone,

@@ -1,10 +1,10 @@
-#include "tests/hil/line_faults.hpp"
+#include "host/twin/bus/faulty_line.hpp"
 
 #include <algorithm>
 
 #include "common/protocol/dynamixel2.hpp"
 
-namespace verp::test {
+namespace verp::bus {
 namespace {
 
 constexpr std::uint32_t kLongestBurst = 24;  // bytes: a motor brush disturbs 0.1 ms
@@ -125,4 +125,4 @@ void FaultyLine::wait_until(std::uint64_t time_us) {
   }
 }
 
-}  // namespace verp::test
+}  // namespace verp::bus

@@ -7,7 +7,7 @@
 #include "hal/contract/frame_bus.hpp"
 #include "host/twin/bus/virtual_bus.hpp"
 
-namespace verp::test {
+namespace verp::bus {
 
 /// Shares of bytes and of frames, both directions.
 struct LineFaults {
@@ -28,9 +28,10 @@ struct LineDamage {
   std::uint32_t faults() const { return lost + doubled + flipped + delayed + bursts + cut_frames; }
 };
 
+/// A cable and an adapter that spoil what goes over them; in real time, at the pace of BusClock.
 class FaultyLine final : public hal::FrameBus {
  public:
-  FaultyLine(bus::VirtualBus& bus, std::uint32_t seed) : bus_(bus), random_(seed) {
+  FaultyLine(VirtualBus& bus, std::uint32_t seed) : bus_(bus), random_(seed) {
     bus.set_real_time(true);
   }
 
@@ -57,7 +58,7 @@ class FaultyLine final : public hal::FrameBus {
   std::size_t fetch(std::uint8_t* buffer, std::size_t capacity);
   void note_spoilt();
 
-  bus::VirtualBus& bus_;
+  VirtualBus& bus_;
   std::minstd_rand random_;
   LineDamage damage_;
   std::deque<Arrived> inbox_;
@@ -67,4 +68,4 @@ class FaultyLine final : public hal::FrameBus {
   bool spoilt_ = false;  ///< the last frame gets no whole answer
 };
 
-}  // namespace verp::test
+}  // namespace verp::bus
