@@ -38,6 +38,7 @@ constexpr Command kCommands[] = {
     {"action", kRobot,
      "Actions of a robot, such as wave or kick: list, check, play, convert, export, send, record"},
     {"demo", kStudy, "Robots that see, talk by radio and act by themselves; without a name: which"},
+    {"faults", kStudy, "Field bugs of robots: list them, or inject each and say who catches it"},
     {"view", kWindow,
      "A window: watch, steer, push and tune a robot in the twin, or look into a trace"},
     {"hil", kRobot, "Hardware in the loop: the twin answers a controller on a link"},

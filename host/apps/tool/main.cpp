@@ -12,6 +12,7 @@ std::vector<cli::Subcommand> all_commands(CLI::App& root) {
   return {add_walk(root),
           add_other(root, "action"),
           add_other(root, "demo"),
+          add_other(root, "faults"),
           add_view(root),
           add_other(root, "hil"),
           add_other(root, "run"),

@@ -125,6 +125,9 @@ void declare_twin(CLI::App& app, WalkOptions& options) {
       "--get-up", options.get_up,
       "falls end no walk: it falls softly, gets up by its actions fall_safe and get_up_..., "
       "and walks on");
+  app.add_option("--fault", options.fault,
+                 "inject a field bug: a mistake that builders of robots reported; `verp faults` "
+                 "lists them");
   app.add_option("--start", options.start,
                  "standing; or lying:SIDE on the floor: front, back, left, right is down; any: a "
                  "pose drawn from the seed. It gets up first")

@@ -41,6 +41,7 @@ struct WalkOptions {
   bool stand = false;              ///< stands instead of walking
   bool get_up = false;             ///< a fall does not end the walk
   std::string start = "standing";  ///< or lying:SIDE
+  std::string fault;               ///< a field bug (verp faults)
   bool vary = false;               ///< domain randomization (host/twin/sim/vary.hpp)
   std::vector<std::pair<std::string, std::string>> changed;  ///< changed_options()
   std::vector<std::string> typed;                            ///< typed_options()

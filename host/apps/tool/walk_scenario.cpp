@@ -40,7 +40,8 @@ scenario::Robot robot_of(const WalkOptions& options) {
           .at = {},
           .lies = lies_of(options),
           .get_up = options.get_up,
-          .disturbances = {}};
+          .disturbances = {},
+          .fault = {}};
 }
 
 namespace {
@@ -79,6 +80,12 @@ std::string in_words(const WalkOptions& options, const Scenario& scenario,
   if (error.where.ends_with("bus")) return fmt::format("{} --on: {} with --bus", command, what);
   if (error.where.ends_with("folder"))
     return fmt::format("{} --controller: {}; leave --get-up and --start out", command, what);
+  if (error.where.ends_with("fault")) {
+    const std::string meant =
+        error.known.empty() ? "" : cli::did_you_mean(options.fault, error.known);
+    return fmt::format("{} --fault: {}{}", command, what,
+                       meant.empty() ? "; `verp faults` lists them" : meant);
+  }
   const auto number_in = [&](std::size_t bracket) {
     return std::stoul(error.where.substr(bracket + 1));
   };
@@ -179,8 +186,9 @@ Scenario scenario_of(const WalkOptions& options, const sim::WorldOptions& world)
   if (options.radio) scenario.radio = {radio_of(options.command, *options.radio), options.seed};
   const auto first = std::find_if(scenario.robots.begin(), scenario.robots.end(),
                                   [](const auto& each) { return each.controller.link.empty(); });
-  (first == scenario.robots.end() ? scenario.robots.front() : *first).disturbances =
-      disturbances_of(options.touch);
+  scenario::Robot& disturbed = first == scenario.robots.end() ? scenario.robots.front() : *first;
+  disturbed.disturbances = disturbances_of(options.touch);
+  disturbed.fault = options.fault;
   return scenario;
 }
 

@@ -12,6 +12,7 @@
 #include "host/robot/model/load_world.hpp"
 #include "host/robot/model/params.hpp"
 #include "host/robot/model/stance.hpp"
+#include "host/run/scenario/field_bugs.hpp"
 #include "host/run/scenario/probe.hpp"
 #include "host/run/session/get_up.hpp"
 #include "host/run/session/stride.hpp"
@@ -156,7 +157,8 @@ WalkPlan plan_of(const Robot& robot, double length_s, model::Entity entity) {
   require_serial(robot, entity);
   WalkPlan plan;
   plan.entity = std::move(entity);
-  plan.params = model::make_params(plan.entity);
+  const FieldBug* bug = robot.fault.empty() ? nullptr : &field_bug(robot.fault);
+  plan.params = bug != nullptr ? params_of(*bug, plan.entity) : model::make_params(plan.entity);
   tune(robot.tuning, plan.params.tuning);
   give_orders(robot.orders, plan);
   plan.name = robot.name;
@@ -168,6 +170,7 @@ WalkPlan plan_of(const Robot& robot, double length_s, model::Entity entity) {
   plan.link = robot.controller.link;
   plan.interventions = robot.disturbances;
   prepare_falls(robot, plan);
+  if (bug != nullptr) inject(*bug, plan);
   if (!plan.link.empty()) plan.walk_s += kBeforeAndAfter_s + (plan.get_ups > 0 ? kGetUps_s : 0);
   return plan;
 }

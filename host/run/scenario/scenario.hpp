@@ -73,6 +73,7 @@ struct Robot {
   sim::Lies lies = sim::Lies::kNo;  ///< pose at the start
   bool get_up = false;              ///< a fall does not end its run
   std::vector<session::Intervention> disturbances;
+  std::string fault;  ///< a field bug (field_bugs.hpp); empty: none
 
   bool operator==(const Robot&) const = default;
 };

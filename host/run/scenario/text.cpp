@@ -282,6 +282,7 @@ void fields(Io& io, Robot& robot) {
   io.object("at", robot.at, each);
   start(io, robot.lies);
   io.value("get_up", robot.get_up);
+  io.value("fault", robot.fault);
   io.list("disturbances", robot.disturbances, each);
 }
 

@@ -10,10 +10,12 @@
 
 #include "firmware/app/app.hpp"
 #include "firmware/app/operator_device.hpp"
+#include "firmware/app/pacer.hpp"
 #include "host/boards/board/board_error.hpp"
 #include "host/boards/board/loop_on_target.hpp"
 #include "host/run/session/flow.hpp"
 #include "host/run/session/not_up.hpp"
+#include "host/twin/bus/bus_clock.hpp"
 #include "host/twin/bus/order_packets.hpp"
 #include "host/twin/bus/order_sink.hpp"
 
@@ -113,17 +115,34 @@ struct Law {
   }
 };
 
+/// In lockstep the bus paces the loop.
+template <class Bus>
+struct LoopPace {
+  explicit LoopPace(Bus&) {}
+  void start(std::uint32_t) {}
+  app::Beat next() { return {}; }
+};
+template <>
+struct LoopPace<bus::FaultyLine> {
+  explicit LoopPace(bus::FaultyLine& line) : clock(line), pacer(clock) {}
+  void start(std::uint32_t period_us) { pacer.start(period_us); }
+  app::Beat next() { return pacer.next(); }
+  bus::BusClock<bus::FaultyLine> clock;
+  app::Pacer<bus::BusClock<bus::FaultyLine>> pacer;
+};
+
 template <class Bus>
 class LocalController final : public Controller {
  public:
   LocalController(Robot& robot, Bus& bus)
       : robot_(robot),
         desk_(robot),
-        app_(robot.plan().params, bus, desk_, desk_, nullptr, {&robot}) {}
+        app_(robot.plan().params, bus, desk_, desk_, nullptr, {&robot}),
+        pace_(bus) {}
 
   bool tick() override {
     if (!std::exchange(up_, true)) bring_up();
-    app_.tick();
+    app_.tick(pace_.next());
     return true;
   }
 
@@ -131,6 +150,7 @@ class LocalController final : public Controller {
   void bring_up() {
     const app::BringUpReport report = app_.bring_up();
     desk_.brought_up(report);
+    pace_.start(robot_.plan().params.period_us);
     if (report.status == app::BringUpStatus::kReady) return;
     const bool can = robot_.plan().params.bus_protocol == BusProtocol::kCia402;
     throw not_up(report, "the twin's bus",
@@ -141,6 +161,7 @@ class LocalController final : public Controller {
   Robot& robot_;
   OperatorConsole desk_;
   app::App<Bus, OperatorConsole, OperatorConsole, app::NoImu, Law> app_;
+  LoopPace<Bus> pace_;
   bool up_ = false;
 };
 
@@ -208,6 +229,8 @@ std::unique_ptr<Controller> make_controller(Robot& robot) {
   if (robot.plan().params.bus_protocol == BusProtocol::kCia402) {
     return std::make_unique<LocalController<can::VirtualCan>>(robot, robot.can());
   }
+  if (robot.line() != nullptr)
+    return std::make_unique<LocalController<bus::FaultyLine>>(robot, *robot.line());
   return std::make_unique<LocalController<bus::VirtualBus>>(robot, robot.bus());
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "host/run/session/estimate_meter.hpp"
 #include "host/run/session/intervention.hpp"
 #include "host/trace/record/trace_writer.hpp"
+#include "host/twin/bus/faulty_line.hpp"
 #include "host/twin/sim/metrics.hpp"
 #include "host/twin/sim/robot.hpp"
 
@@ -22,6 +24,19 @@ using Decide = std::function<void(const Params&, State&, const Inputs&, Outputs&
 
 /// Robots begin at least this far from each other.
 inline constexpr double kLeastApart_m = 0.1;
+
+class Robot;
+
+/// What goes wrong in a run beyond the quantities of its physics (scenario/field_bugs.hpp). Members
+/// may be empty.
+struct Fault {
+  double at_s = -1;  ///< time in the run as for Intervention; negative: before the bring-up
+  std::optional<bus::LineFaults> line = {};
+  std::function<void(Params&)> devices = {};            ///< as they are, not as Params say
+  std::function<void(Robot&)> begin = {};               ///< once
+  std::function<void(Robot&)> each_tick = {};           ///< from then on
+  std::function<void(app::OperatorOrder&)> amend = {};  ///< likewise
+};
 
 /// One walk of one robot, determined by these values and the world's.
 struct WalkPlan {
@@ -45,6 +60,7 @@ struct WalkPlan {
   std::string name;  ///< empty: name in params
   int number = 0;    ///< in its scenario
   std::vector<Intervention> interventions;  ///< in any order
+  std::shared_ptr<const Fault> fault;       ///< null: none
 };
 
 /// State of a robot after a tick.

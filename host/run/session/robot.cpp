@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
 #include "common/control/step.hpp"
+#include "common/safety/limit.hpp"
 #include "host/run/session/asked.hpp"
 #include "host/run/session/fault_names.hpp"
 #include "host/run/session/readings.hpp"
@@ -17,8 +19,10 @@
 namespace verp::session {
 namespace {
 
-constexpr double kAfterFall_s = 0.5;  // the report shows the fall
-constexpr double kAfterStop_s = 0.3;  // the report shows the stand
+constexpr double kAfterFall_s = 0.5;         // the report shows the fall
+constexpr double kAfterStop_s = 0.3;         // the report shows the stand
+constexpr std::uint32_t kStopping = 0xFFFF;  // faults that stop the robot
+const std::string kByFault = "stopped by fault: ";
 
 Hooks with_own(Hooks hooks, const WalkPlan& plan) {
   if (!hooks.decide && plan.own) hooks.decide = plan.own();
@@ -58,7 +62,23 @@ Robot::Robot(sim::World& world, const WalkPlan& plan, Hooks hooks, Interrupted i
   if (plan_.params.bus_protocol == BusProtocol::kCia402) {
     can_.emplace(plan_.params, twin_);
   } else {
-    bus_.emplace(plan_.params, twin_);
+    Params devices = plan_.params;
+    if (plan_.fault && plan_.fault->devices) plan_.fault->devices(devices);
+    bus_.emplace(devices, twin_);
+  }
+  if (!plan_.fault) return;
+  if (plan_.fault->line && bus_) line_.emplace(*bus_, static_cast<std::uint32_t>(plan_.twin.seed));
+  if (plan_.fault->at_s < 0) go_wrong();
+}
+
+/// Begins the plan's fault, or goes on with it.
+void Robot::go_wrong() {
+  const Fault& fault = *plan_.fault;
+  if (!std::exchange(wrong_, true)) {
+    if (line_ && fault.line) line_->faults = *fault.line;
+    if (fault.begin) fault.begin(*this);
+  } else if (fault.each_tick) {
+    fault.each_tick(*this);
   }
 }
 
@@ -88,6 +108,7 @@ double Robot::gone_s() const {
 app::OperatorOrder Robot::order(std::uint32_t tick) {
   app::OperatorOrder order = hooks_.order ? hooks_.order(tick) : walker_->order(tick);
   if (hooks_.amend) hooks_.amend(tick, order);
+  if (wrong_ && plan_.fault->amend) plan_.fault->amend(order);
   return order;
 }
 
@@ -125,6 +146,7 @@ void Robot::see() {
                  std::hypot(static_cast<double>(by_m.x), static_cast<double>(by_m.y)));
   }
   const sim::Observation seen = sim::observe(twin_);
+  if (culprit_.empty()) culprit_ = culprit(seen.truth);
   meter_.tick(seen, outputs_, sim::planned_zmp_world_m(state_.tuning, state_.gait, seen.truth));
   estimate_meter_.tick(state_, outputs_, seen.truth, world_.options().up.normalized());
   if (result_.ticks == 0) {
@@ -134,6 +156,8 @@ void Robot::see() {
       bare_bits_before_ = can_->bare_bits_on_wire();
     }
   }
+  suspicions_.tick(plan_.params, tick_.inputs, state_);
+  late_ticks_ += (outputs_.faults & safety::kNoteOverrun) != 0 ? 1 : 0;
   ++result_.ticks;
   result_.digest = tick_.digest.chain;
   result_.faults = outputs_.faults;
@@ -174,6 +198,7 @@ void Robot::intervene_in_time() {
     intervene(pending_.front());
     pending_.pop_front();
   }
+  if (plan_.fault && (wrong_ || plan_.fault->at_s <= gone_s() + kRounding_s)) go_wrong();
 }
 
 void Robot::intervene(const Intervention& intervention) {
@@ -263,6 +288,10 @@ WalkResult Robot::result(double wall_s) {
   if (can_) count_traffic();
   if (result_.failure.empty() && !result_.interrupted) result_.failure = failure_of_walk();
   result_.remark = plan_.remark;
+  const std::string doubt =
+      suspicions_.text(world_.options().gravity_m_s2, world_.scenery() == nullptr);
+  if (result_.good() && !watched_ && !doubt.empty())
+    result_.remark += (result_.remark.empty() ? "" : "; ") + doubt;
   if (result_.good() && !hooks_.order && walker_->longer_than_asked()) {
     result_.remark +=
         fmt::format("{}{:g} s were asked; the shortest walk with this cycle is {:.2f} s",
@@ -337,8 +366,37 @@ void Robot::tell_exposures() {
   }
 }
 
+/// What the faults of this tick are about; empty: unknown.
+std::string Robot::culprit(const sim::Truth& truth) const {
+  constexpr std::uint32_t kSilent = safety::kFaultServoSilent | safety::kFaultNotFollowing;
+  constexpr std::uint32_t kTold = safety::kFaultTemperature | safety::kFaultServoError;
+  constexpr int kFew = 6;
+  const Params& params = plan_.params;
+  const int silent = std::popcount(state_.machine.silent);
+  const int beyond = safety::joint_beyond(params, tick_.inputs.position_count);
+  if ((outputs_.faults & kSilent) != 0 && silent > 0)
+    return silent > kFew ? fmt::format("{} servos", silent) : silent_device(params, state_);
+  if ((outputs_.faults & kTold) != 0 && tick_.inputs.slow_joint < params.servo_count())
+    return fmt::format("servo {}", params.joint[tick_.inputs.slow_joint].servo_id);
+  if ((outputs_.faults & safety::kFaultJointBeyond) != 0 && beyond < kMaxJoints)
+    return params.joint[beyond].name;
+  const bool stands = truth.body_world.linear()(2, 2) > 0.9;
+  return stands && state_.attitude.up_body.z < 0.5F ? "by its IMU it lies, and it stands" : "";
+}
+
 std::string Robot::failure_of_walk() const {
-  constexpr std::uint32_t kStopping = 0xFFFF;  // faults that stop the robot
+  std::string why = why_it_failed();
+  if (why.empty() || watched_) return why;
+  const auto known = twin_.fallen() ? std::uint32_t{safety::kFaultFall} : 0U;
+  const std::string faults = fault_names(result_.faults & kStopping & ~known);
+  if (!faults.empty() && !why.starts_with(kByFault)) why += "; fault: " + faults;
+  if (!culprit_.empty()) why += " (" + culprit_ + ")";
+  if (10 * late_ticks_ < result_.ticks) return why;
+  return why +
+         fmt::format("; its controller was late in {} of {} ticks", late_ticks_, result_.ticks);
+}
+
+std::string Robot::why_it_failed() const {
   if (watched_) return verdict_.fell() ? "fell" : "";
   if (result_.can && result_.can->overruns > 0) {
     return fmt::format("the controller lost {} CAN frames that it had no room for",
@@ -350,7 +408,7 @@ std::string Robot::failure_of_walk() const {
     return failed.empty() ? fmt::format("fell after {:.2f} s{}", walked_s(), of) : failed;
   }
   const std::string faults = fault_names(result_.faults & kStopping);
-  if (!faults.empty()) return "stopped by fault: " + faults;
+  if (!faults.empty()) return kByFault + faults;
   if (hooks_.order) return "";
   const std::string failed = walker_->failed();
   // A restart makes two walks: the way is not judged.

@@ -11,6 +11,7 @@
 #include "host/run/session/fall_story.hpp"
 #include "host/run/session/fall_verdict.hpp"
 #include "host/run/session/plan.hpp"
+#include "host/run/session/suspicions.hpp"
 #include "host/run/session/walk_operator.hpp"
 #include "host/twin/bus/virtual_bus.hpp"
 #include "host/twin/can/virtual_can.hpp"
@@ -33,6 +34,8 @@ class Robot {
   /// Only the bus of the plan's Params exists.
   bus::VirtualBus& bus() { return *bus_; }
   can::VirtualCan& can() { return *can_; }
+  /// Between controller and bus(), if the plan's fault spoils the line; else null.
+  bus::FaultyLine* line() { return line_ ? &*line_ : nullptr; }
 
   bool ticking() const { return can_ ? can_->ticking() : bus_->ticking(); }
   /// Advances time; discards what the bus receives meanwhile.
@@ -89,8 +92,11 @@ class Robot {
   void append(const sim::Scan& scan);
   void tell(const std::vector<sim::Scan>& scans) const;
   void tell_exposures();
+  std::string culprit(const sim::Truth& truth) const;
   std::string failure_of_walk() const;
+  std::string why_it_failed() const;
   void intervene_in_time();
+  void go_wrong();
   void note(const std::string& what);
   void look_after_falls();
   void tell(const std::string& news);
@@ -107,6 +113,8 @@ class Robot {
   sim::TwinRobot twin_;
   std::optional<bus::VirtualBus> bus_;
   std::optional<can::VirtualCan> can_;
+  std::optional<bus::FaultyLine> line_;
+  bool wrong_ = false;  ///< the plan's fault has begun
   std::optional<WalkOperator> walker_;
   double walked_s_ = 0;  ///< before a restart
   sim::WalkMeter meter_;
@@ -118,6 +126,9 @@ class Robot {
   State state_;
   Outputs outputs_;
   FallStory story_;
+  Suspicions suspicions_;
+  std::string culprit_;  ///< of the first fault
+  std::uint64_t late_ticks_ = 0;
   bool taken_ = false;                                    ///< take() was called, but see() not yet
   std::uint64_t bits_before_ = 0, bare_bits_before_ = 0;  ///< at the first tick
   FallVerdict verdict_;

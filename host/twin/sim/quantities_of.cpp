@@ -262,7 +262,10 @@ std::vector<Quantity> quantities_of(const std::string& name, TwinRobot& robot, i
       fault(name + ".encoder_stuck", "1: it reads the angle it had", servo.encoder_stuck),
       {name + ".encoder_off_count", "counts", "added to what it reads", -65536, 65536,
        [&servo] { return servo.encoder_off_count; },
-       [&servo](double value) { servo.encoder_off_count = value; }}};
+       [&servo](double value) { servo.encoder_off_count = value; }},
+      {name + ".temperature_c", "degrees C", "of its motor", -40, 200,
+       [&servo] { return servo.measurement().temperature_c; },
+       [&servo](double value) { servo.heat_to(value); }}};
 }
 
 std::vector<Quantity> quantities_of(const std::string& name, TwinRobot& robot, const World&) {
@@ -280,6 +283,9 @@ std::vector<Quantity> quantities_of(const std::string& name, TwinRobot& robot, c
   add(out, {name + ".com_m", "m", "centre of mass", 0, [&body] { return body.com_world_m(); }});
   add(out, {name + ".momentum_kg_m_s", "kg m/s", "of all links", 0,
             [&body] { return Vec3(body.mass_kg() * body.com_velocity_world_m_s()); }});
+  out.push_back({name + ".supply_v", "V", "set without load, read at the servos", 0, 100,
+                 [&robot] { return robot.supply_v(); },
+                 [&robot](double value) { robot.set_unloaded_v(value); }});
   ImuLies& lies = robot.imu_lies();
   out.push_back(fault(name + ".imu_stuck", "1: all its counts stay, but for one bit", lies.stuck));
   out.push_back(fault(name + ".gyro_stuck", "1: the gyro's counts stay", lies.gyro_stuck));

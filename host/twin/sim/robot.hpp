@@ -101,6 +101,7 @@ class TwinRobot final : public Plant, private Actor {
   /// Holds a limp robot upright where it lies, as at the start (Cradle). False: a servo has torque.
   bool set_upright();
   double supply_v() const { return supply_v_; }
+  void set_unloaded_v(double supply_v) { nominal_v_ = supply_v; }
   /// Energy since the start from the supply, and work on the joints without braking.
   double supply_energy_j() const { return supply_energy_j_; }
   double joint_work_j() const { return joint_work_j_; }
@@ -162,7 +163,7 @@ class TwinRobot final : public Plant, private Actor {
   FootLoads step_loads_;  ///< of the last step
   FootLoads loads_;
   std::array<double, 2> foot_force_n_{};
-  const double nominal_v_;  ///< of the supply, unloaded
+  double nominal_v_;  ///< of the supply, unloaded
   double supply_v_;
   const double supply_ohm_;
   double supply_energy_j_ = 0, joint_work_j_ = 0;

@@ -82,6 +82,7 @@ class ServoModel {
   /// An encoder that lies, to the servo's own loop too.
   bool encoder_stuck = false;
   double encoder_off_count = 0;  ///< added to what it reads
+  void heat_to(double temperature_c) { measurement_.temperature_c = temperature_c; }
   /// Those of the bearing, in addition to the servo's own.
   double joint_damping_n_m_s() const { return joint_.damping_n_m_s; }
   double joint_friction_n_m() const { return joint_.friction_n_m; }

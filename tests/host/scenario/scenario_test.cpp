@@ -53,6 +53,7 @@ class Draw {
     r.at = {number(-9, 9), number(-9, 9), number(-3, 3)};
     r.lies = static_cast<sim::Lies>(below(6));
     r.get_up = flag();
+    r.fault = text();
     if (flag()) {
       r.disturbances.push_back({.kind = Intervention::Kind::kSet,
                                 .at_s = number(0, 9),

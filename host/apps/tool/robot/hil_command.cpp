@@ -242,6 +242,12 @@ int run_hil(const CLI::App& app, HilWords words) {
   Walk walk = walk_of(options, gives_orders);
   WalkPlan& plan = walk.run.plans.front();
   plan.board = words.hil.link;
+  if (plan.fault && plan.fault->line) {
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("verp hil: --fault {}: this bug is of a cable, and yours is "
+                                     "real; give it to verp walk",
+                                     options.fault));
+  }
   check(words, plan.params);
   if (!gives_orders) refuse_without_operator(app);
   if (gives_orders && options.report_folder.empty() && !options.json)

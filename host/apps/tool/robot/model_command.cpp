@@ -1,4 +1,6 @@
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "host/apps/cli/console.hpp"
@@ -11,6 +13,8 @@
 #include "host/robot/model/find.hpp"
 #include "host/robot/model/load.hpp"
 #include "host/robot/model/load_world.hpp"
+#include "host/run/scenario/expand.hpp"
+#include "host/run/scenario/field_bugs.hpp"
 
 namespace verp::tool {
 namespace {
@@ -21,8 +25,26 @@ int check_world(const std::string& name, bool json) {
   return cli::kGood;
 }
 
-int check_robot(const std::string& name, const std::string& bus, bool json) {
+/// Throws model::LoadError with what the file's mistake is told by.
+void check_mistake(const std::string& fault, const model::Entity& entity) {
+  try {
+    const scenario::FieldBug& bug = scenario::field_bug(fault);
+    if (bug.in_file()) static_cast<void>(scenario::params_of(bug, entity));
+  } catch (const scenario::ScenarioError& error) {
+    throw cli::ToolError(
+        cli::kBadInput,
+        fmt::format("verp check --fault: {}; `verp faults` lists them", error.what()));
+  }
+  throw cli::ToolError(cli::kBadInput,
+                       fmt::format("verp check --fault {}: no reading of the file shows this bug; "
+                                   "give it to verp walk",
+                                   fault));
+}
+
+int check_robot(const std::string& name, const std::string& bus, const std::string& fault,
+                bool json) {
   const model::Entity entity = model::load_robot(model::find_model(name), bus);
+  if (!fault.empty()) check_mistake(fault, entity);
   const action::LetGo ends = action::let_go(entity);
   if (!json) {
     cli::answer(model::describe(entity) + "letting go: " + ends.words() + "\n");
@@ -40,18 +62,19 @@ int check_robot(const std::string& name, const std::string& bus, bool json) {
 
 cli::Subcommand add_check(CLI::App& root) {
   struct Options {
-    std::string model, bus;
+    std::string model, bus, fault;
     bool json = false;
   };
   CLI::App* app = cli::declare_other(root, "check");
   auto options = std::make_shared<Options>();
   cli::add_model(*app, options->model)->required();
   cli::add_bus_option(*app, options->bus);
+  app->add_option("--fault", options->fault, "put this field bug into the file (verp faults)");
   cli::add_json_flag(*app, options->json);
   return {app, [options] {
             return model::is_world(options->model)
                        ? check_world(options->model, options->json)
-                       : check_robot(options->model, options->bus, options->json);
+                       : check_robot(options->model, options->bus, options->fault, options->json);
           }};
 }
 

@@ -17,6 +17,7 @@
 #include "host/os/link/system_clock.hpp"
 #include "host/run/session/fault_names.hpp"
 #include "host/run/session/not_up.hpp"
+#include "host/run/session/suspicions.hpp"
 #include "host/trace/record/trace_error.hpp"
 #include "host/twin/bus/assumed_imu.hpp"
 
@@ -49,6 +50,7 @@ struct RunKeeper {
   void record(const TickRecord& tick, const State& state, const Outputs& outputs) {
     robot.record(tick, state, outputs);  // before a slow disk
     person.observe(state, outputs);
+    suspicions.tick(params, tick.inputs, state);
     ++walk.ticks;
     walk.digest = tick.digest.chain;
     walk.faults |= outputs.faults;
@@ -64,6 +66,8 @@ struct RunKeeper {
   RunOperator& person;
   WalkResult& walk;
   record::TraceWriter* trace;
+  const Params& params;
+  session::Suspicions suspicions = {};
 };
 
 /// Drives one robot in real time, or in a twin's time. Robot is the access to it:
@@ -90,7 +94,7 @@ class RobotRun {
             [this](auto from, auto to, auto faults, const std::string& story,
                    const std::string& silent) { tell(from, to, faults, story, silent); },
             plan.walk.get_ups, plan.walk.stands),
-        keeper_{robot_, operator_, result_.walk, trace},
+        keeper_{robot_, operator_, result_.walk, trace, params_},
         app_(params_, robot_.bus(), operator_, keeper_,
              plan.has_imu && plan.own_imu == nullptr ? nullptr : &imu_,
              app::Core{{plan.walk.actions.data(), 4 * plan.walk.actions.size()}}) {
@@ -244,6 +248,9 @@ class RobotRun {
   }
 
   void finish() {
+    constexpr double kGravity_m_s2 = 9.81;
+    const std::string doubt = keeper_.suspicions.text(kGravity_m_s2, true);
+    if (!doubt.empty()) say(doubt);
     WalkResult& walk = result_.walk;
     walk.interrupted = cli::interrupted();
     walk.simulated_s = 1e-6 * static_cast<double>(params_.period_us) *

@@ -6,8 +6,8 @@ namespace {
 using namespace verp::tool;
 
 std::vector<verp::cli::Subcommand> commands(CLI::App& root) {
-  return {add_demo(root), add_compare(root), add_identify(root),
-          add_tune(root), add_trace(root),   add_bench(root)};
+  return {add_demo(root), add_faults(root), add_compare(root), add_identify(root),
+          add_tune(root), add_trace(root),  add_bench(root)};
 }
 
 }  // namespace
