@@ -56,11 +56,12 @@ std::string row(const FieldBug& bug, const Trial& trial, const model::Entity& en
     thread = fmt::format(" ([{}](https://github.com/{}/issues/{}))", thread, thread.substr(0, mark),
                          thread.substr(mark + 1));
   }
+  const bool expected = bug.catcher == Catcher::kNobody && trial.catcher == bug.catcher;
   const bool awake = trial.catcher == Catcher::kTable || trial.catcher == Catcher::kTwin;
   const std::string after = trial.after_s < 0 ? "at the end" : fmt::format("{:.2f}", trial.after_s);
   return fmt::format("| {} | {}{} | `{}` | {} | {} | {} |\n", bug.name, cell(bug.what), thread,
                      cell(how(bug, entity)), in_words(trial.catcher), awake ? after : "",
-                     trial.catcher == Catcher::kNobody ? cell(bug.word) : cell(trial.line));
+                     cell(expected ? bug.word : trial.line));
 }
 
 std::vector<Trial> try_all(const model::Entity& entity, unsigned jobs) {
@@ -75,7 +76,11 @@ std::vector<Trial> try_all(const model::Entity& entity, unsigned jobs) {
   workers.run(bugs.size(), [&](std::size_t i) {
     std::unique_lock<std::mutex> lock(reader, std::defer_lock);
     if (bugs[i].in_file()) lock.lock();
-    trials[i] = try_bug(bugs[i], entity);
+    try {
+      trials[i] = try_bug(bugs[i], entity);
+    } catch (const scenario::ScenarioError& error) {
+      trials[i].line = fmt::format("not injected: {}", error.what());
+    }
     workers.step_done();
   });
   progress.clear();
@@ -112,16 +117,12 @@ std::string page(const model::Entity& entity, const std::vector<Trial>& trials) 
 int run_faults(const FaultsWords& words) {
   const model::Entity entity = model::load_robot(model::find_model(words.robot));
   if (!words.run) return cli::answer(list(entity)), cli::kGood;
-  try {
-    const std::vector<Trial> trials = try_all(entity, words.jobs);
-    if (cli::interrupted()) {
-      cli::complain("verp faults: interrupted");
-      return cli::kRunFailed;
-    }
-    cli::answer(page(entity, trials));
-  } catch (const scenario::ScenarioError& error) {
-    throw cli::ToolError(cli::kBadInput, fmt::format("verp faults: {}", error.what()));
+  const std::vector<Trial> trials = try_all(entity, words.jobs);
+  if (cli::interrupted()) {
+    cli::complain("verp faults: interrupted");
+    return cli::kRunFailed;
   }
+  cli::answer(page(entity, trials));
   return cli::kGood;
 }
 
