@@ -253,9 +253,9 @@ int verp_session_digest(verp_session session, uint32_t robot, uint64_t* digest);
 int verp_session_result(verp_session session, uint32_t robot, verp_result* result);
 
 /* Takes control of the robot: velocity in its body frame, head angles positive to the left and
- * down. The order passes through the robot's registers, like any other. Relaxed, the robot lies down
- * by its action lie_down before torque goes, if it has that action. With walk_s = 0 it also has its
- * other actions, and gets up when ordered. */
+ * down. The order passes through the robot's registers, like any other. Relaxed, the robot lies
+ * down by its action lie_down before torque goes, if it has that action. With walk_s = 0 it also
+ * has its other actions, and gets up when ordered. */
 int verp_session_command(verp_session session, uint32_t robot, uint32_t request, double vx_m_s,
                          double vy_m_s, double wz_rad_s, double pan_rad, double tilt_rad);
 /* Ends the caller's control; the requested walk continues. */
