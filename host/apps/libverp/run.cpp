@@ -141,7 +141,7 @@ RobotInstance::RobotInstance(const verp_robot& what, std::uint32_t index) : inde
   if (what.record != nullptr) open_trace(what.record);
 }
 
-/// What `verp walk` gives a robot: its lie_down. One that obeys orders may be ordered to get up.
+/// The robot's lie_down, as `verp walk` gives it. One that obeys orders may be ordered to get up.
 void RobotInstance::take_actions() {
   if (own_orders_) {
     const std::string why = action::offer_get_up_actions(plan_);

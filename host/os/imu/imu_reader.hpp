@@ -29,7 +29,7 @@ class ImuReader {
 
   hal::ImuStatus read(hal::ImuSample& sample);
   std::uint32_t faults() const { return faults_; }
-  /// What the chip last did.
+  /// The chip's last answer.
   hal::ImuStatus status() const { return status_; }
 
  private:

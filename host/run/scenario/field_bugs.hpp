@@ -7,7 +7,7 @@
 namespace verp::scenario {
 
 enum class BugFamily { kBus, kServo, kImu, kModel, kPower };
-/// Who finds a bug; all but the last three before a servo has torque.
+/// The part that finds a bug. kCheck and kBringUp find it before a servo has torque.
 enum class Catcher { kCheck, kBringUp, kTable, kTwin, kNobody };
 
 inline constexpr double kBegins_s = 2;  ///< of most bugs, into the gait

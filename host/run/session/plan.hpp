@@ -27,7 +27,7 @@ inline constexpr double kLeastApart_m = 0.1;
 
 class Robot;
 
-/// What goes wrong in a run beyond the quantities of its physics (scenario/field_bugs.hpp). Members
+/// A mistake in a run beyond the quantities of its physics (scenario/field_bugs.hpp). Members
 /// may be empty.
 struct Fault {
   double at_s = -1;  ///< time in the run as for Intervention; negative: before the bring-up

@@ -366,7 +366,7 @@ void Robot::tell_exposures() {
   }
 }
 
-/// What the faults of this tick are about; empty: unknown.
+/// The device behind the faults of this tick; empty: unknown.
 std::string Robot::culprit(const sim::Truth& truth) const {
   constexpr std::uint32_t kSilent = safety::kFaultServoSilent | safety::kFaultNotFollowing;
   constexpr std::uint32_t kTold = safety::kFaultTemperature | safety::kFaultServoError;

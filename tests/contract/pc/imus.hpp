@@ -153,7 +153,7 @@ class Mpu6050Model : public hal::stm32::model::ImuDevice {
     i2c_off |= address == 0x6A && (data[0] & 0x10) != 0;
     return true;
   }
-  bool i2c_off = false;  ///< I2C was switched off by somebody on I2C
+  bool i2c_off = false;  ///< a driver on I2C has switched I2C off
 };
 
 struct Mpu6050Rig {

@@ -75,7 +75,7 @@ class SerialDoctor {
   void examine();
 
  private:
-  /// False: somebody else talks there.
+  /// False: another master talks there.
   bool may_ask(const LineAnswer& before);
   bool feetech() const { return bus_.protocol == BusProtocol::kFeetech; }
   /// Feetech servos collide in a Ping to all, and their requests look like answers: each of the
