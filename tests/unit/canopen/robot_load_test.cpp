@@ -73,6 +73,11 @@ TEST(RobotLoad, SaysHowManyDrivesFit) {
 TEST(RobotLoad, PublishesOnlyWhereOrdersStillFit) {
   Params params = robot_of(6);
   EXPECT_TRUE(has_room_to_publish(params, false));
+  EXPECT_TRUE(has_room_to_publish(params, true)) << "the IMU's counts have room, too";
+  Params full = robot_of(verp::test::kJointCount);
+  EXPECT_TRUE(has_room_to_publish(full, true)) << "21 drives at 100 Hz";
+  full.period_us = 7'000;
+  EXPECT_FALSE(has_room_to_publish(full, true)) << "21 drives at 143 Hz";
   params.baud = 125'000;
   EXPECT_FALSE(has_room_to_publish(params, false));
   params.baud = 0;
