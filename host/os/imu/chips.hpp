@@ -10,7 +10,7 @@ namespace verp::imu {
 struct ChipType {
   Chip chip;
   const char* name;
-  std::uint8_t id_at, id;     ///< the register that tells the kind
+  std::uint8_t id_at, id;     ///< the register that identifies the chip
   std::uint8_t addresses[2];  ///< on I2C, the usual one first
   bool has_uart;
   const char* wiring;  ///< what else to check if it is silent

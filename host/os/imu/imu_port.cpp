@@ -137,7 +137,7 @@ void ImuPort::refuse_silent(const ImuPlace& place, I2cCalls& calls) {
   }
   const std::string other = place.serial ? "" : elsewhere(place, calls);
   if (!other.empty()) {
-    throw link::LinkError(Kind::kNoDevice, where + "nobody answers there; give --imu " + other);
+    throw link::LinkError(Kind::kNoDevice, where + "no chip answers there; give --imu " + other);
   }
   throw link::LinkError(
       Kind::kNoDevice,

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <string_view>
 
 #include "host/os/link/endpoint.hpp"
 #include "host/os/link/link_error.hpp"
@@ -75,12 +76,11 @@ GpioCalls& kernel_gpio_calls() {
 }
 
 StopPlace parse_stop(const std::string& words) {
-  constexpr const char* kKind = "gpio:";
+  constexpr std::string_view kKind = "gpio:";
   const std::size_t comma = words.rfind(',');
   StopPlace place;
-  const bool whole = words.starts_with(kKind) && comma != std::string::npos && comma > 5;
-  if (whole) {
-    place.chip = words.substr(5, comma - 5);
+  if (words.starts_with(kKind) && comma != std::string::npos && comma > kKind.size()) {
+    place.chip = words.substr(kKind.size(), comma - kKind.size());
     const char* end = words.data() + words.size();
     const auto read = std::from_chars(words.data() + comma + 1, end, place.line);
     if (read.ec == std::errc{} && read.ptr == end && place.chip.starts_with('/')) return place;

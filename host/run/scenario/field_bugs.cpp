@@ -260,7 +260,7 @@ const FieldBug kBugs[] = {
     {"mass_in_grams", kModel, "A mass is in grams", "ros-industrial/kuka_experimental#36", kCheck,
      "check the units", file("<link name=\"{trunk}\"", "<mass>", "*1000")},
     {"link_in_mm", kModel, "A link's length is in millimetres", "personalrobotics/or_urdf#6",
-     kCheck, "", file("<joint name=\"{knee}\"", "{thigh}\">", "*1000")},
+     kCheck, "check the units", file("<joint name=\"{knee}\"", "{thigh}\">", "*1000")},
     {"axis_sign", kModel, "A joint's axis has the wrong sign", "osrf/drcsim#68", kCheck,
      "tilts the sole", file("<joint name=\"{knee}\"", "<xyz>", "*-1")},
     {"legs_swapped", kModel, "Left and right leg are swapped",

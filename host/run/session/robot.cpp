@@ -22,7 +22,7 @@ namespace {
 constexpr double kAfterFall_s = 0.5;         // the report shows the fall
 constexpr double kAfterStop_s = 0.3;         // the report shows the stand
 constexpr std::uint32_t kStopping = 0xFFFF;  // faults that stop the robot
-const std::string kByFault = "stopped by fault: ";
+constexpr const char* kByFault = "stopped by fault: ";
 
 Hooks with_own(Hooks hooks, const WalkPlan& plan) {
   if (!hooks.decide && plan.own) hooks.decide = plan.own();

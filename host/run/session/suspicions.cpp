@@ -12,8 +12,8 @@ namespace {
 /// A chip's scale is right within 3 % (ICM-20648, DS-000179); the mean of a walk was within 3 %.
 constexpr double kOff = 0.1;
 constexpr float kMean_ticks = 100;
-/// The core learns up to 2.9 degrees of each sole (balance/zeros.cpp). Ends of zero errors of both
-/// legs, all one way, make less.
+/// The core learns up to 2.9 degrees of each sole (balance/zeros.cpp). Zero errors of the joints
+/// make less, even if all of them are at their limit and lean both soles to one side.
 constexpr double kLean_rad = 0.045;
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "hal/chip/bosch/bno055.hpp"
@@ -59,74 +60,69 @@ class Bno055Wire final : public hal::ByteLink {
 };
 
 /// A PC's Imu without its thread: the test collects.
-template <bool kUart>
-struct Bno055Rig {
-  using Clock = hal::ManualClock;
+template <class Model>
+class CollectingRig {
+ public:
+  /// The chip has settled when it has measured for so many turns of 5 ms.
+  CollectingRig(int turns, imu::Collect collect) : reader(std::move(collect)), turns_(turns) {}
+  void break_chip(bool yes) { model.silent = yes; }
+  hal::ImuStatus read(hal::ImuSample& sample) {
+    turn();
+    return reader.read(sample);
+  }
+  std::uint32_t faults() const { return reader.faults(); }
+  hal::ImuStatus turn(std::uint32_t after_us = 100) {
+    clock.advance(after_us);
+    return reader.turn();
+  }
+  /// For two seconds at most.
+  void settle() {
+    for (int i = 0, measuring = 0; i < 400 && measuring < turns_; ++i) {
+      turn(5'000);
+      measuring = model.measures() ? measuring + 1 : 0;
+    }
+  }
 
-  Bno055Rig() { settle(); }
+  hal::ManualClock clock;
+  Model model;
+  imu::ImuReader reader;
+
+ private:
+  const int turns_;
+};
+
+template <bool kUart>
+struct Bno055Rig : CollectingRig<imu::Bno055Model> {
+  Bno055Rig()
+      : CollectingRig(5,
+                      [this](auto& mean, auto& time_us) { return chip.collect(mean, time_us); }) {
+    settle();
+  }
   void measure(std::int16_t gyro_x) {
     model.measure({.gyro_count = {gyro_x, 0, 0}, .accel_count = {0, 0, 981}});
     turn();
   }
-  void break_chip(bool yes) { model.silent = yes; }
-  hal::ImuStatus read(hal::ImuSample& sample) {
-    turn();
-    return reader.read(sample);
-  }
-  std::uint32_t faults() const { return reader.faults(); }
-  /// Until the chip measures, or for two seconds.
-  void settle() {
-    for (int i = 0, measuring = 0; i < 400 && measuring < 5; ++i) {
-      turn(5'000);
-      measuring = model.measures() ? measuring + 1 : 0;
-    }
-  }
-  hal::ImuStatus turn(std::uint32_t after_us = 100) {
-    clock.advance(after_us);
-    return reader.turn();
-  }
 
-  Clock clock;
-  imu::Bno055Model model;
   Bno055Wire wire{model, clock};
-  hal::bosch::Bno055Uart<Clock> uart{wire, clock};
+  hal::bosch::Bno055Uart<hal::ManualClock> uart{wire, clock};
   ModelBus<imu::Bno055Model> i2c{model, clock};
   hal::RegisterBus& bus = kUart ? static_cast<hal::RegisterBus&>(uart) : i2c;
-  hal::bosch::Bno055<Clock> chip{bus, clock};
-  imu::ImuReader reader{
-      [this](hal::ImuMean& mean, std::uint64_t& time_us) { return chip.collect(mean, time_us); }};
+  hal::bosch::Bno055<hal::ManualClock> chip{bus, clock};
 };
 
-struct Icm42688Rig {
-  Icm42688Rig() { settle(); }
+struct Icm42688Rig : CollectingRig<Icm42688Model> {
+  Icm42688Rig()
+      : CollectingRig(14,
+                      [this](auto& mean, auto& time_us) { return chip.collect(mean, time_us); }) {
+    settle();
+  }
   void measure(std::int16_t gyro_x) {
     model.measure({gyro_x, 0, 0}, {0, 0, 8192});
     turn();
   }
-  void break_chip(bool yes) { model.silent = yes; }
-  hal::ImuStatus read(hal::ImuSample& sample) {
-    turn();
-    return reader.read(sample);
-  }
-  std::uint32_t faults() const { return reader.faults(); }
-  /// Until the chip has measured for 70 ms, or for half a second.
-  void settle() {
-    for (int i = 0, measuring = 0; i < 100 && measuring < 14; ++i) {
-      turn(5'000);
-      measuring = model.measures() ? measuring + 1 : 0;
-    }
-  }
-  hal::ImuStatus turn(std::uint32_t after_us = 100) {
-    clock.advance(after_us);
-    return reader.turn();
-  }
 
-  hal::ManualClock clock;
-  Icm42688Model model;
   ModelBus<Icm42688Model> i2c{model, clock};
   hal::invensense::Icm42688<hal::ManualClock> chip{i2c, clock};
-  imu::ImuReader reader{
-      [this](hal::ImuMean& mean, std::uint64_t& time_us) { return chip.collect(mean, time_us); }};
 };
 
 /// The model of the chip behind SPI, as if on I2C.

@@ -106,7 +106,7 @@ TEST(ImuPort, SaysWhatIsWrongAndHowToMendIt) {
             std::string::npos);
 }
 
-/// What a chip so mounted feels: upright, and tilted forward by 30 degrees.
+/// A chip with this mounting feels the robot upright, and tilted forward by 30 degrees.
 Mount mount_felt(const std::string& words) {
   const std::array<float, 9> body_imu = *parse_imu("i2c:/dev/i2c-1,bno055," + words).body_imu;
   const double poses[2][3] = {{0, 0, 9.8}, {-4.9, 0, 8.49}};

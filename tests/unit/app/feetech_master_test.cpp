@@ -36,7 +36,7 @@ TEST(FeetechMaster, AnEchoOfItsOwnRequestIsNoAnswer) {
   EXPECT_EQ(master.counters().strays, 0u);
 }
 
-// What a board sends when it refuses to start.
+// A board that refuses to start sends it.
 TEST(SerialServos, TorqueOffIsInTheWordsOfTheFamily) {
   const auto sent = [](BusProtocol protocol) {
     std::uint8_t frame[32];

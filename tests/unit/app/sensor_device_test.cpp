@@ -42,7 +42,7 @@ struct SensorBench {
     }
     return whole;
   }
-  /// Of the packet last heard.
+  /// Word `index` of the last packet.
   std::int16_t word(int index) const {
     return static_cast<std::int16_t>(dxl::get_u16(parser.packet().parameters + 2 * index));
   }

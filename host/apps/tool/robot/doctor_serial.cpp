@@ -34,7 +34,7 @@ struct Troubles {
   double lowest_v = 0, wanted_v = 0;
 };
 
-/// What a protocol calls these registers.
+/// The registers that the doctor reads, in one protocol.
 struct DoctorWords {
   std::span<const std::uint32_t> rates;
   std::uint16_t delay, level, error, voltage, position;

@@ -25,7 +25,7 @@ int check_world(const std::string& name, bool json) {
   return cli::kGood;
 }
 
-/// Throws model::LoadError with what the file's mistake is told by.
+/// Throws the model::LoadError that reports this mistake in the file.
 void check_mistake(const std::string& fault, const model::Entity& entity) {
   try {
     const scenario::FieldBug& bug = scenario::field_bug(fault);

@@ -30,7 +30,7 @@ void do_without_imu(Params& params) {
   params.tuning.gait.heading_gain = 0;
 }
 
-/// The controller's own chip, in its scale; its mounting is the file's unless `place` tells it.
+/// The controller's own chip, in its scale; its mounting is the file's, unless `place` has one.
 void take_own_imu(const imu::ImuPlace& place, Params& params) {
   const model::ImuType& type = *model::find_imu_type(imu::name_of(place.chip));
   params.imu.device_id = 0;
