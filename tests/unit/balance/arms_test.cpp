@@ -72,5 +72,14 @@ TEST(Arms, SwingNoFurtherThanAPersonWould) {
   EXPECT_EQ(largest_rad(swung(test::kRobot, {}, posture(0.3F, 0))), 0.6F);
 }
 
+TEST(Arms, AJointBeyondTheLastIsNone) {
+  Params params = test::make_robot();
+  params.arm[gait::kRight] = 0xFF;
+  for (int none = params.joint_count; none < kMaxJoints; ++none) {
+    params.arm[gait::kLeft] = static_cast<std::uint8_t>(none);
+    EXPECT_EQ(largest_rad(swung(params, {}, posture(0.1F, 0))), 0.0F) << none;
+  }
+}
+
 }  // namespace
 }  // namespace verp::balance

@@ -170,5 +170,21 @@ TEST(BusLoad, TwentyOneDrivesFitAt125HzAndNotAt200) {
   EXPECT_GT(load_permille(tick, {}, 5000), 700u);
 }
 
+TEST(BusLoad, AnFdFrameShorterThanItsLengthCodeIsFilledWithZeros) {
+  test::Dice dice(4);
+  for (std::uint8_t size = 0; size <= 64; ++size) {
+    Frame frame;
+    frame.fd = true;
+    frame.bit_rate_switch = dice.one_in(2);
+    frame.id = dice.below(0x800);
+    for (std::uint8_t& byte : frame.data) byte = static_cast<std::uint8_t>(dice.below(256));
+    frame.size = size;
+    Frame filled = frame;
+    filled.size = can_fd_size(size);
+    for (unsigned i = size; i < filled.size; ++i) filled.data[i] = 0;
+    EXPECT_TRUE(exact_bits(frame) == exact_bits(filled)) << int{size};
+  }
+}
+
 }  // namespace
 }  // namespace verp::canopen

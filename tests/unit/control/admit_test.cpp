@@ -24,7 +24,7 @@ struct Telemetry {
     inputs.slow_error = error;
     inputs.slow_voltage_tenth_v = tenth_v;
     ++inputs.tick;
-    return last = admit(kRobot, state, tuning, inputs);
+    return last = admit(*robot, state, tuning, inputs);
   }
   /// Servos in `bad` are too hot or report an error.
   AdmitOut round(std::uint32_t bad, bool error = false) {
@@ -36,6 +36,7 @@ struct Telemetry {
   }
   bool power_bad() const { return (last.conditions & safety::kTrouble) != 0; }
 
+  const Params* robot = &kRobot;
   AdmitState state;
   Tuning tuning = kRobot.tuning;
   Inputs inputs;
@@ -134,8 +135,8 @@ struct Senses {
   AdmitOut tick(std::uint32_t periods = 1) {
     inputs.tick += periods;
     if (noise) inputs.gyro_count[0] = static_cast<std::int16_t>(inputs.gyro_count[0] ^ 1);
-    if (state.started == 0) start(kRobot, inputs, state);
-    return last = admit(kRobot, state, tuning, inputs);
+    if (state.started == 0) start(*robot, inputs, state);
+    return last = admit(*robot, state, tuning, inputs);
   }
   bool is(safety::Condition condition) const { return (last.conditions & condition) != 0; }
 
@@ -144,6 +145,7 @@ struct Senses {
     inputs.fresh = ~0U;
     inputs.accel_count[2] = 8172;
   }
+  const Params* robot = &kRobot;
   AdmitState state;
   Tuning tuning = kRobot.tuning;
   Inputs inputs;
@@ -271,6 +273,121 @@ TEST(Admit, WalkEndsWhereTheControllerStoodStill) {
   loop.tick();
   EXPECT_TRUE(loop.is_in(safety::Mode::kRising));
   EXPECT_GE(loop.until(safety::Mode::kWalking, 600), 100) << "by way of a stand";
+}
+
+TEST(Admit, ImuMountedAskewIsReadInTheBodysAxes) {
+  static Params params;
+  params = kRobot;
+  ImuParams& imu = params.imu;
+  test::Random random(5);
+  for (int round = 0; round < 40; ++round) {
+    imu.gyro_rad_s_per_count = random.between(1e-4F, 1e-2F);
+    imu.accel_m_s2_per_count = random.between(1e-4F, 1e-2F);
+    for (float& each : imu.body_imu) each = random.between(-1, 1);
+    Senses senses;
+    senses.robot = &params;
+    for (std::int16_t& count : senses.inputs.gyro_count) count = std::int16_t(random.bits());
+    for (std::int16_t& count : senses.inputs.accel_count) count = std::int16_t(random.bits());
+    senses.tick();
+    ASSERT_TRUE(senses.last.imu_fresh);
+    for (int row = 0; row < 3; ++row) {
+      double gyro = 0, accel = 0;
+      for (int i = 0; i < 3; ++i) {
+        const double part = imu.body_imu[3 * row + i];
+        gyro += part * senses.inputs.gyro_count[i] * double{imu.gyro_rad_s_per_count};
+        accel += part * senses.inputs.accel_count[i] * double{imu.accel_m_s2_per_count};
+      }
+      EXPECT_NEAR(senses.last.gyro_body_rad_s(row), gyro, 1e-4);
+      EXPECT_NEAR(senses.last.accel_body_m_s2(row), accel, 1e-4);
+    }
+  }
+}
+
+TEST(Admit, OrdersAreTakenInTheirUnits) {
+  test::Random random(6);
+  Senses senses;
+  Command& command = senses.inputs.command;
+  for (int round = 0; round < 256; ++round) {
+    command.request = static_cast<Request>(round);
+    for (std::int16_t* const value :
+         {&command.vx_tenth_mm_s, &command.vy_tenth_mm_s, &command.wz_mrad_s,
+          &command.head_pan_mrad, &command.head_tilt_mrad}) {
+      *value = std::int16_t(random.bits());
+    }
+    senses.tick();
+    EXPECT_NEAR(senses.last.vx_m_s, command.vx_tenth_mm_s / 1e4, 1e-6);
+    EXPECT_NEAR(senses.last.vy_m_s, command.vy_tenth_mm_s / 1e4, 1e-6);
+    EXPECT_NEAR(senses.last.wz_rad_s, command.wz_mrad_s / 1e3, 1e-5);
+    EXPECT_NEAR(senses.last.head_pan_rad, command.head_pan_mrad / 1e3, 1e-5);
+    EXPECT_NEAR(senses.last.head_tilt_rad, command.head_tilt_mrad / 1e3, 1e-5);
+    const bool walk = command.request == Request::kWalk;
+    const bool up =
+        walk || command.request == Request::kStand || command.request == Request::kGetUp;
+    EXPECT_EQ(senses.is(safety::kAskWalk), walk) << round;
+    EXPECT_EQ(senses.is(safety::kAskStand), up) << round;
+    EXPECT_EQ(senses.is(safety::kAskRelax), !up) << round;
+  }
+}
+
+TEST(Admit, EachJointOfTheLargestRobotHasItsOwnAlarmAndAge) {
+  static Params params;
+  params = kRobot;
+  params.joint_count = kMaxJoints;
+  for (int j = 0; j < kMaxJoints; ++j) {
+    Telemetry telemetry;
+    telemetry.robot = &params;
+    for (int n = 0; n < kAlarmReadings; ++n) telemetry.read(j, kHot_c);
+    EXPECT_TRUE(telemetry.power_bad()) << j;
+    telemetry.read((j + 1) % kMaxJoints, kGood_c);
+    EXPECT_TRUE(telemetry.power_bad()) << "another joint is well, not " << j;
+    telemetry.read(j, kGood_c);
+    EXPECT_FALSE(telemetry.power_bad()) << j;
+    Senses senses;
+    senses.robot = &params;
+    senses.tick();
+    senses.inputs.fresh = ~(1U << j);
+    for (int n = 1; n <= kHold_ticks; ++n) {
+      EXPECT_FALSE(senses.is(safety::kStale)) << j;
+      senses.tick();
+    }
+    EXPECT_TRUE(senses.is(safety::kStale)) << j;
+    EXPECT_EQ(int{senses.state.servo_age[j]}, kHold_ticks);
+  }
+}
+
+TEST(Admit, HeatAndLowSupplyBeginAtTheTunedLimits) {
+  for (int c = 60; c < 90; ++c) {
+    Telemetry telemetry;
+    for (int n = 0; n < kAlarmReadings; ++n) telemetry.read(3, static_cast<std::uint8_t>(c));
+    EXPECT_EQ(telemetry.power_bad(), c > 72) << c;
+  }
+  for (std::uint16_t tenth_v = 80; tenth_v < 110; ++tenth_v) {
+    if (tenth_v == 96) continue;  // a rounding decides
+    Telemetry telemetry;
+    for (int n = 0; n < kSupplyReadings; ++n) telemetry.read(3, kGood_c, 0, tenth_v);
+    EXPECT_EQ(telemetry.power_bad(), tenth_v < 96) << tenth_v;
+  }
+}
+
+TEST(Admit, OperatorIsQuietAndGoneAfterTheTunedTimesAtAnyPeriod) {
+  static Params params;
+  params = kRobot;
+  for (const std::uint32_t period_us : {2500U, 8000U, 10000U, 20000U}) {
+    params.period_us = period_us;
+    Senses senses;
+    senses.robot = &params;
+    senses.tuning.safety.command_hold_s = 0.3031F;
+    senses.tuning.safety.command_release_s = 0.7017F;
+    senses.tick();
+    senses.inputs.flags = kImuFresh;
+    for (int n = 1; n * period_us < 800'000; ++n) {
+      senses.tick();
+      const double age_s = 1e-6 * n * period_us;
+      ASSERT_EQ(senses.is(safety::kOperatorQuiet), age_s > 0.3031) << age_s;
+      ASSERT_EQ(senses.is(safety::kOperatorGone), age_s > 0.7017) << age_s;
+      ASSERT_EQ(senses.last.faults, age_s > 0.3031 ? safety::kFaultOperatorQuiet | 0U : 0U);
+    }
+  }
 }
 
 }  // namespace

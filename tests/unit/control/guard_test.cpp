@@ -66,6 +66,17 @@ TEST(Guard, SendsTheOthersGoalsOnlyWhereTheRobotStandsOrWalks) {
   }
 }
 
+TEST(Guard, JudgesNoGoalOfALimpJoint) {
+  for (const bool core : {false, true}) {
+    Rig rig;
+    (core ? rig.core : rig.asked).torque_enable &= ~(1U << kJoint);
+    rig.core.goal_count[kJoint] += 7;
+    rig.asked.goal_count[kJoint] = 1'000'000;
+    EXPECT_EQ(rig.tick(Mode::kStanding), int{kMaxJoints}) << "none is refused";
+    EXPECT_EQ(rig.sent.goal_count[kJoint], rig.core.goal_count[kJoint]);
+  }
+}
+
 TEST(Guard, SaysWhatTheCoreSaysOfModeAndFaults) {
   Rig rig;
   rig.core.faults = safety::kFaultVoltage;
