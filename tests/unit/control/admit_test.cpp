@@ -380,7 +380,7 @@ TEST(Admit, OperatorIsQuietAndGoneAfterTheTunedTimesAtAnyPeriod) {
     senses.tuning.safety.command_release_s = 0.7017F;
     senses.tick();
     senses.inputs.flags = kImuFresh;
-    for (int n = 1; n * period_us < 800'000; ++n) {
+    for (std::uint32_t n = 1; n * period_us < 800'000; ++n) {
       senses.tick();
       const double age_s = 1e-6 * n * period_us;
       ASSERT_EQ(senses.is(safety::kOperatorQuiet), age_s > 0.3031) << age_s;
