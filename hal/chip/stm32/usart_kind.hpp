@@ -13,6 +13,7 @@ inline constexpr std::uint32_t kParity = bit(0), kFraming = bit(1), kNoise = bit
                                kSent = bit(6), kRoom = bit(7);
 inline constexpr std::uint32_t kErrors = kParity | kFraming | kNoise | kOverrun;
 }  // namespace usart_flag
+inline constexpr int kNoByte = -1;
 
 /// F4: reading SR and then DR clears errors and IDLE.
 struct UsartV1 {
@@ -22,10 +23,12 @@ struct UsartV1 {
                                  kCr3 = usart_v1::kCr3;
   static constexpr std::uint32_t kEnable = usart_v1::kCr1Ue;
 
-  /// `status` was just read. A waiting byte's reader clears the flags.
+  /// `status` was just read. A waiting byte's reader clears the flags. Else returns the byte that
+  /// came last: if it came after `status`, its DMA stream misses it.
   template <Io Access>
-  static void clear(Access& io, std::uint32_t base, std::uint32_t status) {
-    if ((status & usart_flag::kReceived) == 0) io.read32(base + kReceive);
+  static int clear(Access& io, std::uint32_t base, std::uint32_t status) {
+    if ((status & usart_flag::kReceived) != 0) return kNoByte;
+    return static_cast<std::uint8_t>(io.read32(base + kReceive));
   }
 };
 
@@ -38,8 +41,9 @@ struct UsartV2 {
   static constexpr std::uint32_t kEnable = usart_v2::kCr1Ue;
 
   template <Io Access>
-  static void clear(Access& io, std::uint32_t base, std::uint32_t status) {
+  static int clear(Access& io, std::uint32_t base, std::uint32_t status) {
     io.write32(base + usart_v2::kIcr, status & (usart_flag::kErrors | usart_flag::kIdle));
+    return kNoByte;
   }
 };
 static_assert(usart_v1::kCr1Over8 == usart_v2::kCr1Over8 && usart_v1::kCr1Te == usart_v2::kCr1Te &&

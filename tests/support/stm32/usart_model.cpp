@@ -90,6 +90,7 @@ Time UsartModel::next() const {
   Time when = idle_at_;
   if (!line_.empty()) when = std::min(when, line_.front().end - line_.front().bit / 2);
   if (shifting_ && !tx_stuck) when = std::min(when, shift_.end);
+  if (heard_at_ + dma_lag > machine().now()) when = std::min(when, heard_at_ + dma_lag);
   return when;
 }
 
@@ -139,6 +140,7 @@ void UsartModel::hear(const Frame& frame) {
     }
   }
   rx_data_ = data;
+  heard_at_ = machine().now();
   set(status(), kSrRxne | flags);
 }
 
@@ -274,7 +276,8 @@ bool UsartModel::narrow_ok(std::uint32_t offset, unsigned) const {
 bool UsartModel::dma_request(bool transmit) const {
   if (transmit) return has(cr3(), kCr3Dmat) && sends() && has(status(), kSrTxe);
   const bool blocked = v2_ && has(cr3(), usart_v2::kCr3Ddre) && has(status(), bits(0, 4));
-  return has(cr3(), kCr3Dmar) && has(status(), kSrRxne) && !blocked;
+  const bool late = machine().now() < heard_at_ + dma_lag;
+  return has(cr3(), kCr3Dmar) && has(status(), kSrRxne) && !blocked && !late;
 }
 
 bool UsartModel::interrupt(unsigned irq) const {

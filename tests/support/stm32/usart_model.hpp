@@ -26,6 +26,7 @@ class UsartModel : public Bank {
 
   // Script.
   bool tx_stuck = false;  ///< TXE and TC stay 0
+  Time dma_lag = 0;       ///< a busy DMA: a received byte may be read before its request is served
   /// The first byte at `start` or after earlier ones.
   void receive(const std::uint8_t* data, std::size_t size, std::uint32_t baud, Time start = 0);
   void receive(std::uint8_t data, std::uint32_t baud, Flaw flaw = Flaw::kNone, Time start = 0);
@@ -97,6 +98,7 @@ class UsartModel : public Bank {
   bool v2_;
   std::uint32_t seen_ = 0;  ///< by a read of SR
   std::uint32_t rx_data_ = 0;
+  Time heard_at_ = 0;
   bool tx_full_ = false;
   std::uint32_t tx_data_ = 0;
   bool shifting_ = false;
