@@ -37,6 +37,7 @@ void CanopenServos::read_positions(Inputs& inputs) {
     if (began_us_ == 0) began_us_ = master_.now_us();
     window_ = round_.after(window_, answers_, quiet);
   }
+  judge_boots();
   count_silence();
 }
 
@@ -183,9 +184,26 @@ void CanopenServos::take_heartbeat(const CanFrame& frame, int slot) {
   canopen::NmtState state{};
   if (!canopen::decode_heartbeat(frame, node, state)) return;
   if (state != canopen::NmtState::kInitialising) return;
+  if (is_joint(slot)) {
+    booted_ |= node_bit(slot);
+  } else {
+    believe_boot(slot);
+  }
+}
+
+void CanopenServos::believe_boot(int slot) {
   renewal_.rebooted(slot);
   repair_.cancel(slot);
   doubts_.rebooted(slot);
+}
+
+void CanopenServos::judge_boots() {
+  const NodeMask answered = answers_.answered();
+  for (int joint = 0; joint < kMaxJoints; ++joint) {
+    if ((booted_before_ & ~answered & node_bit(joint)) != 0) believe_boot(joint);
+  }
+  booted_before_ = booted_;
+  booted_ = 0;
 }
 
 NodeMask CanopenServos::astray() const {

@@ -65,6 +65,10 @@ class CanopenServos {
   bool take_response(const CanFrame& frame, int slot);
   void take_emergency(const CanFrame& frame, int slot);
   void take_heartbeat(const CanFrame& frame, int slot);
+  void believe_boot(int slot);
+  /// A drive answers no SYNC after its boot. If it answers, another device or program has its node
+  /// id: stopping and setting it up again would make the robot fall.
+  void judge_boots();
   /// Undoubted nodes that answer another SYNC.
   NodeMask astray() const;
   void renew();
@@ -87,6 +91,8 @@ class CanopenServos {
   SyncRepair repair_{params_};
   SensedCounts sensed_;
   NodeMask present_ = 0;
+  NodeMask booted_ = 0;         ///< drives that said so in this tick
+  NodeMask booted_before_ = 0;  ///< and in the tick before
   NodeMask given_up_ = 0;
   std::uint16_t silent_ticks_[AnswerWatch::kSources] = {};
   std::uint64_t began_us_ = 0;

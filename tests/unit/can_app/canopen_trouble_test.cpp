@@ -171,6 +171,21 @@ TEST(CanopenTrouble, ADriveThatRebootsGetsNoTorqueBeforeTheRobotWasLetGo) {
   EXPECT_TRUE(loop.all_in(State::kOperationEnabled));
 }
 
+TEST(CanopenTrouble, AProgramThatBootsWithADrivesNodeIdStopsNoDrive) {
+  Loop& loop = test::new_can_loop();
+  loop.enable();
+  for (int tick = 0; tick < 60; ++tick) {
+    if (tick % 7 == 0) {
+      loop.bench.of_other = canopen::classic_frame(canopen::heartbeat_id(13), 1);
+      loop.bench.others = 1 + tick % 2;
+    }
+    loop.tick();
+    ASSERT_EQ(loop.inputs.fresh, kAll) << tick;
+    ASSERT_TRUE(loop.all_in(State::kOperationEnabled)) << tick;
+  }
+  EXPECT_EQ(loop.bench.others, 0);
+}
+
 // 50 objects take longer than a tick.
 TEST(CanopenTrouble, SettingUpAgainNeverHoldsATick) {
   Loop& loop = test::new_can_loop();

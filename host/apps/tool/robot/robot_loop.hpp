@@ -77,6 +77,7 @@ struct RunKeeper {
 ///  - brought_up(report), record(...) as a Recorder, report(health) after each tick: for observers
 ///    on the bus;
 ///  - stopped(), only for a twin in lockstep: it takes no further tick, and the run has no pace;
+///  - news(), if it hears its neighbours on the bus: a line for the user, or empty;
 ///  - order(tick), as an OperatorLink, if others on the bus may give orders;
 ///  - where(address): the place of a failed bring-up.
 template <class Robot>
@@ -213,6 +214,9 @@ class RobotRun {
   void watch_plan() {
     const std::string news = plan_notes_.news(app_.outputs().faults);
     if (!news.empty()) say(news);
+    if constexpr (requires { robot_.news(); }) {
+      if (const std::string heard = robot_.news(); !heard.empty()) say(heard);
+    }
   }
 
   void tell(safety::Mode from, safety::Mode to, std::uint32_t faults, const std::string& story,

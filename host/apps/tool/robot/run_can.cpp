@@ -11,6 +11,7 @@
 #include "firmware/app/operator_node.hpp"
 #include "firmware/app/tick_log.hpp"
 #include "host/apps/cli/exit_status.hpp"
+#include "host/apps/tool/robot/can_neighbours.hpp"
 #include "host/apps/tool/robot/robot_loop.hpp"
 #include "host/run/session/not_up.hpp"
 #include "host/twin/can/client.hpp"
@@ -18,22 +19,29 @@
 namespace verp::tool {
 namespace {
 
-/// A CanBus that allows extra delay for the nodes' answers.
+/// A CanBus that allows extra delay for the nodes' answers, and watches its neighbours.
 class PatientCan final : public hal::CanBus {
  public:
-  explicit PatientCan(link::CanPort& port) : port_(port) {}
+  PatientCan(link::CanPort& port, const Params& params) : port_(port), neighbours_(params) {}
 
-  bool send(const CanFrame& frame) override { return port_.send(frame); }
+  bool send(const CanFrame& frame) override {
+    neighbours_.sent(frame);
+    return port_.send(frame);
+  }
   bool poll(CanFrame& frame, std::uint32_t timeout_us) override {
-    return port_.poll(frame, timeout_us == 0 ? 0 : timeout_us + held_us_);
+    const bool came = port_.poll(frame, timeout_us == 0 ? 0 : timeout_us + held_us_);
+    if (came) neighbours_.came(frame);
+    return came;
   }
   std::uint64_t now_us() override { return port_.now_us(); }
   hal::CanErrors errors() const override { return port_.errors(); }
 
   void set_held(std::uint32_t held_us) { held_us_ = held_us; }
+  std::string news() { return neighbours_.news(); }
 
  private:
   link::CanPort& port_;
+  CanNeighbours neighbours_;
   std::uint32_t held_us_ = 0;
 };
 
@@ -48,12 +56,13 @@ class CanRobot {
   CanRobot(link::CanPort& port, const RunPlan& plan)
       : port_(port),
         plan_(plan),
-        patient_(port),
+        patient_(port, plan.walk.params),
         registers_(plan.walk.params, setup(plan), ticks_),
         node_(patient_, plan.walk.params, registers_, ticks_) {}
 
   Bus& bus() { return node_; }
   void set_held(std::uint32_t held_us) { patient_.set_held(held_us); }
+  std::string news() { return patient_.news(); }
   void brought_up(const app::BringUpReport& report) { node_.brought_up(report); }
   void record(const TickRecord& tick, const State& state, const Outputs& outputs) {
     node_.record(tick, state, outputs);
