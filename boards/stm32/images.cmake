@@ -49,7 +49,9 @@ function(verp_add_stm32_sensor)
   verp_add_budget_test(budget.${VERP_BOARD}.sensor sensor_${VERP_BOARD})
   if(ARGN)
     verp_add_stm32_image(sensor_turning_${VERP_BOARD} serial sensor ${VERP_STM32_DIR}/sensor/turning)
-    add_test(NAME hil.${VERP_BOARD}.sensor COMMAND ${CMAKE_SOURCE_DIR}/tests/target/ask_sensor
+    add_test(NAME hil.${VERP_BOARD}.sensor COMMAND ${CMAKE_SOURCE_DIR}/tests/target/interrupt_cost
+      $<TARGET_FILE:sensor_turning_${VERP_BOARD}> ${VERP_HOST_DIR}/tests/bench/libverp_interrupt_cost.so ${VERP_MOST_MASKED}
+      ${VERP_MOST_HANDLER} ${CMAKE_SOURCE_DIR}/tests/target/ask_sensor
       ${ARGN} $<TARGET_FILE:sensor_turning_${VERP_BOARD}> ${VERP_HOST_DIR}/host/apps/tool/verp)
     set_tests_properties(hil.${VERP_BOARD}.sensor PROPERTIES LABELS "hil;target")
   endif()

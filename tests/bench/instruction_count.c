@@ -10,38 +10,14 @@
  * Instruction counts repeat exactly, and QEMU has no DWT cycle counter. A call begins when the
  * block at the function's address runs, and ends when the block after the calling bl or blx runs. A
  * tail call ends with its caller. Images under test have no interrupts. A predicated instruction
- * counts always, because it takes its cycle.
- *
- * Debian's QEMU 7.2 ships no qemu-plugin.h: the declarations used are below (API version 1, QEMU's
- * "TCG Plugins"). */
+ * counts always, because it takes its cycle. */
 #include <stdbool.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define EXPORT __attribute__((visibility("default")))
-
-typedef uint64_t plugin_id;
-struct block;
-struct instruction;
-enum register_use { kNoRegisters };
-enum inline_operation { kAdd64 };
-
-EXPORT int qemu_plugin_version = 1;
-void qemu_plugin_register_vcpu_tb_trans_cb(plugin_id, void (*)(plugin_id, struct block*));
-void qemu_plugin_register_vcpu_tb_exec_cb(struct block*, void (*)(unsigned, void*),
-                                          enum register_use, void*);
-void qemu_plugin_register_vcpu_insn_exec_inline(struct instruction*, enum inline_operation, void*,
-                                                uint64_t);
-void qemu_plugin_register_atexit_cb(plugin_id, void (*)(plugin_id, void*), void*);
-size_t qemu_plugin_tb_n_insns(const struct block*);
-struct instruction* qemu_plugin_tb_get_insn(const struct block*, size_t);
-uint64_t qemu_plugin_insn_vaddr(const struct instruction*);
-const void* qemu_plugin_insn_data(const struct instruction*);
-size_t qemu_plugin_insn_size(const struct instruction*);
-EXPORT int qemu_plugin_install(plugin_id, const void*, int, char**);
+#include "tests/bench/qemu_plugin.h"
 
 enum { kMaxFunctions = 256, kMaxDepth = 64, kNameLength = 64 };
 

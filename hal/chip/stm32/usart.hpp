@@ -209,12 +209,13 @@ class Usart final : public ByteLink {
   }
 
   std::size_t queue(const std::uint8_t* data, std::size_t size) {
-    const Masked<Access> masked(io_);
-    std::size_t count = 0;
-    for (; count < size && queued_ - sent_ < kRing; ++count)
-      outbox_[queued_++ % kRing] = data[count];
+    const std::size_t room = kRing - (queued_ - sent_);  // interrupts add to it
+    const std::size_t count = size < room ? size : room;
+    for (std::size_t i = 0; i < count; ++i) outbox_[(queued_ + i) % kRing] = data[i];
     if (count == 0) return 0;
     const std::uint64_t now_us = timer_.now_us();
+    const Masked<Access> masked(io_);
+    queued_ += static_cast<std::uint32_t>(count);
     if (gone_us_ < now_us) gone_us_ = now_us;
     gone_us_ += std::uint64_t{count} * 10 * 1'000'000 / baud_ + 1;  // 10 bits a byte
     if (!sending_) gpio_.write(wiring_.direction, true);
