@@ -61,5 +61,21 @@ TEST(Library, WhatPointsOutsideIsRefusedThoughItsCrcFits) {
   EXPECT_EQ(fault_of(shelf), LibraryFault::kOtherLayout);
 }
 
+TEST(Library, EachFieldOutsideItsRangeIsRefused) {
+  for (int field = 0; field < 8; ++field) {
+    Shelf shelf;
+    if (field == 0) shelf.frame[1].loop_to = 3;
+    if (field == 1) shelf.frame[1].exit = 3;
+    if (field == 2) shelf.frame[1].otherwise = 3;
+    if (field == 3) shelf.frame[1].stiffness_percent[kMaxJoints - 1] = 101;
+    if (field == 4) shelf.frame[1].condition = static_cast<Condition>(kConditions);
+    if (field == 5) shelf.frame[1].balance = 2;
+    if (field == 6) shelf.action[1].frames = 0;
+    if (field == 7) shelf.action[1].name[kNameLength - 1] = 'x';
+    shelf.seal();
+    EXPECT_EQ(fault_of(shelf), LibraryFault::kOutOfBounds) << field;
+  }
+}
+
 }  // namespace
 }  // namespace verp::action

@@ -167,5 +167,25 @@ TEST(Player, AJointThatNoFrameNamesStands) {
   EXPECT_FLOAT_EQ(stage.out.angle_rad[kHead], 0.3F);
 }
 
+TEST(Player, EachFrameRepeatsAsOftenAsItSaysAndLosesNoTime) {
+  for (const std::int32_t period_us : {7000, 10000, 12500}) {
+    for (int repeats = 0; repeats < 16; ++repeats) {
+      Shelf shelf = up_and_down();
+      for (int i = 0; i < 2; ++i) {
+        shelf.frame[i].loop_to = static_cast<std::uint16_t>(i);
+        shelf.frame[i].loops = static_cast<std::uint8_t>(i == 0 ? repeats % 4 : repeats / 4);
+      }
+      shelf.seal();
+      Stage stage(shelf);
+      stage.in.period_us = period_us;
+      stage.tick();
+      int ticks = 0;
+      for (; stage.state.part == Part::kFrame && ticks < 300; ++ticks) stage.tick();
+      const int frames = repeats % 4 + repeats / 4 + 2;
+      EXPECT_EQ(ticks, (200'000 * frames + period_us - 1) / period_us) << repeats;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace verp::action

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/unit/support/led_robot.hpp"
 
 namespace verp::balance {
@@ -181,6 +183,50 @@ TEST(Estimator, KnowsNothingOfARobotWithoutLegs) {
   update(led.params, led.state, led.in);
   EXPECT_EQ(led.state.begun, 0);
   EXPECT_EQ(led.state.body_m.z, 0.0F);
+}
+
+// Blindness of ten ticks is bridged; then it slows by a tenth in each.
+TEST(Estimator, LiftedItFollowsTheAccelerometerForTenTicksWhicheverWayItLooks) {
+  const Vec3 gain_m_s(0.02F, -0.01F, 0.01F);
+  for (const float heading_rad : {0.0F, 1.1F, -2.5F}) {
+    Led& led = led_robot();
+    led.attitude.heading_rad = heading_rad;
+    led.rest();
+    led.load_n[0] = led.load_n[1] = 0;
+    float gains = 0;
+    for (int tick = 1; tick <= 20; ++tick) {
+      led.in.imu_fresh = tick != 4;
+      led.tick(static_cast<float>(tick) * gain_m_s);
+      gains = tick > 10 ? 0.9F * gains : tick == 4 ? gains : gains + 1.0F;
+      const Vec3 expected_m_s = math::rot_z(heading_rad) * (gains * gain_m_s);
+      EXPECT_LT(distance(led.believed_m_s(), expected_m_s), 0.01F) << tick;
+    }
+  }
+}
+
+TEST(Estimator, OneLegThatReportsTellsTheWholeWay) {
+  for (int side = 0; side < kFeet; ++side) {
+    Led& led = led_robot();
+    led.rest();
+    led.inputs.fresh = ~(1u << led.params.leg[side].joint[3]);
+    led.ticks(40, Vec3(0.1F, 0, 0));
+    EXPECT_NEAR(led.state.body_m.x, 0.0395F, 1.5e-3F);
+    led.stand_on(side == 0 ? 0.85F : 0.15F);
+    led.ticks(1, Vec3(0.1F, 0, 0));
+    EXPECT_EQ(led.state.blind, 1) << "a leg that bears less than a fifth tells nothing";
+  }
+}
+
+TEST(Estimator, DcmIsAheadOfTheCentreOfMassByItsPendulumsTime) {
+  for (const float height_m : {0.0F, 0.04F, 0.1F, 0.3F, 1.2F}) {
+    EstimatorState state;
+    state.body_m = {0.3F, -0.2F, height_m - 0.02F};
+    state.com_from_body_m = {0.01F, 0.04F, 0.02F};
+    state.com_velocity_m_s = {0.5F, -0.8F, 1};
+    const double time_s = std::sqrt((height_m < 0.05F ? 0.05 : double{height_m}) / 9.80665);
+    EXPECT_NEAR(dcm_m(state).x, 0.31 + 0.5 * time_s, 1e-6);
+    EXPECT_NEAR(dcm_m(state).y, -0.16 - 0.8 * time_s, 1e-6);
+  }
 }
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include "common/control/acting.hpp"
+
 #include <gtest/gtest.h>
 
 #include "tests/unit/action/shelf.hpp"
@@ -128,6 +130,36 @@ TEST(Acting, IsTheSameBitsOnEveryCore) {
   loop.inputs.action = 2;
   loop.ticks(100);
   EXPECT_EQ(loop.state.digest.chain, kPlayed) << std::hex << loop.state.digest.chain;
+}
+
+/// The head's goal half-way to 0.4 rad, while it is at `at_rad`.
+float acted_rad(int stiffness_percent, float at_rad) {
+  action::test::Shelf raises = shelf();
+  raises.frame[2].stiffness_percent[kHead] = static_cast<std::uint8_t>(stiffness_percent);
+  raises.seal();
+  static State state;
+  state = State{};
+  state.machine.mode = Mode::kActing;
+  Inputs inputs;
+  inputs.action = 2;
+  inputs.position_count[kHead] = model::count_of(kRobot.joint[kHead], at_rad);
+  static Wanted wanted;
+  wanted = Wanted{};
+  for (int i = 0; i <= 10; ++i) {
+    act(kRobot, raises.library(), state, inputs, AdmitOut{}, balance::AttitudeOut{}, wanted);
+    state.machine.in_mode_us = 1;
+  }
+  return wanted.angle_rad[kHead];
+}
+
+TEST(Acting, AServoOfLessStiffnessGetsThatShareOfTheWayThatIsLeft) {
+  for (const int percent : {0, 1, 25, 60, 99, 100}) {
+    for (const float at_rad : {-0.5F, 0.1F, 0.7F}) {
+      const double expected_rad = at_rad + 0.01 * percent * (0.2 - double{at_rad});
+      EXPECT_NEAR(acted_rad(percent, at_rad), expected_rad, 1e-3)
+          << percent << " % from " << at_rad;
+    }
+  }
 }
 
 }  // namespace

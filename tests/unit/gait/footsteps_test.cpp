@@ -318,5 +318,32 @@ TEST(Footsteps, ZmpUnderBothFeetIsMirrored) {
   EXPECT_EQ(left.y, -right.y);
 }
 
+TEST(Footsteps, StepsOfAnyTimesLastAndKeepTheirTimesIfTheyCan) {
+  for (const float cycle_s : {0.0F, 1e-6F, 0.2F, 0.45F, 1.5F}) {
+    for (const float start_s : {0.0F, 0.4F, 3.0F, 1000.0F}) {
+      GaitTuning tuning;
+      tuning.cycle_s = cycle_s;
+      tuning.start_s = start_s;
+      const Step step = standing_feet(kRobot, tuning);
+      EXPECT_NEAR(step.key_us, math::max(1.0F, 1e6F * cycle_s / (2 * kKeyPointsPerStep)), 1.0F);
+      EXPECT_GE(step.key_us, 1);
+      const double points = start_s / (1e-6 * step.key_us);
+      EXPECT_NEAR(step.key_points, points < 15 ? 15 : points > 250 ? 250 : points, 1.0) << cycle_s;
+    }
+  }
+}
+
+TEST(Footsteps, RestingWeightIsInTheMiddleOfLopsidedSoles) {
+  Params params = test::make_robot();
+  for (LegParams& leg : params.leg) leg.sole_front_m = 0.08F;
+  params.leg[kLeft].sole_left_m = 0.05F;
+  const Step stand = standing_feet(params, GaitTuning{});
+  EXPECT_NEAR(stand.zmp_end_m.x, 0.5F * (0.08F - 0.052F), 1e-6F);
+  EXPECT_NEAR(stand.zmp_end_m.y, 0.25F * (0.05F - 0.033F), 1e-6F);
+  const Xy left = zmp_under(params, GaitTuning{}, kLeft, {{1, 2}, math::kHalfPi});
+  EXPECT_NEAR(left.x, 1 - 0.5F * (0.05F - 0.033F) - GaitTuning{}.zmp_y_m, 1e-6F);
+  EXPECT_NEAR(left.y, 2 + 0.5F * (0.08F - 0.052F) + GaitTuning{}.zmp_x_m, 1e-6F);
+}
+
 }  // namespace
 }  // namespace verp::gait

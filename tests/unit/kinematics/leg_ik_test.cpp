@@ -214,6 +214,22 @@ TEST(LegIk, TooNearIsFlagged) {
   EXPECT_EQ(solved.angle_rad[3], params.joint[test::kLeftLeg + 3].upper_rad);
 }
 
+// The foot points at the hip: no roll is better than another.
+TEST(LegIk, FootThatPointsAtItsHipIsReached) {
+  Mat3 down;
+  down << 0, 0, 1, 0, 1, 0, -1, 0, 0;
+  for (const LegParams& leg : kRobot.leg) {
+    const Pose sole = sole_under_hip(leg, 0.15F, 0, 0, down);
+    Params params = kRobot;
+    for (int k = 0; k < kLegJoints; ++k) params.joint[leg.joint[k]].lower_rad = -4;
+    for (int k = 0; k < kLegJoints; ++k) params.joint[leg.joint[k]].upper_rad = 4;
+    const LegAngles solved = solve_leg_closed_form(params, leg, sole);
+    EXPECT_EQ(int{solved.flags}, 0);
+    expect_sines(params, leg, solved);
+    expect_pose(reached(params, leg, solved), sole);
+  }
+}
+
 TEST(LegIk, StraightKneeIsNoSingularity) {
   const LegParams& leg = kRobot.leg[0];
   const float reach_m = leg.thigh_m + leg.shank_m;
@@ -298,6 +314,42 @@ TEST(LegIk, WarmStartOfNoNumbersIsHarmless) {
   const Pose sole = sole_under_hip(kRobot.leg[0], 0.15F, 0, 0, Mat3::Identity());
   expect_within_limits(kRobot, kRobot.leg[0],
                        solve_leg_newton(kRobot, kRobot.leg[0], sole, start_rad));
+}
+
+// Links of any length, joints about minus axes, a sole turned on its foot.
+TEST(LegIk, ClosedFormSolvesEveryLegThatItsAxesAllow) {
+  static Params params;
+  params = kRobot;
+  LegParams& leg = params.leg[0];
+  Random random(8);
+  for (int round = 0; round < 100; ++round) {
+    JointParams* const joint = params.joint + test::kLeftLeg;
+    leg.hip_body_m = {random.between(-0.1F, 0.1F), random.between(-0.1F, 0.1F), 0.02F};
+    leg.thigh_m = random.between(0.06F, 0.12F);
+    leg.shank_m = random.between(0.06F, 0.12F);
+    joint[0].origin_parent_m = leg.hip_body_m;
+    joint[3].origin_parent_m.z = -leg.thigh_m;
+    joint[4].origin_parent_m.z = -leg.shank_m;
+    const Mat3 turn =
+        math::rotation_rpy(random.between(-3, 3), random.between(-1, 1), random.between(-3, 3));
+    for (int i = 0; i < 9; ++i) leg.sole_foot[i] = turn(i / 3, i % 3);
+    leg.sole_foot_m = {random.between(-0.03F, 0.03F), random.between(-0.03F, 0.03F), -0.03F};
+    float leg_rad[kLegJoints];
+    for (int k = 0; k < kLegJoints; ++k) {
+      leg.direction[k] = random.below(2) == 0 ? 1 : -1;
+      joint[k].axis_kind = AxisKind::kGeneral;
+      joint[k].axis =
+          math::to_xyz(leg.direction[k] * math::to_vec(kRobot.joint[leg.joint[k]].axis));
+      joint[k].lower_rad = -3;
+      joint[k].upper_rad = 3;
+      leg_rad[k] =
+          leg.direction[k] * (k == 3 ? random.between(0.3F, 2.0F) : random.between(-0.7F, 0.7F));
+    }
+    const Pose sole = sole_pose(leg, leg_chain(params, leg, Pose{}, leg_rad));
+    const LegAngles solved = solve_leg_closed_form(params, leg, sole);
+    EXPECT_EQ(int{solved.flags}, 0) << round;
+    for (int k = 0; k < kLegJoints; ++k) EXPECT_NEAR(solved.angle_rad[k], leg_rad[k], 1e-3F) << k;
+  }
 }
 
 }  // namespace
