@@ -43,7 +43,6 @@ class DynamixelDevice {
   static constexpr std::size_t kSlice = 64;
   enum StatusLevel : std::uint8_t { kPingOnly = 0, kReads = 1, kAll = 2 };
 
-  bool half_sent() const { return sent_ > 0 && sent_ < reply_size_; }
   bool push();
 
   // One byte can complete several packets if a false header hid them.
@@ -66,6 +65,7 @@ class DynamixelDevice {
   dxl::ReadEntry waiting_;  ///< sent once `before_us_` has answered
   std::uint8_t before_us_ = dxl::kBroadcast;
   bool reboot_asked_ = false;
+  bool more_ = false;  ///< the parser may hold another packet
   std::size_t arrived_ = 0;
   std::size_t taken_ = 0;
   std::size_t reply_size_ = 0;
@@ -76,15 +76,17 @@ class DynamixelDevice {
 
 template <class Registers>
 bool DynamixelDevice<Registers>::poll() {
-  bool busy = half_sent() && push();
-  if (half_sent()) return busy;
+  bool busy = push();
+  if (more_) serve(parser_.next());
+  if (sent_ < reply_size_ && !registers_.holds()) return busy;
   if (taken_ == arrived_) {
     taken_ = 0;
     arrived_ = link_.read(inbox_, sizeof inbox_, 0);
   }
-  for (; taken_ < arrived_; busy = true) serve(parser_.push(inbox_[taken_++]));
-  // A full inbox: the link may hold a newer request.
-  if (arrived_ < kSlice && push()) busy = true;
+  while (taken_ < arrived_ && (sent_ == reply_size_ || registers_.holds())) {
+    busy = true;
+    serve(parser_.push(inbox_[taken_++]));
+  }
   registers_.link(parser_.crc_errors(), link_.errors());
   return busy;
 }
@@ -105,10 +107,14 @@ void DynamixelDevice<Registers>::serve(bool found) {
       overhear(packet.id);
     } else {
       before_us_ = dxl::kBroadcast;
-      sent_ = reply_size_;
+      if (registers_.holds()) sent_ = reply_size_;
       handle(packet);
     }
+    push();
+    more_ = sent_ < reply_size_ && !registers_.holds();
+    if (more_) return;
   }
+  more_ = false;
 }
 
 template <class Registers>

@@ -115,6 +115,13 @@ void check_disturbances(const Expanded& run) {
   }
 }
 
+void refuse_bugs(const Scenario& scenario) {
+  for (const Robot& robot : scenario.robots) {
+    if (robot.fault.empty()) continue;
+    throw ScenarioError("fault", "a field bug is tried on one robot alone; leave out the others");
+  }
+}
+
 /// The first robot's draws include the floor.
 void vary(const Scenario& scenario, Expanded& run) {
   for (WalkPlan& plan : run.plans) {
@@ -136,6 +143,7 @@ Expanded expand(const Scenario& scenario) {
 }
 
 Expanded expand(const Scenario& scenario, const sim::WorldOptions& world) {
+  if (scenario.robots.size() > 1) refuse_bugs(scenario);
   Expanded run{.world = world, .plans = plans_of(scenario), .drawn = {}};
   check_disturbances(run);
   vary(scenario, run);

@@ -34,19 +34,26 @@ void turn_imu(WalkPlan& plan, const model::Vec3& axis, double degrees) {
   imu(plan).pose.linear() *= turn.toRotationMatrix();
 }
 
-void fault(WalkPlan& plan, Fault fault) {
-  if (plan.params.bus_protocol != BusProtocol::kDynamixel2)
-    throw ScenarioError("fault", "this bug is of a Dynamixel bus, and the robot's is another");
+enum class Needs { kSerial, kDynamixel };
+
+void fault(WalkPlan& plan, Fault fault, Needs needs = Needs::kSerial) {
+  const BusProtocol bus = plan.params.bus_protocol;
+  if (needs == Needs::kDynamixel && bus != BusProtocol::kDynamixel2)
+    throw ScenarioError("fault", "this bug needs a Dynamixel bus: choose it with --bus");
+  if (needs == Needs::kSerial && bus == BusProtocol::kCia402)
+    throw ScenarioError("fault", "this bug needs a serial servo bus: choose one with --bus");
   plan.fault = std::make_shared<const Fault>(std::move(fault));
 }
 void spoil(WalkPlan& plan, const bus::LineFaults& line, double at_s = kBegins_s) {
   fault(plan, {.at_s = at_s, .line = line});
 }
-void event(WalkPlan& plan, std::function<void(session::Robot&)> begin, double at_s = kBegins_s) {
-  fault(plan, {.at_s = at_s, .begin = std::move(begin)});
+void event(WalkPlan& plan, std::function<void(session::Robot&)> begin, double at_s = kBegins_s,
+           Needs needs = Needs::kSerial) {
+  fault(plan, {.at_s = at_s, .begin = std::move(begin)}, needs);
 }
-void each_tick(WalkPlan& plan, std::function<void(session::Robot&)> each) {
-  fault(plan, {.at_s = kBegins_s, .each_tick = std::move(each)});
+void each_tick(WalkPlan& plan, std::function<void(session::Robot&)> each,
+               Needs needs = Needs::kSerial) {
+  fault(plan, {.at_s = kBegins_s, .each_tick = std::move(each)}, needs);
 }
 void rewire(WalkPlan& plan, std::function<void(Params&)> devices) {
   fault(plan, {.devices = std::move(devices)});
@@ -61,7 +68,7 @@ void write(WalkPlan& plan, std::uint16_t address, std::vector<std::uint8_t> data
     robot.bus().send(frame, size);
     robot.let_pass(kAnswers_us);
   };
-  event(plan, begin, -1);
+  event(plan, begin, -1, Needs::kDynamixel);
 }
 void unplug(WalkPlan& plan, const std::vector<std::uint8_t>& ids, double at_s = kBegins_s) {
   const auto begin = [ids](session::Robot& robot) {
@@ -151,7 +158,7 @@ const FieldBug kBugs[] = {
     {"two_masters", kBus, "A second program writes goals to the same bus",
      "ROBOTIS-GIT/turtlebot3_manipulation#95", kTable, "does not follow",
      by("bus: another master sends all servos to 2048",
-        [](WalkPlan& p) { each_tick(p, second_master); })},
+        [](WalkPlan& p) { each_tick(p, second_master, Needs::kDynamixel); })},
     // Servos
     {"jammed_knee", kServo, "A gearbox jams", "robotology/mesh-support#2054", kTable,
      "does not follow", at("{knee}.friction_n_m=100")},

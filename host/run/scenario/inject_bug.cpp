@@ -64,7 +64,10 @@ Params params_of(const FieldBug& bug, const model::Entity& entity) {
   std::string text = files::read(entity.file).value_or("");
   const std::size_t begin = text.find(part), found = text.find(tag, begin);
   if (begin == std::string::npos || found == std::string::npos) {
-    throw ScenarioError("fault", fmt::format("{} has no {} with {}", entity.file, part, tag));
+    throw ScenarioError("fault",
+                        fmt::format("this bug changes {} ... {} in the robot's file, and {} has no "
+                                    "such place",
+                                    part, tag, entity.file));
   }
   const std::size_t from = found + tag.size(), size = text.find_first_of("<\"", from) - from;
   text.replace(from, size, changed(text.substr(from, size), bug.injection.value));

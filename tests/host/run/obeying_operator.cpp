@@ -113,6 +113,24 @@ TEST_F(Obeying, OneThatLayBeforeItLetGoHasNot) {
   EXPECT_EQ(who.ended(), "lies on its front");
 }
 
+TEST_F(Obeying, OneThatLetGoAtOnceIsWatchedToo) {
+  tick(Mode::kWalking);
+  who.let_go();
+  for (int i = 0; i < 150; ++i) tick(Mode::kRelaxed);
+  EXPECT_FALSE(who.over()) << "it may be falling";
+  pitch_rad = 1.5F;
+  for (int i = 0; i < 60; ++i) tick(Mode::kRelaxed);
+  EXPECT_TRUE(who.over());
+  EXPECT_EQ(who.ended(), "lies on its front");
+}
+
+TEST_F(Obeying, WithASilentImuItSaysThatItDoesNotKnow) {
+  tick(Mode::kSitting);
+  who.sit_down();
+  for (int i = 0; i < 210; ++i) tick(Mode::kRelaxed, safety::kFaultImuSilent);
+  EXPECT_EQ(who.ended(), "not known: the IMU is silent");
+}
+
 TEST_F(Obeying, CtrlCGoesBeforeOrders) {
   ordered = Request::kWalk;
   tick(Mode::kWalking);

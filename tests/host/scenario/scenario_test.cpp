@@ -184,5 +184,14 @@ TEST(Scenario, RefusesTuningThatTheLegsCannotStandWith) {
   EXPECT_THROW(expand(scenario), ScenarioError);
 }
 
+TEST(Scenario, RefusesAFieldBugAmongSeveralRobots) {
+  Scenario scenario;
+  scenario.robots.resize(2);
+  scenario.robots[1].at.y_m = 1;
+  expand(scenario);
+  scenario.robots[1].fault = "jammed_knee";
+  EXPECT_THROW(expand(scenario), ScenarioError);
+}
+
 }  // namespace
 }  // namespace verp::scenario

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/safety/machine.hpp"
 #include "host/run/session/fall_story.hpp"
 
 namespace verp::tool {
@@ -17,7 +18,8 @@ constexpr double kLeans_rad = 0.35;
 }  // namespace
 
 void RunEnding::observe(const State& state, const Outputs& outputs, double period_s) {
-  up_ = state.attitude.up_body;
+  blind_ = (outputs.faults & safety::kFaultImuSilent) != 0;
+  if (!blind_) up_ = state.attitude.up_body;
   const bool lay = lies_;
   lies_ = up_.z < kLies_up;
   if (outputs.torque_enable != 0) {
@@ -30,6 +32,7 @@ void RunEnding::observe(const State& state, const Outputs& outputs, double perio
 }
 
 std::string RunEnding::words() const {
+  if (blind_) return "not known: the IMU is silent";
   if (lies_) {
     return "lies " + session::how_it_lies(static_cast<double>(up_.x), static_cast<double>(up_.y));
   }

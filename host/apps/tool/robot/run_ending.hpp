@@ -14,7 +14,7 @@ class RunEnding {
 
   /// Time since torque went off; 0: it is on.
   double limp_s() const { return limp_s_; }
-  /// "lies on its front", "leans by 40 degrees" or "is upright".
+  /// "lies on its front", "leans by 40 degrees", "is upright", or "not known: the IMU is silent".
   std::string words() const;
   /// It was upright when torque went off, and lies now.
   bool fell() const { return was_upright_ && lies_; }
@@ -23,7 +23,7 @@ class RunEnding {
 
  private:
   double limp_s_ = 0, fell_s_ = 0;
-  bool was_upright_ = true, lies_ = false;
+  bool was_upright_ = true, lies_ = false, blind_ = false;
   Xyz up_ = {0, 0, 1};
 };
 

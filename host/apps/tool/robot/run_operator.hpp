@@ -50,7 +50,7 @@ class RunOperator {
 
   /// Torque has been off long enough for every servo to receive that, and for a fall to be seen.
   bool over() const {
-    return quiet_ticks_ >= kQuietTicks && (limp_ || ending_.limp_s() >= kFalls_s);
+    return quiet_ticks_ >= kQuietTicks && ending_.limp_s() >= kFalls_s;
   }
   /// How it ended, in words.
   std::string ended() const { return ending_.words(); }

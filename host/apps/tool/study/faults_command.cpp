@@ -46,7 +46,10 @@ std::string list(const model::Entity& entity) {
         fmt::format("  {:<20}{:<17}{}\n{:<39}{}; caught by {}\n", bug.name, in_words(bug.family),
                     bug.what, "", how(bug, entity), in_words(bug.catcher));
   }
-  return text + "verp walk --fault NAME injects one, verp faults --run each\n";
+  return text +
+         "What catches a bug was seen on generic21. verp walk --fault NAME injects one, verp "
+         "faults "
+         "--run each.\n";
 }
 
 std::string row(const FieldBug& bug, const Trial& trial, const model::Entity& entity) {
