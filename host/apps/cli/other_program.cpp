@@ -36,7 +36,8 @@ struct Command {
 };
 constexpr Command kCommands[] = {
     {"action", kRobot,
-     "Actions of a robot, such as wave or kick: list, check, play, convert, export, send, record"},
+     "Actions of a robot, such as wave or kick: list, check, play, make, convert, export, send, "
+     "record"},
     {"demo", kStudy, "Robots that see, talk by radio and act by themselves; without a name: which"},
     {"faults", kStudy, "Field bugs of robots: list them, or inject each and say who catches it"},
     {"view", kWindow,

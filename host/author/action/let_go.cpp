@@ -68,6 +68,8 @@ class Watch {
 
   LetGo result(double gravity_m_s2) {
     result_.tried = limp_s_ > kWatched_s;
+    result_.lay_rad = before_rad_;
+    result_.down_m_s = descent_.fastest_m_s();
     result_.fall_percent = 100 * descent_.fall_share(gravity_m_s2);
     const bool lies = tilt_rad_ > kLies_rad;
     result_.ends = lies ? "lies " + session::how_it_lies(up_.x(), up_.y()) : "stays upright";
@@ -89,14 +91,16 @@ class Watch {
 
 }  // namespace
 
-std::string LetGo::words() const {
+std::string LetGo::words(const std::string& robot) const {
   if (!tried) return "not tried: it has no legs, or does not stand in the twin";
   if (good && by_action) return fmt::format("by its action lie_down: it {}", ends);
   if (good) return "in the crouch: it " + ends;
-  return fmt::format(
-      "{} it falls, {:.0f} degrees, and {}. Hold it when it lets go, or {} (manual: actions)",
-      by_action ? "by its action lie_down" : "in the crouch", 180 / std::numbers::pi * moved_rad,
-      ends, by_action ? "change its action lie_down" : "give it an action lie_down");
+  return fmt::format("{} it falls, {:.0f} degrees, and {}. Hold it when it lets go, or {}",
+                     by_action ? "by its action lie_down" : "in the crouch",
+                     180 / std::numbers::pi * moved_rad, ends,
+                     by_action ? "change its action lie_down (manual: actions)"
+                               : "give it an action lie_down: `verp action make lie_down " + robot +
+                                     "` looks for one");
 }
 
 LetGo let_go(session::WalkPlan plan, const sim::WorldOptions& world) {

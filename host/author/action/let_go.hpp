@@ -15,9 +15,12 @@ struct LetGo {
   std::string ends;         ///< "lies on its front"
   double moved_rad = 0;     ///< change of the body's tilt after torque went
   double fell_s = 0;        ///< from then until it lay; 0: it did not fall
-  double fall_percent = 0;  ///< free fall that the centre of mass had, of its height
+  double lay_rad = 0;       ///< tilt when torque went
+  double down_m_s = 0;      ///< fastest that the centre of mass came down
+  double fall_percent = 0;  ///< the free fall that gives this speed, of its height
 
-  std::string words() const;
+  /// `robot`: as a user calls it.
+  std::string words(const std::string& robot = "ROBOT") const;
 };
 
 /// With as little friction in the gears as servos of its types may have. Takes half a second.

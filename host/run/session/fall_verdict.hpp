@@ -21,6 +21,7 @@ class Descent {
     if (upright) crouched_ = com_height_m < kCrouches * highest_m_ && off_rad < kFollows_rad;
     fastest_m_s_ = upright ? 0 : std::max(fastest_m_s_, -com_up_m_s);
   }
+  double fastest_m_s() const { return fastest_m_s_; }
   /// Free fall that gives its fastest speed, as a share of its height.
   double fall_share(double gravity_m_s2) const {
     const double height_m = 2 * gravity_m_s2 * highest_m_;

@@ -47,6 +47,11 @@ TEST_F(ActionCommand, MakesAMotionOfAFolderAndTheSameOfWhatComesBack) {
   EXPECT_NE(slurp(folder_ / "back/a.action").find("link b"), std::string::npos);
 }
 
+TEST_F(ActionCommand, MakesNothingThatIsThereAndNothingButLieDown) {
+  expect_refused("action make lie_down generic21", "lie_down.action is there already");
+  expect_refused("action make wave generic21", "wave not in {lie_down}");
+}
+
 TEST_F(ActionCommand, SaysWhatOfAnActionNoTableAndNoPageHolds) {
   write("a.action", "action a\nframe go 1\n head_yaw 20\n stance none\n repeat 2 from go\n");
   const Outcome outcome = verp("action convert a.action a.csv");

@@ -347,8 +347,21 @@ cli::Subcommand add_action(CLI::App& root) {
   records->add_option("--every", record->options.every_s, "between key frames, s")
       ->check(cli::number_between(0.02, 10, "s"))
       ->capture_default_str();
+  CLI::App* makes = add("make",
+                        "An action lie_down for a robot that has none: found in the twin, in "
+                        "minutes; exit 1 if there is none",
+                        true);
+  makes->get_option("ACTION")
+      ->required()
+      ->description("lie_down")
+      ->check(CLI::IsMember({action::kLieDown}));
+  makes->get_option("MODEL")->required();
+  makes->remove_option(makes->get_option("--json"));
+  auto made = std::make_shared<std::string>();
+  makes->add_option("-o,--output", *made, "the file (default: among the robot's actions)");
   return {app, [=]() -> int {
             cli::catch_interrupts();
+            if (makes->parsed()) return cli::answer(make_lie_down(*words, *made)), cli::kGood;
             if (lists->parsed()) return list(*words);
             if (shows->parsed()) return show(*words);
             if (checks->parsed()) return check(*words);

@@ -5,16 +5,21 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <numbers>
 
 #include "host/apps/cli/exit_status.hpp"
+#include "host/apps/cli/interrupt.hpp"
+#include "host/apps/cli/progress.hpp"
 #include "host/author/action/csv.hpp"
 #include "host/author/action/folder.hpp"
 #include "host/author/action/kept.hpp"
 #include "host/author/action/robotis.hpp"
 #include "host/os/files/whole.hpp"
 #include "host/robot/model/find.hpp"
+#include "host/robot/model/leg.hpp"
 #include "host/robot/model/load.hpp"
 #include "host/robot/model/params.hpp"
+#include "host/study/tune/lie_down.hpp"
 
 namespace verp::tool {
 namespace {
@@ -163,6 +168,41 @@ std::string record_action(const RecordWords& words) {
                             : action::record_joints(trace, options);
   write_file("verp action record", file, action::text_of(document));
   return fmt::format("{}: {} frames\n", words.file, document.frames.size());
+}
+
+std::string make_lie_down(const ActionWords& words, const std::string& named) {
+  const auto fail = [](cli::ExitStatus status, const std::string& why) {
+    throw cli::ToolError(status, "verp action make: " + why);
+  };
+  const model::Entity entity = model::load_robot(model::find_model(words.model), "");
+  const fs::path own = action::folder_of(entity.file) / (words.action + ".action");
+  const fs::path file = named.empty() ? own : fs::path(named);
+  std::error_code error;
+  if (model::find_limb(entity, "left_leg") == nullptr)
+    fail(cli::kBadInput, entity.name + " has no legs to lie down by");
+  if (fs::exists(file, error))
+    fail(cli::kBadInput, file.string() + " is there already; delete it, or name another by -o");
+  cli::Progress progress(true);
+  const survey::Watch watch{.interrupted = cli::interrupted, .went_on = [&](double share) {
+                              progress.show(share, "robots lie down in the twin");
+                            }};
+  tune::LieDown made = tune::make_lie_down(entity, {}, watch);
+  progress.clear();
+  if (made.interrupted) fail(cli::kRunFailed, "interrupted");
+  const std::string worst = fmt::format(
+      "{:.2f} m/s down ({:.1f} % of a free fall), then {:.0f} degrees without torque",
+      made.worst.down_m_s, made.worst.fall_percent, 180 / std::numbers::pi * made.worst.moved_rad);
+  if (!made.found) {
+    fail(cli::kRunFailed, fmt::format("{}: no way down found in {} tries in the twin, the best {}. "
+                                      "It is let go in the crouch, as before: hold it",
+                                      entity.name, made.tries, worst));
+  }
+  made.document.note = "From the crouch to the floor, found in the twin";
+  fs::create_directory(file.parent_path(), error);
+  write_file("verp action make", file, action::text_of(made.document));
+  return fmt::format(
+      "{}: found in {} tries in the twin. {} robots lay down by it, at worst {}; it {}\n",
+      file.string(), made.tries, tune::LieDownOptions().judges, worst, made.worst.ends);
 }
 
 std::string export_actions(const ActionWords& words, const std::string& file) {

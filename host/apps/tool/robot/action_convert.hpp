@@ -21,6 +21,9 @@ std::string convert_actions(const ActionWords& words, const ConvertWords& conver
 
 std::string record_action(const RecordWords& words);
 
+/// `verp action make lie_down`. `named`: the file; empty: among the robot's actions.
+std::string make_lie_down(const ActionWords& words, const std::string& named);
+
 /// `verp action export`: an image of all actions for a board's flash.
 std::string export_actions(const ActionWords& words, const std::string& file);
 

@@ -47,7 +47,7 @@ int check_robot(const std::string& name, const std::string& bus, const std::stri
   if (!fault.empty()) check_mistake(fault, entity);
   const action::LetGo ends = action::let_go(entity);
   if (!json) {
-    cli::answer(model::describe(entity) + "letting go: " + ends.words() + "\n");
+    cli::answer(model::describe(entity) + "letting go: " + ends.words(name) + "\n");
     return cli::kGood;
   }
   cli::Json out = cli::Json::parse(model::describe_json(entity));

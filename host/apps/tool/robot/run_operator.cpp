@@ -101,7 +101,7 @@ void RunOperator::observe(const State& state, const Outputs& outputs) {
   if (ending && !limp_ && ending_.fell()) {
     fail(
         fmt::format("{:.1f} s after torque went off it fell and {}: hold it at the end, or give "
-                    "it an action lie_down (manual: actions)",
+                    "it an action lie_down (verp action make)",
                     ending_.fell_s(), ending_.words()));
   }
 }
