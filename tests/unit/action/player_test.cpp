@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "common/math/linear.hpp"
 #include "common/math/scalar.hpp"
 #include "tests/unit/action/shelf.hpp"
 #include "tests/unit/support/test_robot.hpp"
@@ -184,6 +185,40 @@ TEST(Player, EachFrameRepeatsAsOftenAsItSaysAndLosesNoTime) {
       const int frames = repeats % 4 + repeats / 4 + 2;
       EXPECT_EQ(ticks, (200'000 * frames + period_us - 1) / period_us) << repeats;
     }
+  }
+}
+
+// The world's z of the body's axes says how it lies.
+TEST(Player, LeavesAFrameOnlyIfItsConditionHolds) {
+  for (int i = 0; i < 10 * 49; ++i) {
+    const float roll_rad = 0.9F * static_cast<float>(i / 10 % 7 - 3) + 0.05F;
+    const float pitch_rad = 0.5F * static_cast<float>(i / 70 - 3) + 0.02F;
+    const Mat3 body = math::rotation_rpy(roll_rad, pitch_rad, 1.0F);
+    const float ahead = body(2, 0), left = body(2, 1), up = body(2, 2);
+    const bool pressed[] = {i / 10 % 2 != 0, i / 20 % 2 != 0}, lies = up < 0.5F;
+    const bool sideways = math::abs(left) > math::abs(ahead);
+    const bool holds[] = {true,
+                          up > 0.9F,
+                          lies && !sideways && ahead < 0,
+                          lies && !sideways && ahead > 0,
+                          lies && sideways && left < 0,
+                          lies && sideways && left > 0,
+                          pressed[0],
+                          pressed[1],
+                          pressed[0] && pressed[1],
+                          !pressed[0] && !pressed[1]};
+    Shelf shelf = up_and_down();
+    shelf.frame[0].condition = static_cast<Condition>(i % 10);
+    shelf.frame[0].wait_ms = 1000;
+    shelf.seal();
+    Stage stage(shelf);
+    stage.in.roll_rad = roll_rad;
+    stage.in.pitch_rad = pitch_rad;
+    stage.in.up = up;
+    for (int side = 0; side < kFeet; ++side) stage.in.pressed[side] = pressed[side];
+    stage.ticks(21);
+    EXPECT_EQ(stage.state.frame == 1, holds[i % 10])
+        << i % 10 << ", " << roll_rad << ", " << pitch_rad;
   }
 }
 

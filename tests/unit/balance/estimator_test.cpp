@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "tests/unit/support/led_robot.hpp"
 
 namespace verp::balance {
@@ -214,18 +212,6 @@ TEST(Estimator, OneLegThatReportsTellsTheWholeWay) {
     led.stand_on(side == 0 ? 0.85F : 0.15F);
     led.ticks(1, Vec3(0.1F, 0, 0));
     EXPECT_EQ(led.state.blind, 1) << "a leg that bears less than a fifth tells nothing";
-  }
-}
-
-TEST(Estimator, DcmIsAheadOfTheCentreOfMassByItsPendulumsTime) {
-  for (const float height_m : {0.0F, 0.04F, 0.1F, 0.3F, 1.2F}) {
-    EstimatorState state;
-    state.body_m = {0.3F, -0.2F, height_m - 0.02F};
-    state.com_from_body_m = {0.01F, 0.04F, 0.02F};
-    state.com_velocity_m_s = {0.5F, -0.8F, 1};
-    const double time_s = std::sqrt((height_m < 0.05F ? 0.05 : double{height_m}) / 9.80665);
-    EXPECT_NEAR(dcm_m(state).x, 0.31 + 0.5 * time_s, 1e-6);
-    EXPECT_NEAR(dcm_m(state).y, -0.16 - 0.8 * time_s, 1e-6);
   }
 }
 

@@ -307,8 +307,7 @@ TEST(Admit, OrdersAreTakenInTheirUnits) {
   test::Random random(6);
   Senses senses;
   Command& command = senses.inputs.command;
-  for (int round = 0; round < 256; ++round) {
-    command.request = static_cast<Request>(round);
+  for (int round = 0; round < 50; ++round) {
     for (std::int16_t* const value :
          {&command.vx_tenth_mm_s, &command.vy_tenth_mm_s, &command.wz_mrad_s,
           &command.head_pan_mrad, &command.head_tilt_mrad}) {
@@ -320,12 +319,6 @@ TEST(Admit, OrdersAreTakenInTheirUnits) {
     EXPECT_NEAR(senses.last.wz_rad_s, command.wz_mrad_s / 1e3, 1e-5);
     EXPECT_NEAR(senses.last.head_pan_rad, command.head_pan_mrad / 1e3, 1e-5);
     EXPECT_NEAR(senses.last.head_tilt_rad, command.head_tilt_mrad / 1e3, 1e-5);
-    const bool walk = command.request == Request::kWalk;
-    const bool up =
-        walk || command.request == Request::kStand || command.request == Request::kGetUp;
-    EXPECT_EQ(senses.is(safety::kAskWalk), walk) << round;
-    EXPECT_EQ(senses.is(safety::kAskStand), up) << round;
-    EXPECT_EQ(senses.is(safety::kAskRelax), !up) << round;
   }
 }
 

@@ -132,19 +132,5 @@ TEST(MathLinear, SolveSpdRefusesWhatIsNotPositiveDefinite) {
   EXPECT_FALSE(solve_spd(Mat6::Identity(), Vec6::Constant(kNan), x));
 }
 
-// Near half a turn each axis is the largest in its turn.
-TEST(MathLinear, RotationVectorsOfAllAxesAreThoseOfTheirRotations) {
-  for (int i = 0; i < 100; ++i) {
-    const float n = static_cast<float>(i);
-    const Mat3 frame = rotation_rpy(0.7F * n, 1.1F * n, 1.9F * n);
-    const Vec3 axis = frame.col(2);
-    for (const float angle : {1e-5F, 0.3F, 1.6F, 2.9F, 3.0F, 3.09F, 3.13F, 3.14F}) {
-      const Mat3 turned = frame * rot_z(angle) * frame.transpose();
-      EXPECT_LT(difference(rotation(axis, angle), turned), 1e-6F) << i << " by " << angle;
-      EXPECT_LT(difference(rotation_vector(turned), axis * angle), 2e-5F) << i << " by " << angle;
-    }
-  }
-}
-
 }  // namespace
 }  // namespace verp::math
