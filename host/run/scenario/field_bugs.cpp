@@ -34,7 +34,7 @@ void turn_imu(WalkPlan& plan, const model::Vec3& axis, double degrees) {
   imu(plan).pose.linear() *= turn.toRotationMatrix();
 }
 
-enum class Needs { kSerial, kDynamixel };
+enum class Needs { kAnyBus, kSerial, kDynamixel };
 
 void fault(WalkPlan& plan, Fault fault, Needs needs = Needs::kSerial) {
   const BusProtocol bus = plan.params.bus_protocol;
@@ -91,6 +91,13 @@ void second_master(session::Robot& robot) {
 void flutter(session::Robot& robot) {
   const bool open = robot.twin().now_us() % 300'000 < 70'000;
   robot.bus().set_connected(robot.plan().params.joint[0].servo_id, !open);
+}
+
+void run_late(session::Robot& robot) {
+  robot.let_pass(50'000);
+}
+void stand_still(session::Robot& robot) {
+  robot.let_pass(1'000'000);
 }
 
 constexpr Injection at(const char* quantity) {
@@ -301,17 +308,17 @@ const FieldBug kBugs[] = {
      "ros-drivers/joystick_drivers#92", kTable, "operator silent",
      by("operator: no order comes any more",
         [](WalkPlan& p) {
-          fault(p,
-                {.at_s = kBegins_s, .amend = [](app::OperatorOrder& order) { order.flags = 0; }});
+          fault(p, {.at_s = kBegins_s, .amend = [](app::OperatorOrder& order) { order.flags = 0; }},
+                Needs::kAnyBus);
         })},
     {"late_process", kPower, "A busy PC runs each tick late", "airo-ugent/airo-mono#172", kTwin,
      "controller was late",
      by("controller: each tick takes 50 ms more",
-        [](WalkPlan& p) { each_tick(p, [](session::Robot& robot) { robot.let_pass(50'000); }); })},
+        [](WalkPlan& p) { each_tick(p, run_late, Needs::kAnyBus); })},
     {"stalled", kPower, "The controller's process stands still for a second",
      "zauberzeug/rosys#301", kTable, "operator silent",
      by("controller: no tick for a second",
-        [](WalkPlan& p) { event(p, [](session::Robot& robot) { robot.let_pass(1'000'000); }); })},
+        [](WalkPlan& p) { event(p, stand_still, kBegins_s, Needs::kAnyBus); })},
     {"lies_already", kPower, "A walk is ordered while the robot lies",
      "Interbotix/HROS1-Framework#10", kTwin, "fell",
      by("robot: it lies on its back", [](WalkPlan& p) { p.twin.lies = sim::Lies::kBack; })},
