@@ -255,10 +255,13 @@ bool doubts_imu(safety::TrustState& trust, unsigned mask, bool stepping, unsigne
   inputs.flags = static_cast<std::uint16_t>(kImuFresh | more_flags);
   bool doubted = false;
   for (int i = 0; i < safety::kImuReadings; ++i) {
-    for (int axis = 0; axis < 6; ++axis) {
-      const int moved = i % 2 == 0 ? 0 : (mask >> axis & 1U) != 0 ? 5 : 4;
-      (axis < 3 ? inputs.gyro_count[axis] : inputs.accel_count[axis - 3]) =
-          static_cast<std::int16_t>(1000 * axis - 2500 + moved);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto moved = [&](unsigned bit) {
+        return i % 2 == 0 ? 0 : (mask >> bit & 1U) != 0 ? 5 : 4;
+      };
+      const auto bit = static_cast<unsigned>(axis);
+      inputs.gyro_count[axis] = static_cast<std::int16_t>(1000 * axis - 2500 + moved(bit));
+      inputs.accel_count[axis] = static_cast<std::int16_t>(1000 * axis + 500 + moved(bit + 3));
     }
     doubted = safety::doubt(jointless, inputs, {Mode::kWalking, stepping, nullptr}, trust).imu;
   }
