@@ -137,8 +137,7 @@ float acted_rad(int stiffness_percent, float at_rad) {
   action::test::Shelf raises = shelf();
   raises.frame[2].stiffness_percent[kHead] = static_cast<std::uint8_t>(stiffness_percent);
   raises.seal();
-  static State state;
-  state = State{};
+  State& state = fresh_loop().state;
   state.machine.mode = Mode::kActing;
   Inputs inputs;
   inputs.action = 2;

@@ -276,8 +276,7 @@ TEST(Admit, WalkEndsWhereTheControllerStoodStill) {
 }
 
 TEST(Admit, ImuMountedAskewIsReadInTheBodysAxes) {
-  static Params params;
-  params = kRobot;
+  Params& params = test::changed_robot();
   ImuParams& imu = params.imu;
   test::Random random(5);
   for (int round = 0; round < 40; ++round) {
@@ -323,8 +322,7 @@ TEST(Admit, OrdersAreTakenInTheirUnits) {
 }
 
 TEST(Admit, EachJointOfTheLargestRobotHasItsOwnAlarm) {
-  static Params params;
-  params = kRobot;
+  Params& params = test::changed_robot();
   params.joint_count = kMaxJoints;
   for (int j = 0; j < kMaxJoints; ++j) {
     Telemetry telemetry;

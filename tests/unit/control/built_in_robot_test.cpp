@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "common/kinematics/leg_ik.hpp"
-#include "tests/unit/support/test_robot.hpp"
+#include "tests/unit/control/loop.hpp"
 
 namespace verp::control {
 namespace {
 
 const Params& built_in() {
-  static Params params;
+  Params& params = test::changed_robot();
   make_built_in_robot(params);
   return params;
 }

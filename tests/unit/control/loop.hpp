@@ -70,6 +70,12 @@ inline Loop& fresh_loop() {
   return loop = Loop{};
 }
 
+/// kRobot to change, one for all tests.
+inline Params& changed_robot() {
+  static Params params;
+  return params = kRobot;
+}
+
 inline void write_parameter(int id, float value, Inputs& inputs) {
   inputs.flags |= kParameterWrite;
   inputs.parameter_id = static_cast<std::uint16_t>(id);

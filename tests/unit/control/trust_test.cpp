@@ -194,8 +194,7 @@ TEST(Trust, RobotThatHangsWalksOnIfItsTuningSaysSo) {
 
 // Its integral part holds the goal whatever the load.
 TEST(Trust, ServoWithAnIGainShowsNoLoad) {
-  static Params params;
-  params = kRobot;
+  Params& params = changed_robot();
   params.feet = {};
   constexpr float kSag_rad[kFeet] = {0.02F, 0.02F};
   float goal_rad[kMaxJoints] = {};
@@ -223,8 +222,7 @@ TEST(Trust, AnotherControllersGoalsAreNotTheCores) {
 }
 
 TEST(Trust, CellsThatFeelAFifthOfTheWeightBearTheRobot) {
-  static Params params;
-  params = kRobot;
+  Params& params = changed_robot();
   double mass_kg = params.body_mass_kg;
   for (JointParams& joint : params.joint) {
     joint.compliance_rad_nm = 0;  // no knee shows a load
