@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "host/apps/cli/exit_status.hpp"
 #include "host/apps/cli/interrupt.hpp"
 #include "host/boards/flash/tool_run.hpp"
@@ -18,14 +20,17 @@ std::string line_at(const std::string& text, std::size_t place) {
   return text.substr(begin, text.find('\n', place) - begin);
 }
 
-/// The line that says why. The linker's of an image that is too large has no "error".
+/// The first line that says why. The linker's of an image that is too large has no "error";
+/// budget: and TOO MUCH are of boards/stm32/budget.
 std::string reason_of(const std::string& output) {
   const std::size_t over = output.find("overflowed by"), error = output.find("rror: ");
+  const std::size_t budget = output.find("budget: "), row = output.find("TOO MUCH");
   if (over != std::string::npos) {
     const std::string line = line_at(output, over);
     return "the image is too large: " + line.substr(line.find("region"));
   }
-  return error != std::string::npos ? line_at(output, error) : process::last_line(output);
+  const std::size_t first = std::min({error, budget, row});
+  return first != std::string::npos ? line_at(output, first) : process::last_line(output);
 }
 
 }  // namespace
