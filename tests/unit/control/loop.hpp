@@ -29,7 +29,7 @@ struct Loop {
   void follow() {
     ++inputs.tick;
     if (noise) shake();
-    ++command.sequence;
+    command.sequence = static_cast<std::uint8_t>(command.sequence + 1);
     if (outputs.torque_enable == 0) return;
     for (int j = 0; j < kJointCount; ++j) inputs.position_count[j] = outputs.goal_count[j];
   }

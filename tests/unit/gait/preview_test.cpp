@@ -92,7 +92,7 @@ TEST(Preview, BodyCurveMeetsItsKeyPointsSmoothly) {
   test::Random random(1);
   for (Xy& fixed : state.fixed_m)
     fixed = {random.between(-0.1F, 0.1F), random.between(-0.1F, 0.1F)};
-  for (std::uint8_t key = 250; key != 10; ++key) {
+  for (std::uint8_t key = 250; key != 10; key = static_cast<std::uint8_t>(key + 1)) {
     EXPECT_EQ(apart(body_at(state, key, 0.0F), state.fixed_m[key % kFixed]), 0.0F);
     const auto before = static_cast<std::uint8_t>(key - 1);
     EXPECT_LT(apart(body_at(state, before, 1.0F), state.fixed_m[key % kFixed]), 1e-6F);

@@ -191,7 +191,7 @@ TEST(PowerCut, NoHalfMadePageComesBack) {
       Store store(flash);
       store.open();
       while (store.free_bytes() == 0 || store.free_bytes() >= kPage / 4) {
-        ++filler.value.bytes[0];
+        filler.value.bytes[0] = static_cast<std::uint8_t>(filler.value.bytes[0] + 1);
         ASSERT_TRUE(apply(store, filler));
       }
       flash.cut_after(i % 30);
