@@ -49,9 +49,7 @@ class RunOperator {
   void let_go() { limp_ = true; }
 
   /// Torque has been off long enough for every servo to receive that, and for a fall to be seen.
-  bool over() const {
-    return quiet_ticks_ >= kQuietTicks && ending_.limp_s() >= kFalls_s;
-  }
+  bool over() const { return quiet_ticks_ >= kQuietTicks && ending_.limp_s() >= kFalls_s; }
   /// How it ended, in words.
   std::string ended() const { return ending_.words(); }
   double walked_s() const { return orders_ ? walked_s_ : walker_.walked_s(); }
