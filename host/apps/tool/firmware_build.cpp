@@ -27,7 +27,8 @@ std::string reason_of(const std::string& output) {
   const std::size_t budget = output.find("budget: "), row = output.find("TOO MUCH");
   if (over != std::string::npos) {
     const std::string line = line_at(output, over);
-    return "the image is too large: " + line.substr(line.find("region"));
+    return "the image is too large: " + line.substr(line.find("region")) +
+           "; take a smaller controller, or a board with more flash (opencr)";
   }
   const std::size_t first = std::min({error, budget, row});
   return first != std::string::npos ? line_at(output, first) : process::last_line(output);

@@ -148,6 +148,8 @@ TEST_F(Doctor, LimitsThatAreTooLowGetTheirLines) {
       "Max locked memory         8388608   8388608   bytes\nMax realtime priority     0    0\n");
   expect("advice", "real-time priority and locked memory are not allowed",
          "@dialout - rtprio 40\\n@dialout - memlock unlimited");
+  put("/proc/self/status", "Uid:\t0\t0\t0\t0\nCapEff:\t000001ffffffffff\n");
+  expect("good", "priority and locked memory are allowed", "");
 }
 
 TEST_F(Doctor, AStaleDisplayIsNamedAndWhatWorksWithout) {

@@ -10,8 +10,9 @@ namespace verp::tool {
 namespace {
 
 /// The soft limit in a line of /proc/self/limits; nothing if there is no such line.
-std::string limit(const Machine& machine, const std::string& name) {
-  std::istringstream lines(machine.read("/proc/self/limits"));
+/// The first word behind `name`.
+std::string word_of(const Machine& machine, const char* file, const std::string& name) {
+  std::istringstream lines(machine.read(file));
   for (std::string line; std::getline(lines, line);) {
     if (!line.starts_with(name)) continue;
     std::istringstream words(line.substr(name.size()));
@@ -20,6 +21,18 @@ std::string limit(const Machine& machine, const std::string& name) {
     return soft;
   }
   return "";
+}
+
+std::string limit(const Machine& machine, const std::string& name) {
+  return word_of(machine, "/proc/self/limits", name);
+}
+
+/// Capabilities that no limit binds (capabilities(7)): CAP_IPC_LOCK is 14, CAP_SYS_NICE 23.
+bool is_privileged(const Machine& machine) {
+  constexpr unsigned long long kBoth = 1ULL << 14 | 1ULL << 23;
+  const std::string mask = word_of(machine, "/proc/self/status", "CapEff:");
+  return word_of(machine, "/proc/self/status", "Uid:") == "0" &&
+         (std::strtoull(mask.c_str(), nullptr, 16) & kBoth) == kBoth;
 }
 
 /// Why nothing can be drawn there; empty: something can.
@@ -63,7 +76,7 @@ void check_real_time(const Machine& machine, Findings& found) {
   const std::string priority = limit(machine, "Max realtime priority");
   const std::string memory = limit(machine, "Max locked memory");
   const bool fast = priority == "unlimited" || std::atoi(priority.c_str()) >= cli::kLoopPriority;
-  if (fast && memory == "unlimited") {
+  if ((fast && memory == "unlimited") || is_privileged(machine)) {
     return found.good("real time", "priority and locked memory are allowed");
   }
   const std::string which = fast                    ? "locked memory"
