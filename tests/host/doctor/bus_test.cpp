@@ -203,10 +203,10 @@ TEST_F(BusDoctor, SilenceAtEveryRateNamesPowerAndWires) {
   expect_finding(examined(), "bad", "nothing answers, at any baud rate", "swap A and B");
 }
 
-TEST_F(BusDoctor, AnotherBaudRateIsFound) {
+TEST_F(BusDoctor, WhereTheRobotAnswersAtItsOwnRateTheLinkIsToMend) {
   const Findings found = examined(1'000'000);
   expect_finding(found, "bad", "at 2000000 baud and not at 1000000 these answer",
-                 "verp bus setup generic21");
+                 "give --link serial:" + path_ + "@2000000");
 }
 
 TEST_F(BusDoctor, AServoAtTheFactorysRateIsFound) {

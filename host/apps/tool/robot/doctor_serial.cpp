@@ -313,11 +313,12 @@ void SerialDoctor::judge_other_rates(std::set<int>& present) {
     }
   }
   for (const auto& [rate, ids] : elsewhere) {
+    const bool link_is_wrong = !bus_.params || rate == bus_.params->baud;
     found_.bad("baud rate",
                fmt::format("at {} baud and not at {} these answer: ids {}", rate,
                            bus_.endpoint.baud, list(ids)),
-               bus_.robot ? "connect each alone: " + bus_.set_up(*ids.begin(), false)
-                          : fmt::format("give --link serial:{}@{}", bus_.endpoint.place, rate));
+               link_is_wrong ? fmt::format("give --link serial:{}@{}", bus_.endpoint.place, rate)
+                             : "connect each alone: " + bus_.set_up(*ids.begin(), false));
     present.insert(ids.begin(), ids.end());
   }
 }
