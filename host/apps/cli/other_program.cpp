@@ -58,7 +58,7 @@ constexpr Command kCommands[] = {
     {"trace", kStudy, "Look into a trace, draw, export, play or cut it, recover what a crash left"},
     {"bench", kStudy,
      "What a tick costs, here and on emulated microcontrollers, beside what is promised"},
-    {"bus", kRobot, "Dynamixel devices and CANopen nodes: find them, read, write, measure"},
+    {"bus", kRobot, "Dynamixel and Feetech servos, CANopen nodes: find, read, write, measure"},
     {"doctor", kRobot, "What this machine lacks for VERP, and how to mend it; changes nothing"},
     {"flash", kRobot, "Write firmware or a robot into a board, or start an emulated board"},
     {"deploy", kRobot,

@@ -63,7 +63,8 @@ std::string sensor_image(const Recipe& recipe, const std::string& what, const Pa
   };
   const bool foot = what == "foot";
   if (recipe.chip == nullptr || (foot && !recipe.foot_image)) {
-    refuse(std::string(recipe.board) + " has no pins for it; name olimex_h405 or nucleo_f446re");
+    refuse(std::string(recipe.board) + " has no pins for it; name olimex_h405" +
+           (foot ? " or nucleo_f446re" : ", nucleo_f446re or opencr"));
   }
   if (robot == nullptr) return image;
   const std::string name = robot->name;

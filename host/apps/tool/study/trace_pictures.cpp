@@ -52,9 +52,10 @@ void write_file(const fs::path& file, const std::string& bytes) {
 }  // namespace
 
 int write_pictures(const std::string& trace, const std::string& folder) {
-  report::make_folder(folder, "-o");
+  bool has_folder = false;  // a trace without pictures leaves none
   const std::size_t count =
       record::for_each_picture(trace, [&](const record::RecordedPicture& recorded) {
+        if (!std::exchange(has_folder, true)) report::make_folder(folder, "-o");
         const auto [kind, bytes] = as_file(recorded.picture);
         write_file(fs::path(folder) / (name_of(recorded) + kind), bytes);
       });
