@@ -19,7 +19,7 @@ constexpr double kLeans_rad = 0.35;
 
 void RunEnding::observe(const State& state, const Outputs& outputs, double period_s) {
   blind_ = (outputs.faults & safety::kFaultImuSilent) != 0;
-  if (!blind_) up_ = state.attitude.up_body;
+  up_ = state.attitude.up_body;
   const bool lay = lies_;
   lies_ = up_.z < kLies_up;
   if (outputs.torque_enable != 0) {
