@@ -173,11 +173,6 @@ function(verp_add_fault_tests machine)
 endfunction()
 
 # The loop's image through its emulated serial ports.
-# Most instructions with interrupts masked, and of an interrupt handler. At 168 MHz a byte of 1 Mbaud lasts 1680 cycles;
-# the F4 holds one more.
-set(VERP_MOST_MASKED 1000)
-set(VERP_MOST_HANDLER 200)
-
 function(verp_add_serial_tests machine)
   add_test(NAME hil.${VERP_BOARD}.operator COMMAND ${CMAKE_SOURCE_DIR}/tests/target/interrupt_cost
     $<TARGET_FILE:loop_${VERP_BOARD}> ${VERP_HOST_DIR}/tests/bench/libverp_interrupt_cost.so ${VERP_MOST_MASKED}

@@ -11,15 +11,13 @@
  * block at the function's address runs, and ends when the block after the calling bl or blx runs. A
  * tail call ends with its caller. Images under test have no interrupts. A predicated instruction
  * counts always, because it takes its cycle. */
-#include <stdbool.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "tests/bench/qemu_plugin.h"
 
-enum { kMaxFunctions = 256, kMaxDepth = 64, kNameLength = 64 };
+enum { kMaxFunctions = 256, kMaxDepth = 64 };
 
 struct function {
   char name[kNameLength];
@@ -98,21 +96,11 @@ static void on_block(unsigned cpu, void* data) {
   previous = block;
 }
 
-/* bl: 11110 ... then 11x1; blx register: 010001111 (ARMv7-M ARM, A7.7.18 and A7.7.19). */
-static bool is_call(const struct instruction* instruction) {
-  uint16_t half[2] = {0, 0};
-  const size_t size = qemu_plugin_insn_size(instruction);
-  memcpy(half, qemu_plugin_insn_data(instruction), size <= sizeof half ? size : sizeof half);
-  if (size == 2) return (half[0] & 0xFF87) == 0x4780;
-  return (half[0] & 0xF800) == 0xF000 && (half[1] & 0xD000) == 0xD000;
-}
-
 static void on_translate(plugin_id id, struct block* block) {
   (void)id;
   const size_t count = qemu_plugin_tb_n_insns(block);
   const struct instruction* last = qemu_plugin_tb_get_insn(block, count - 1);
-  struct block_info* info = malloc(sizeof *info); /* lives as long as the translation: for good */
-  if (info == NULL) abort();
+  struct block_info* info = keep(sizeof *info);
   info->begin = qemu_plugin_insn_vaddr(qemu_plugin_tb_get_insn(block, 0));
   info->end = qemu_plugin_insn_vaddr(last) + qemu_plugin_insn_size(last);
   info->ends_in_call = is_call(last);
@@ -145,12 +133,9 @@ static void write_counts(plugin_id id, void* data) {
 }
 
 static bool add_function(const char* text) {
-  const char* colon = strrchr(text, ':');
-  if (colon == NULL || function_count == kMaxFunctions || colon - text >= kNameLength) return false;
+  if (function_count == kMaxFunctions) return false;
   struct function* function = &functions[function_count++];
-  memcpy(function->name, text, (size_t)(colon - text));
-  function->address = strtoull(colon + 1, NULL, 16) & ~1ull; /* bit 0 says Thumb */
-  return true;
+  return named_address(text, function->name, &function->address);
 }
 
 int qemu_plugin_install(plugin_id id, const void* info, int argc, char** argv) {

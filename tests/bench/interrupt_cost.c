@@ -9,15 +9,13 @@
  *
  * A section begins with `cpsid i` and ends with `cpsie i` (ARMv7-M ARM, B5.2.1). A handler begins
  * at its vector's address and ends with a return at its own depth of calls. */
-#include <stdbool.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "tests/bench/qemu_plugin.h"
 
-enum { kMaxHandlers = 128, kMaxDepth = 64, kMaxNested = 8, kNameLength = 64 };
+enum { kMaxHandlers = 128, kMaxDepth = 64, kMaxNested = 8 };
 
 struct record {
   char name[kNameLength];
@@ -142,33 +140,22 @@ static enum kind kind_of(uint16_t half) {
   return half == 0xB672 ? kMask : half == 0xB662 ? kUnmask : kPlain;
 }
 
-/* bl, blx (ARMv7-M ARM, A7.7.18, A7.7.19); bx lr, pop and ldm with pc, ldr pc (A7.7.20, 99, 41,
- * 43). */
-static void classify(const struct instruction* last, struct block_info* info) {
-  uint16_t half[2] = {0, 0};
-  const size_t size = qemu_plugin_insn_size(last);
-  memcpy(half, qemu_plugin_insn_data(last), size <= sizeof half ? size : sizeof half);
-  if (size == 2) {
-    info->ends_in_call = (half[0] & 0xFF87) == 0x4780;
-    info->ends_in_return = half[0] == 0x4770 || (half[0] & 0xFF00) == 0xBD00;
-  } else {
-    info->ends_in_call = (half[0] & 0xF800) == 0xF000 && (half[1] & 0xD000) == 0xD000;
-    info->ends_in_return = ((half[0] & 0xFFD0) == 0xE890 && (half[1] & 0x8000) != 0) ||
-                           (half[0] == 0xF85D && (half[1] & 0xF000) == 0xF000);
+/* bx lr, pop and ldm with pc, ldr pc (ARMv7-M ARM, A7.7.20, 99, 41, 43). */
+static bool is_return(const struct instruction* instruction) {
+  uint16_t half[2];
+  halves_of(instruction, half);
+  if (qemu_plugin_insn_size(instruction) == 2) {
+    return half[0] == 0x4770 || (half[0] & 0xFF00) == 0xBD00;
   }
+  return ((half[0] & 0xFFD0) == 0xE890 && (half[1] & 0x8000) != 0) ||
+         (half[0] == 0xF85D && (half[1] & 0xF000) == 0xF000);
 }
 
 /* IT is 1011 1111 and a mask (A7.7.38); without a mask it is a hint. */
 static bool is_it(const struct instruction* instruction) {
-  uint16_t half = 0;
-  memcpy(&half, qemu_plugin_insn_data(instruction), sizeof half);
-  return (half & 0xFF00) == 0xBF00 && (half & 0xF) != 0;
-}
-
-static void* keep(size_t size) { /* lives as long as the translation: for good */
-  void* room = calloc(1, size);
-  if (room == NULL) abort();
-  return room;
+  uint16_t half[2];
+  halves_of(instruction, half);
+  return (half[0] & 0xFF00) == 0xBF00 && (half[0] & 0xF) != 0;
 }
 
 static void on_translate(plugin_id id, struct block* block) {
@@ -179,7 +166,8 @@ static void on_translate(plugin_id id, struct block* block) {
   info->begin = qemu_plugin_insn_vaddr(qemu_plugin_tb_get_insn(block, 0));
   info->end = qemu_plugin_insn_vaddr(last) + qemu_plugin_insn_size(last);
   info->handler = -1;
-  classify(last, info);
+  info->ends_in_call = is_call(last);
+  info->ends_in_return = is_return(last);
   for (size_t i = count > 5 ? count - 5 : 0; i + 1 < count; ++i) {
     if (is_it(qemu_plugin_tb_get_insn(block, i))) info->may_go_on = true;
   }
@@ -189,11 +177,11 @@ static void on_translate(plugin_id id, struct block* block) {
   qemu_plugin_register_vcpu_tb_exec_cb(block, on_block, kNoRegisters, info);
   for (size_t i = 0; i < count; ++i) {
     struct instruction* each = qemu_plugin_tb_get_insn(block, i);
-    uint16_t half = 0;
-    memcpy(&half, qemu_plugin_insn_data(each), sizeof half);
-    if (kind_of(half) != kPlain && qemu_plugin_insn_size(each) == 2) {
+    uint16_t half[2];
+    halves_of(each, half);
+    if (kind_of(half[0]) != kPlain) {
       struct instruction_info* mask = keep(sizeof *mask);
-      *mask = (struct instruction_info){kind_of(half), qemu_plugin_insn_vaddr(each)};
+      *mask = (struct instruction_info){kind_of(half[0]), qemu_plugin_insn_vaddr(each)};
       qemu_plugin_register_vcpu_insn_exec_cb(each, on_mask, kNoRegisters, mask);
     }
     qemu_plugin_register_vcpu_insn_exec_inline(each, kAdd64, &executed, 1);
@@ -201,12 +189,9 @@ static void on_translate(plugin_id id, struct block* block) {
 }
 
 static bool add_handler(const char* text) {
-  const char* colon = strrchr(text, ':');
-  if (colon == NULL || handler_count == kMaxHandlers || colon - text >= kNameLength) return false;
+  if (handler_count == kMaxHandlers) return false;
   struct record* handler = &handlers[handler_count++];
-  memcpy(handler->name, text, (size_t)(colon - text));
-  handler->address = strtoull(colon + 1, NULL, 16) & ~1ull; /* bit 0 says Thumb */
-  return true;
+  return named_address(text, handler->name, &handler->address);
 }
 
 int qemu_plugin_install(plugin_id id, const void* info, int argc, char** argv) {
