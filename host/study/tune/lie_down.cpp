@@ -126,7 +126,7 @@ constexpr double kSpread = 0.7;     // the search's first, in steps of each axis
 constexpr double kNoGood = 3;       // more than any good one's badness
 constexpr double kWellBelow = 0.9;  // for the judges, of whom one may fall a little more
 
-/// Of free fall, and of motion without torque, 1 is the most that is good.
+/// The most free fall that is good counts 1, and so does the most motion without torque.
 double badness_of(const action::LetGo& ends) {
   constexpr double kMostFall_percent = 8, kMostMoved_rad = 0.3, kFlat_rad = 1.4;
   const double sum = ends.fall_percent / kMostFall_percent + ends.moved_rad / kMostMoved_rad +
