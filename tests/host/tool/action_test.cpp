@@ -50,6 +50,7 @@ TEST_F(ActionCommand, MakesAMotionOfAFolderAndTheSameOfWhatComesBack) {
 TEST_F(ActionCommand, MakesNothingThatIsThereAndNothingButLieDown) {
   expect_refused("action make lie_down generic21", "lie_down.action is there already");
   expect_refused("action make wave generic21", "wave not in {lie_down}");
+  expect_refused("action make lie_down generic21 -o /nowhere/a.action", "no such folder");
 }
 
 TEST_F(ActionCommand, SaysWhatOfAnActionNoTableAndNoPageHolds) {

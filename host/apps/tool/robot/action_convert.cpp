@@ -182,6 +182,9 @@ std::string make_lie_down(const ActionWords& words, const std::string& named) {
     fail(cli::kBadInput, entity.name + " has no legs to lie down by");
   if (fs::exists(file, error))
     fail(cli::kBadInput, file.string() + " is there already; delete it, or name another by -o");
+  const fs::path folder = fs::absolute(file).parent_path();
+  if (!named.empty() && !fs::is_directory(folder, error))
+    fail(cli::kBadInput, folder.string() + ": there is no such folder; make it, or mend -o");
   cli::Progress progress(true);
   const survey::Watch watch{.interrupted = cli::interrupted, .went_on = [&](double share) {
                               progress.show(share, "robots lie down in the twin");
@@ -198,7 +201,7 @@ std::string make_lie_down(const ActionWords& words, const std::string& named) {
                                       entity.name, made.tries, worst));
   }
   made.document.note = "From the crouch to the floor, found in the twin";
-  fs::create_directory(file.parent_path(), error);
+  fs::create_directory(folder, error);  // of the robot's first action
   write_file("verp action make", file, action::text_of(made.document));
   return fmt::format(
       "{}: found in {} tries in the twin. {} robots lay down by it, at worst {}; it {}\n",

@@ -9,8 +9,7 @@
 namespace verp::tool {
 namespace {
 
-/// The soft limit in a line of /proc/self/limits; nothing if there is no such line.
-/// The first word behind `name`.
+/// The first word behind `name` in a line of the file; empty: there is no such line.
 std::string word_of(const Machine& machine, const char* file, const std::string& name) {
   std::istringstream lines(machine.read(file));
   for (std::string line; std::getline(lines, line);) {
@@ -23,6 +22,7 @@ std::string word_of(const Machine& machine, const char* file, const std::string&
   return "";
 }
 
+/// The soft limit.
 std::string limit(const Machine& machine, const std::string& name) {
   return word_of(machine, "/proc/self/limits", name);
 }

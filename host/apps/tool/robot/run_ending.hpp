@@ -16,8 +16,8 @@ class RunEnding {
   double limp_s() const { return limp_s_; }
   /// "lies on its front", "leans by 40 degrees", "is upright", or "not known: the IMU is silent".
   std::string words() const;
-  /// It was upright when torque went off, and lies now.
-  bool fell() const { return was_upright_ && lies_; }
+  /// It was upright when torque went off, and lies now. A silent IMU does not say so.
+  bool fell() const { return was_upright_ && lies_ && !blind_; }
   /// Time from torque off to lying.
   double fell_s() const { return fell_s_; }
 

@@ -47,9 +47,8 @@ std::string list(const model::Entity& entity) {
                     bug.what, "", how(bug, entity), in_words(bug.catcher));
   }
   return text +
-         "What catches a bug was seen on generic21. verp walk --fault NAME injects one, verp "
-         "faults "
-         "--run each.\n";
+         "What catches a bug was seen on generic21.\n"
+         "verp walk --fault NAME injects one, verp faults --run each\n";
 }
 
 std::string row(const FieldBug& bug, const Trial& trial, const model::Entity& entity) {
