@@ -180,7 +180,8 @@ class RobotRun {
     if (presses == presses_) return;
     presses_ = presses;
     if (presses == 1) {
-      say("interrupted: the robot goes down, then lets go; once more lets go at once");
+      say("interrupted: the robot sits down, lies down if it can, then lets go; once more lets "
+          "go at once");
       operator_.sit_down();
     } else {
       say("torque off at once");
