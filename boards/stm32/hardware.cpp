@@ -1,7 +1,6 @@
 #include "boards/stm32/hardware.hpp"
 
 #include "boards/stm32/vectors.hpp"
-#include "hal/chip/stm32/brown_out.hpp"
 #include "hal/chip/stm32/instruction_cache.hpp"
 
 namespace verp::board {
@@ -40,7 +39,7 @@ void on_operator_port() {
 Start start_hardware() {
   Start start;
   start.cause = stm32::take_reset_cause(Io{});
-  stm32::keep_brown_out(Io{});  // if it cannot be written, the next start tries again
+  start.brown_out = stm32::keep_brown_out(Io{});  // refused: the next start tries again
   if constexpr (kFamily == stm32::Family::kF746) stm32::enable_instruction_cache(Io{});
   start.clocks = stm32::ClockTree<Io>(kFamily, kClockPlan).start();
   if (start.clocks.source == stm32::ClockSource::kAbsent) start.clocks = kWithoutClockController;

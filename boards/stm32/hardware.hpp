@@ -2,6 +2,7 @@
 #include "board.hpp"
 #include "boards/stm32/ports.hpp"
 #include "hal/chip/stm32/analog_input.hpp"
+#include "hal/chip/stm32/brown_out.hpp"
 #include "hal/chip/stm32/buzzer.hpp"
 #include "hal/chip/stm32/memory_io.hpp"
 #include "hal/chip/stm32/reset_cause.hpp"
@@ -32,6 +33,7 @@ extern stm32::Buzzer<Io> buzzer;
 struct Start {
   stm32::Clocks clocks;
   stm32::ResetCause cause = stm32::ResetCause::kUnknown;
+  stm32::BrownOut brown_out = stm32::BrownOut::kUnknown;
   bool good = false;  ///< false: the timer does not count
 };
 

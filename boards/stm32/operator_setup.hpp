@@ -9,6 +9,7 @@ namespace verp::board {
 /// Takes the crash record: call once.
 inline app::OperatorSetup operator_setup(const Start& start,
                                          const control::BootReport& boot_check) {
+  using dxl::controller::BrownOut;
   using dxl::controller::ClockSource;
   using dxl::controller::ResetCause;
   using dxl::controller::SelfTest;
@@ -19,11 +20,14 @@ inline app::OperatorSetup operator_setup(const Start& start,
                 static_cast<int>(stm32::ClockSource::kAbsent) + 1);
   static_assert(static_cast<int>(ResetCause::kLowPower) ==
                 static_cast<int>(stm32::ResetCause::kLowPower));
+  static_assert(static_cast<int>(BrownOut::kRefused) ==
+                static_cast<int>(stm32::BrownOut::kRefused));
   app::OperatorSetup setup;
   setup.self_test = static_cast<SelfTest>(static_cast<int>(boot_check.verdict) + 1);
   setup.bad_field = boot_check.bad_field;
   setup.clock_source = static_cast<ClockSource>(static_cast<int>(start.clocks.source) + 1);
   setup.reset_cause = static_cast<ResetCause>(start.cause);
+  setup.brown_out = static_cast<BrownOut>(start.brown_out);
   boot::CrashRecord crash;
   if (boot::take_crash(crash)) {
     setup.reset_cause = ResetCause::kFault;

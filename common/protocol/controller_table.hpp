@@ -99,6 +99,8 @@ enum class ResetCause : std::uint8_t {
   kLowPower,
   kFault
 };
+/// As in hal/chip/stm32/brown_out.hpp.
+enum class BrownOut : std::uint8_t { kUnknown, kKept, kWritten, kRefused };
 /// As in hal/chip/stm32/clock.hpp. kUnknown: not reported.
 enum class ClockSource : std::uint8_t { kUnknown, kCrystal, kInternalPll, kInternal, kAbsent };
 /// Why a board never gives torque, and how often its LED flashes; one flash is the sign of life.
@@ -147,6 +149,7 @@ inline constexpr Register kTable[] = {
     r(6, "firmware_version", u8, "", "version of this table"),
     disarmed(7, "id", u8, 252, "", "Dynamixel id, kept without power; the reply to the write still bears the old one"),
     r(13, "protocol_type", u8, "", "2: Dynamixel Protocol 2.0"),
+    r(14, "brown_out", u8, "", "reset below 2.7 V: 0 unknown (emulator), 1 the chip keeps it, 2 written at this start: reset, 1 must follow; 2 again or 3: refused, by readout protection of level 2 or worn flash; change the chip"),
     r(16, "core_version", u32, "", "same core version and Params: same outputs for same inputs"),
     r(20, "image_version", u32, "", "layout of the Params image that window_data takes"),
     r(24, "robot_name", text, "", "name of the robot in Params", kNameLength),

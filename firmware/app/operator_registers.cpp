@@ -26,6 +26,7 @@ OperatorRegisters::OperatorRegisters(const Params& params, const OperatorSetup& 
   image_.set(reg("self_test"), setup.self_test);
   image_.set(reg("image_field"), setup.bad_field.text);
   image_.set(reg("reset_cause"), setup.reset_cause);
+  image_.set(reg("brown_out"), setup.brown_out);
   image_.set(reg("clock_source"), setup.clock_source);
   image_.set(reg("crash_pc"), setup.crash.pc);
   image_.set(reg("crash_cause"), setup.crash.cause);

@@ -33,6 +33,7 @@ struct OperatorSetup {
   std::uint8_t torque_limit_percent = 100;
   table::SelfTest self_test = table::SelfTest::kNotRun;
   table::ResetCause reset_cause = table::ResetCause::kUnknown;
+  table::BrownOut brown_out = table::BrownOut::kUnknown;
   table::ClockSource clock_source = table::ClockSource::kUnknown;
   FieldName bad_field{};  ///< of Params, if self_test failed for it
   CrashNote crash{};

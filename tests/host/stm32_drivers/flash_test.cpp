@@ -15,6 +15,21 @@
 namespace verp::hal::stm32::test {
 namespace {
 
+/// An Io whose registers read as zero.
+struct NoChip {
+  std::uint8_t read8(std::uint32_t) { return 0; }
+  std::uint16_t read16(std::uint32_t) { return 0; }
+  std::uint32_t read32(std::uint32_t) { return 0; }
+  void write8(std::uint32_t, std::uint8_t) {}
+  void write16(std::uint32_t, std::uint16_t) {}
+  void write32(std::uint32_t, std::uint32_t) {}
+  std::uint32_t bus_address(const void*, std::size_t) { return 0; }
+  void barrier() {}
+  bool mask_interrupts() { return false; }
+  void unmask_interrupts() {}
+  void wait_for_interrupt() {}
+};
+
 using Dog = IndependentWatchdog<Io>;
 using Pages = SectorPages<Io, Timer, Dog>;
 static_assert(FlashPages<Pages>);
@@ -142,11 +157,12 @@ TEST_P(FlashDriver, BrownOutLevelIsWrittenOnceAndKeepsTheOtherOptions) {
   Io io = rig.machine.io();
   const std::uint32_t before = io.read32(base::kFlash + flash::kOptcr);
   ASSERT_EQ(before & flash::kOptcrBorLev, flash::kOptcrBorLev) << "delivered without one";
-  EXPECT_TRUE(keep_brown_out(io));
+  EXPECT_EQ(keep_brown_out(io), BrownOut::kWritten);
   const std::uint32_t after = io.read32(base::kFlash + flash::kOptcr);
   EXPECT_EQ(after, before & ~flash::kOptcrBorLev) << "locked again, all else as it was";
+  rig.machine.reset(model::ResetCause::kPin);
   const auto begun = rig.machine.now();
-  EXPECT_TRUE(keep_brown_out(io));
+  EXPECT_EQ(keep_brown_out(io), BrownOut::kKept);
   EXPECT_LT(rig.machine.now() - begun, ms(1)) << "no second write";
 }
 
@@ -156,8 +172,33 @@ TEST_P(FlashDriver, BrownOutLevelOfABusyFlashIsLeftForTheNextStart) {
   io.write32(base::kFlash + flash::kKeyr, flash::kKey1);
   io.write32(base::kFlash + flash::kKeyr, flash::kKey2);
   pages.erase(0);
-  EXPECT_FALSE(keep_brown_out(io));
+  EXPECT_EQ(keep_brown_out(io), BrownOut::kRefused);
   EXPECT_EQ(io.read32(base::kFlash + flash::kOptcr) & flash::kOptcrBorLev, flash::kOptcrBorLev);
+}
+
+TEST_P(FlashDriver, BrownOutLevelThatTheChipRefusesIsNamed) {
+  Io io = rig.machine.io();
+  for (const auto refusal :
+       {model::FlashModel::Options::kFrozen, model::FlashModel::Options::kFail}) {
+    rig.machine.flash().options = refusal;
+    rig.machine.reset(model::ResetCause::kPin);
+    EXPECT_EQ(keep_brown_out(io), BrownOut::kRefused) << static_cast<int>(refusal);
+  }
+  // Each start claims to have written it.
+  rig.machine.flash().options = model::FlashModel::Options::kForget;
+  for (int start = 0; start < 2; ++start) {
+    rig.machine.reset(model::ResetCause::kPin);
+    EXPECT_EQ(keep_brown_out(io), BrownOut::kWritten);
+  }
+  rig.machine.flash().options = model::FlashModel::Options::kTake;
+  rig.machine.reset(model::ResetCause::kPin);
+  EXPECT_EQ(keep_brown_out(io), BrownOut::kWritten) << "the next start tries again";
+  rig.machine.reset(model::ResetCause::kPin);
+  EXPECT_EQ(keep_brown_out(io), BrownOut::kKept);
+}
+
+TEST(BrownOutLevel, OfAnEmulatorWithoutFlashControllerIsUnknown) {
+  EXPECT_EQ(keep_brown_out(NoChip{}), BrownOut::kUnknown);
 }
 
 TEST_P(FlashDriver, CarriesTheStore) {

@@ -18,7 +18,8 @@ using Json = nlohmann::json;
 
 class BusCommand : public Program {
  protected:
-  BusCommand() {
+  explicit BusCommand(const app::OperatorSetup& setup = {})
+      : device_(link_, verp::test::kRobot, setup) {
     serving_ = std::thread([this] {
       while (!stop_) {
         if (!device_.poll()) std::this_thread::sleep_for(std::chrono::microseconds(50));
@@ -47,7 +48,7 @@ class BusCommand : public Program {
 
  private:
   link::Link link_{link::parse_endpoint("unix-listen:" + (folder_ / "port").string())};
-  app::OperatorDevice device_{link_, verp::test::kRobot, {}};
+  app::OperatorDevice device_;
   std::atomic<bool> stop_ = false;
   std::thread serving_;
 };
@@ -59,6 +60,34 @@ TEST_F(BusCommand, ScanAndPingFindTheController) {
   EXPECT_EQ(found["devices"][0]["name"], "controller");
   EXPECT_EQ(json("ping --id 200"), found["devices"][0]);
   EXPECT_NE(bus("scan").out.find("200  controller"), std::string::npos);
+}
+
+class RefusedBrownOut : public BusCommand {
+ protected:
+  RefusedBrownOut() : BusCommand({.brown_out = app::table::BrownOut::kRefused}) {}
+};
+class WrittenBrownOut : public BusCommand {
+ protected:
+  WrittenBrownOut() : BusCommand({.brown_out = app::table::BrownOut::kWritten}) {}
+};
+
+TEST_F(RefusedBrownOut, IsToldByPingWithItsCauseAndRemedy) {
+  const Outcome outcome = bus("ping");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.out.find("200  controller"), std::string::npos);
+  for (const char* words :
+       {"refused the brown-out level", "readout protected", "change the chip"}) {
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+  }
+  EXPECT_EQ(json("ping")["id"], 200) << "standard output holds JSON only";
+}
+
+TEST_F(WrittenBrownOut, AsksForASecondStart) {
+  EXPECT_NE(bus("ping").err.find("reset it and ask again"), std::string::npos);
+}
+
+TEST_F(BusCommand, PingIsSilentAboutAGoodStart) {
+  EXPECT_EQ(bus("ping").err, "");
 }
 
 TEST_F(BusCommand, RegistersAreReadByNameByAddressAndAll) {

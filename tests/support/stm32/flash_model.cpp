@@ -8,10 +8,12 @@ namespace verp::hal::stm32::model {
 using namespace flash;
 
 FlashModel::FlashModel(Machine& machine)
-    : Bank(machine, "FLASH", base::kFlash, flash::table(machine.family()), {}) {}
+    : Bank(machine, "FLASH", base::kFlash, flash::table(machine.family()), {}),
+      option_bytes_(reg(kOptcr)) {}
 
 void FlashModel::reset() {
   Bank::reset();
+  reg(kOptcr) = option_bytes_;
   done_at_ = kNever;
   keys_ = option_keys_ = 0;
   key_locked_ = error_pending_ = false;
@@ -75,11 +77,11 @@ bool FlashModel::may_write(std::uint32_t offset, std::uint32_t raw) {
   return true;
 }
 
-void FlashModel::on_write(std::uint32_t offset, std::uint32_t raw, std::uint32_t) {
+void FlashModel::on_write(std::uint32_t offset, std::uint32_t raw, std::uint32_t old) {
   if (offset == kKeyr) key_written(raw);
   if (offset == kOptkeyr) option_key_written(raw);
   if (offset == kAcr) machine().rcc().check_limits();
-  if (offset == kOptcr && (raw & kOptcrOptstrt) != 0) begin(erase_time_per_kb);
+  if (offset == kOptcr) option_written(raw, old);
   if (offset != kCr) return;
   const std::uint32_t modes = reg(kCr) & (kCrPg | kCrSer | kCrMer);
   if ((modes & (modes - 1)) != 0) violate("more than one of PG, SER and MER");
@@ -91,6 +93,15 @@ void FlashModel::on_write(std::uint32_t offset, std::uint32_t raw, std::uint32_t
       clear(kCr, kCrStrt);
     }
   }
+}
+
+void FlashModel::option_written(std::uint32_t raw, std::uint32_t old) {
+  constexpr std::uint32_t kControl = kOptcrOptlock | kOptcrOptstrt;
+  if (options == Options::kFrozen) reg(kOptcr) = (raw & kControl) | (old & ~kControl);
+  if ((raw & kOptcrOptstrt) == 0) return;
+  error_pending_ = options == Options::kFail;
+  if (options == Options::kTake) option_bytes_ = (reg(kOptcr) & ~kControl) | kOptcrOptlock;
+  begin(erase_time_per_kb);
 }
 
 void FlashModel::begin(Time takes) {

@@ -21,6 +21,9 @@ class FlashModel : public Bank {
   bool busy_stuck = false;              ///< BSY never falls once set
   std::uint32_t fail_next = 0;          ///< operations that end half done with OPERR
   std::uint32_t protected_sectors = 0;  ///< bit s: sector s
+  /// What a write of option bytes meets: OPTCR that does not change (readout protection of level
+  /// 2), an error at its end, or cells that have the old value after the next reset.
+  enum class Options { kTake, kFrozen, kFail, kForget } options = Options::kTake;
 
   void seed(std::uint32_t seed) { random_ = seed * 2654435761u | 1u; }
   /// The power fails in the middle of the operation after `operations` more.
@@ -55,6 +58,7 @@ class FlashModel : public Bank {
  private:
   void key_written(std::uint32_t key);
   void option_key_written(std::uint32_t key);
+  void option_written(std::uint32_t raw, std::uint32_t old);
   void start_erase();
   void begin(Time takes);
   void fail(std::uint32_t flag, const char* why);
@@ -76,6 +80,7 @@ class FlashModel : public Bank {
   unsigned keys_ = 0, option_keys_ = 0;
   bool key_locked_ = false;
   bool error_pending_ = false;
+  std::uint32_t option_bytes_;  ///< OPTCR after a reset
   bool cut_planned_ = false;
   std::uint32_t until_cut_ = 0;
   std::uint32_t programs_ = 0, erases_ = 0;

@@ -17,6 +17,7 @@ TEST(OperatorStart, IsToldInRegisters) {
   const OperatorSetup setup = {
       .self_test = table::SelfTest::kKinematics,
       .reset_cause = table::ResetCause::kFault,
+      .brown_out = table::BrownOut::kRefused,
       .clock_source = table::ClockSource::kInternalPll,
       .bad_field = {"joint[3].lower_rad"},
       .crash = {.pc = 0x0800'1234, .cause = 0x8200, .tick = 77, .count = 3}};
@@ -24,6 +25,7 @@ TEST(OperatorStart, IsToldInRegisters) {
   EXPECT_EQ(bench.value<std::uint8_t>(reg("self_test")), 5);
   EXPECT_STREQ(bench.value<FieldName>(reg("image_field")).text, "joint[3].lower_rad");
   EXPECT_EQ(bench.value<std::uint8_t>(reg("reset_cause")), 6);
+  EXPECT_EQ(bench.value<std::uint8_t>(reg("brown_out")), 3);
   EXPECT_EQ(bench.value<std::uint8_t>(reg("clock_source")), 2);
   EXPECT_EQ(bench.value<std::uint32_t>(reg("crash_pc")), 0x0800'1234u);
   EXPECT_EQ(bench.value<std::uint32_t>(reg("crash_cause")), 0x8200u);

@@ -16,6 +16,7 @@
 #include "host/apps/cli/suggest.hpp"
 #include "host/apps/tool/robot/bus_bench.hpp"
 #include "host/apps/tool/robot/register_value.hpp"
+#include "host/apps/tool/robot/start_words.hpp"
 #include "host/twin/bus/client.hpp"
 #include "host/twin/bus/register_names.hpp"
 
@@ -162,6 +163,14 @@ std::vector<bus::NamedRegister> wanted(bus::Client& client, const BusOptions& op
   return {known.begin(), known.end()};
 }
 
+void tell_start(bus::Client& client, const bus::Identity& identity) {
+  if (identity.model != dxl::controller::kModel) return;
+  const bus::NamedRegister* at = bus::find_register(identity.model, "brown_out");
+  const std::string complaint =
+      brown_out_complaint(read_register(client, identity.id, *at).front());
+  if (!complaint.empty()) cli::complain(complaint);
+}
+
 }  // namespace
 
 int scan_serial(const BusOptions& options) {
@@ -198,6 +207,7 @@ int ping_serial(const BusOptions& options) {
     print({identity}, options);
     tell_tries(client, options, nullptr);
   }
+  tell_start(client, identity);
   return cli::kGood;
 }
 
