@@ -226,7 +226,7 @@ inline constexpr Register kTable[] = {
     // Errors since power-up; all wrap.
     r(200, "bus_crc_errors", u32, "", "servo bus: packets with a wrong CRC"),
     r(204, "bus_timeouts", u32, "", "servo bus: requests that some device did not answer in time"),
-    r(208, "bus_strays", u32, "", "servo bus: good packets nobody had asked for"),
+    r(208, "bus_strays", u32, "", "servo bus: good packets nobody had asked for; several a tick: another master, or a transceiver that echoes what this board sends"),
     r(212, "bus_errors", u32, "", "servo bus: status packets with an error number"),
     r(216, "bus_refused", u32, "", "servo bus: frames the port did not take"),
     r(220, "overruns", u32, "", "ticks that followed one which ended after its deadline"),

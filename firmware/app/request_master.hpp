@@ -12,7 +12,7 @@ enum class Take { kStray, kMore, kDone };
 
 /// Requests and replies over a FrameBus, whatever their protocol. A lost reply costs at most its
 /// timeout. A late reply is dropped before the next request; an even later one has a wrong length
-/// if similar requests add spare_bytes().
+/// if similar requests add spare_bytes(). On a line that echoes, our own packets count as strays.
 ///
 /// Words are the protocol's:
 ///  - Parser: push(byte) and next() find packets; packet(), reset(), noise_bytes().
@@ -75,10 +75,10 @@ class RequestMaster {
     for (std::size_t i = 0; i < count; ++i) {
       for (bool found = parser_.push(rx_[i]); found; found = parser_.next()) {
         const Packet& packet = parser_.packet();
-        if (!Words::answers(packet, tx_, sent_)) continue;
-        const Take verdict = done ? Take::kStray : take(packet);
+        const bool answer = Words::answers(packet, tx_, sent_);
+        const Take verdict = answer && !done ? take(packet) : Take::kStray;
         if (verdict == Take::kStray) ++counters_.strays;
-        if (Words::refuses(packet)) ++counters_.errors;
+        if (answer && Words::refuses(packet)) ++counters_.errors;
         done = done || verdict == Take::kDone;
       }
     }

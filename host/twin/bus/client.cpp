@@ -157,8 +157,8 @@ void Client::write(std::uint8_t id, std::uint16_t address, const std::vector<std
 void Client::silent(std::uint8_t id) const {
   const std::string reason =
       !link_.connected()      ? "the link was lost; plug it in again"
-      : counters().strays > 0 ? "what came was no answer to it; is another program using this "
-                                "bus? See `verp bus scan`"
+      : counters().strays > 0 ? "what came was no answer to it; another program uses this bus, or "
+                                "the adapter echoes: see `verp bus doctor`"
       : crc_errors() > 0      ? "only damaged packets came; check the baud rate and the wiring"
                               : "check power, wiring, id and baud rate, or raise --timeout";
   throw DeviceError(fmt::format("{}: device {} did not answer, asked {} times: {}", text_, id,

@@ -42,7 +42,7 @@ bool VirtualBus::jams(std::uint8_t byte, std::uint64_t start_ns, std::uint64_t e
   bool any = false;
   for (Chunk& each : replies_) {
     const std::uint64_t over_ns = each.start_ns + bytes_ns(each.bytes.size());
-    if (end_ns <= each.asked_ns || start_ns >= over_ns) continue;
+    if (each.echo || end_ns <= each.asked_ns || start_ns >= over_ns) continue;
     any = true;
     for (std::size_t i = each.taken; i < each.bytes.size(); ++i) {
       const std::uint64_t at_ns = each.start_ns + bytes_ns(i);
@@ -70,11 +70,13 @@ void VirtualBus::talk(const std::uint8_t* data, std::size_t size) {
     for (bool found = words_->push(data[i]); found; found = words_->next()) {
       wire_free_ns_ = master_free_ns_;
       // A new packet cancels remaining answers to a broadcast Ping.
-      std::erase_if(replies_,
-                    [this](const Chunk& each) { return each.asked_ns > master_free_ns_; });
+      std::erase_if(replies_, [this](const Chunk& each) {
+        return !each.echo && each.asked_ns > master_free_ns_;
+      });
       words_->handle(master_free_ns_);
     }
   }
+  sent({data, size}, send_start_ns_);
 }
 
 }  // namespace verp::bus

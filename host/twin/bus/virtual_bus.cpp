@@ -78,6 +78,7 @@ bool VirtualBus::send(const std::uint8_t* data, std::size_t size) {
     }
   }
   wire_free_ns_ = std::max(wire_free_ns_, start_ns + bytes_ns(size));
+  sent({data, size}, start_ns);
   send_start_ns_ = start_ns;
   now_ns_ = std::max(now_ns_, start_ns);
   return true;
@@ -139,11 +140,21 @@ void VirtualBus::put_on_wire(std::vector<std::uint8_t> bytes) {
   if (bytes.empty()) return;
   bytes_on_wire_ += bytes.size();
   const std::uint64_t start_ns = wire_free_ns_;
+  tell(false, bytes, start_ns);
   wire_free_ns_ += bytes_ns(bytes.size());
-  const auto later = std::find_if(replies_.begin(), replies_.end(), [start_ns](const Chunk& each) {
-    return each.start_ns > start_ns;  // replies to a broadcast Ping
+  queue({asked_ns_, start_ns, 0, std::move(bytes)});
+}
+
+void VirtualBus::queue(Chunk chunk) {
+  const auto later = std::find_if(replies_.begin(), replies_.end(), [&](const Chunk& each) {
+    return each.start_ns > chunk.start_ns;  // replies to a broadcast Ping, and those to an echo
   });
-  replies_.insert(later, {asked_ns_, start_ns, 0, std::move(bytes)});
+  replies_.insert(later, std::move(chunk));
+}
+
+void VirtualBus::sent(std::span<const std::uint8_t> bytes, std::uint64_t begin_ns) {
+  tell(true, bytes, begin_ns);
+  if (echo_) queue({begin_ns, begin_ns, 0, {bytes.begin(), bytes.end()}, true});
 }
 
 }  // namespace verp::bus

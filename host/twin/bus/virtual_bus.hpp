@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <span>
 #include <utility>
@@ -59,6 +60,8 @@ class VirtualBus final : public hal::FrameBus {
   /// loses bytes that the master sends before an answer is over (real_time_line.cpp). An incomplete
   /// packet ends at the next header or after a pause.
   void set_real_time(bool real_time) { real_time_ = real_time; }
+  /// A transceiver whose receiver stays on while it sends: the master hears its own bytes.
+  void set_echo(bool echo) { echo_ = echo; }
   void set_baud(std::uint32_t baud);
   /// Holds the plant: only bytes advance time.
   void hold_plant() { held_ = true; }
@@ -83,6 +86,11 @@ class VirtualBus final : public hal::FrameBus {
   }
 
   std::uint64_t bytes_on_wire() const { return bytes_on_wire_; }
+  /// A passive listener, called for what the master or the devices put on the line; begin and end
+  /// of the bytes are known then, and may lie ahead. An answer may be told before its request.
+  using Listener = std::function<void(bool master, std::span<const std::uint8_t> bytes,
+                                      std::uint64_t begin_ns, std::uint64_t end_ns)>;
+  void set_listener(Listener listener) { listener_ = std::move(listener); }
 
   // For the words.
   /// Brings the plant to the end of a request, and lets every device know.
@@ -102,6 +110,7 @@ class VirtualBus final : public hal::FrameBus {
     std::uint64_t start_ns = 0;
     std::size_t taken = 0;
     std::vector<std::uint8_t> bytes;
+    bool echo = false;  ///< of the master, not a device's answer
   };
 
   std::uint64_t bytes_ns(std::size_t count) const;
@@ -116,6 +125,11 @@ class VirtualBus final : public hal::FrameBus {
   void advance_plant(std::uint64_t time_us);
   void wait_us(std::uint32_t delay_us);
   void put_on_wire(std::vector<std::uint8_t> bytes);
+  void queue(Chunk chunk);
+  void sent(std::span<const std::uint8_t> bytes, std::uint64_t begin_ns);
+  void tell(bool master, std::span<const std::uint8_t> bytes, std::uint64_t begin_ns) const {
+    if (listener_) listener_(master, bytes, begin_ns, begin_ns + bytes_ns(bytes.size()));
+  }
 
   sim::Plant& plant_;
   std::uint64_t period_ns_;
@@ -125,6 +139,7 @@ class VirtualBus final : public hal::FrameBus {
   std::array<bool, 256> unplugged_{};
   std::array<bool, 256> unpowered_{};
   std::deque<Chunk> replies_;
+  Listener listener_;
   std::uint64_t now_ns_ = 0;
   std::uint64_t wire_free_ns_ = 0;
   std::uint64_t asked_ns_ = 0;        ///< when the next sender received its request
@@ -139,6 +154,7 @@ class VirtualBus final : public hal::FrameBus {
   bool ticking_ = false;
   bool real_time_ = false;
   bool held_ = false;
+  bool echo_ = false;
 };
 
 template <class Speaker, class Say>
