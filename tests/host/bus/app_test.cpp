@@ -311,6 +311,35 @@ TEST_F(AppLoop, TheOperatorsOrderReachesTheTickItWasGivenFor) {
       << "an operator can't claim a fresh IMU";
 }
 
+TEST_F(AppLoop, AListenerHearsEveryByteAtItsTime) {
+  struct Heard {
+    std::uint64_t begin_ns, end_ns;
+    std::size_t bytes;
+    bool master;
+  };
+  std::vector<Heard> all;
+  bus.set_listener([&all](bool master, auto bytes, auto begin_ns, auto end_ns) {
+    all.push_back({begin_ns, end_ns, bytes.size(), master});
+  });
+  ready();
+  wanted.torque_enable = this->all();
+  ticks(20);
+  std::sort(all.begin(), all.end(),
+            [](const Heard& a, const Heard& b) { return a.begin_ns < b.begin_ns; });
+  std::size_t bytes = 0, sent = 0, sent_by_master = 0;
+  std::uint64_t free_ns = 0;
+  for (const Heard& each : all) {
+    EXPECT_GE(each.begin_ns, free_ns) << "one at a time";
+    EXPECT_EQ(each.end_ns - each.begin_ns, each.bytes * 10 * 1'000'000'000 / params.baud);
+    free_ns = each.end_ns;
+    bytes += each.bytes;
+    sent_by_master += each.master ? each.bytes : 0;
+  }
+  for (const auto& frame : tap.frames) sent += frame.size();
+  EXPECT_EQ(bytes, bus.bytes_on_wire());
+  EXPECT_EQ(sent_by_master, sent);
+}
+
 TEST_F(AppLoop, TheSameRunGivesTheSameRecords) {
   const auto run = [this] {
     test::FakePlant twin;

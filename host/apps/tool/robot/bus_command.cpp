@@ -120,13 +120,9 @@ cli::Subcommand add_bus(CLI::App& root) {
   measure->add_option("--size", options->size, "bytes of it")
       ->check(CLI::Range(1, 400))
       ->capture_default_str();
-  const cli::Subcommand doctor = add_bus_doctor(*app);
-  const cli::Subcommand setup = add_bus_setup(*app);
-  const cli::Subcommand checklist = add_bus_checklist(*app);
-  const cli::Subcommand load = add_bus_load(*app);
-  const cli::Subcommand laser = add_bus_laser(*app);
-  const cli::Subcommand camera = add_bus_camera(*app);
-  const cli::Subcommand imu = add_bus_imu(*app);
+  const std::vector<cli::Subcommand> others = {
+      add_bus_doctor(*app), add_bus_setup(*app), add_bus_checklist(*app), add_bus_load(*app),
+      add_bus_wire(*app),   add_bus_laser(*app), add_bus_camera(*app),    add_bus_imu(*app)};
   CLI::App* list = app->add_subcommand("registers", "the controller's registers, as a page");
   CLI::App* sheet = app->add_subcommand("eds", "a node's electronic data sheet, for CANopen tools");
   std::vector<std::string> nodes;
@@ -134,37 +130,36 @@ cli::Subcommand add_bus(CLI::App& root) {
   sheet->add_option("node", options->node, "of which node")
       ->required()
       ->check(CLI::IsMember(nodes));
-  return {
-      app, [=] {
-        const bool can = on_can(*options);
-        if (can) refuse_on_can({find, show, put, measure}, measure);
-        bool named = false;  // --id is given
-        for (const CLI::App* each : {call, show, put, measure}) {
-          named = named || each->get_option("--id")->count() > 0;
-        }
-        if (!named && !can && options->protocol == "feetech" && !find->parsed()) {
-          require_id({call, show, put, measure});
-        }
-        if (!named) {
-          options->id = can ? canopen::plan::kControllerNode : dxl::controller::kDefaultId;
-        }
-        check_id(*options, can);
-        if (find->parsed()) return can ? scan_can(*options) : scan_serial(*options);
-        if (call->parsed()) return can ? ping_can(*options) : ping_serial(*options);
-        if (show->parsed()) return can ? read_can(*options) : read_serial(*options);
-        if (put->parsed()) return can ? write_can(*options) : write_serial(*options);
-        if (measure->parsed()) return can ? bench_can(*options) : bench_serial(*options);
-        for (const cli::Subcommand& each : {doctor, setup, checklist, load, laser, camera, imu}) {
-          if (each.app->parsed()) return each.run();
-        }
-        if (list->parsed()) cli::answer(bus::controller_document());
-        for (const eds::Sheet& each : eds::sheets()) {
-          if (sheet->parsed() && options->node == each.node) {
-            cli::answer(eds::to_text(each.describe()));
-          }
-        }
-        return int{cli::kGood};
-      }};
+  return {app, [=] {
+            const bool can = on_can(*options);
+            if (can) refuse_on_can({find, show, put, measure}, measure);
+            bool named = false;  // --id is given
+            for (const CLI::App* each : {call, show, put, measure}) {
+              named = named || each->get_option("--id")->count() > 0;
+            }
+            if (!named && !can && options->protocol == "feetech" && !find->parsed()) {
+              require_id({call, show, put, measure});
+            }
+            if (!named) {
+              options->id = can ? canopen::plan::kControllerNode : dxl::controller::kDefaultId;
+            }
+            check_id(*options, can);
+            if (find->parsed()) return can ? scan_can(*options) : scan_serial(*options);
+            if (call->parsed()) return can ? ping_can(*options) : ping_serial(*options);
+            if (show->parsed()) return can ? read_can(*options) : read_serial(*options);
+            if (put->parsed()) return can ? write_can(*options) : write_serial(*options);
+            if (measure->parsed()) return can ? bench_can(*options) : bench_serial(*options);
+            for (const cli::Subcommand& each : others) {
+              if (each.app->parsed()) return each.run();
+            }
+            if (list->parsed()) cli::answer(bus::controller_document());
+            for (const eds::Sheet& each : eds::sheets()) {
+              if (sheet->parsed() && options->node == each.node) {
+                cli::answer(eds::to_text(each.describe()));
+              }
+            }
+            return int{cli::kGood};
+          }};
 }
 
 }  // namespace verp::tool
