@@ -53,6 +53,7 @@ constexpr Command kCommands[] = {
     {"check", kRobot,
      "Validate a robot; limbs, links, masses, limits, servos, leg solver, bus load"},
     {"export", kRobot, "Write a robot's Params image and header for firmware"},
+    {"import", kRobot, "Make a robot of VERP from another maker's file, which is not changed"},
     {"new", kRobot, "Begin a robot or a controller of your own"},
     {"edit", kEditor, "Change a robot's file: set, add, delete, mirror, import a mesh"},
     {"trace", kStudy, "Look into a trace, draw, export, play or cut it, recover what a crash left"},

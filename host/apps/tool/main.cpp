@@ -25,6 +25,7 @@ std::vector<cli::Subcommand> all_commands(CLI::App& root) {
           add_other(root, "check"),
           add_other(root, "export"),
           add_parameters(root),
+          add_other(root, "import"),
           add_other(root, "new"),
           add_other(root, "edit"),
           add_completion(root),

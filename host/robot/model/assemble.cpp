@@ -117,7 +117,8 @@ class Assembler {
   }
 
   /// Controllers have room for 23 characters; tables and traces one line.
-  void check_names() const {
+  void check_names() {
+    std::map<std::string, std::string> known;  // by the controller's name
     std::vector<std::string> names = {e_.name};
     for (const Joint& joint : e_.joints) names.push_back(joint.name);
     for (const std::string& name : names) {
@@ -125,11 +126,16 @@ class Assembler {
         return static_cast<unsigned char>(c) < ' ' || c == 0x7F;
       });
       if (control) fail(name, "the name '" + name + "' has a line break or tab in it", "rename it");
-      if (name.size() < kNameLength) continue;
-      fail(name,
-           "the name '" + name + "' is longer than " + std::to_string(kNameLength - 1) +
-               " characters",
-           "shorten it");
+      const std::string inside = short_name(name);
+      const auto [other, is_new] = known.insert({inside, name});
+      if (!is_new && other->second != name) {
+        fail(
+            name,
+            "the controller would call '" + name + "' and '" + other->second + "' '" + inside + "'",
+            "shorten one of them to " + std::to_string(kNameLength - 1) + " characters");
+      }
+      if (inside != name)
+        e_.notes.push_back("'" + name + "' is '" + inside + "' to the controller");
     }
   }
 
@@ -287,7 +293,10 @@ class Assembler {
   }
 
   void free_links() {
+    const NoCollideFact* any = nullptr;
     for (const NoCollideFact& fact : facts_.no_collides) {
+      if (fact.is_any()) any = &fact;
+      if (fact.is_any()) continue;
       const int a = tree_.locate(fact.link, fact.at).node,
                 b = tree_.locate(fact.other, fact.at).node;
       if (a == b || joints_between(e_, a, b) <= 1) {
@@ -297,6 +306,10 @@ class Assembler {
       e_.no_collide.push_back({std::min(a, b), std::max(a, b), fact.at.text("reason")});
     }
     for (const Clash& clash : find_near_overlaps(e_)) {
+      if (any != nullptr) {
+        e_.no_collide.push_back({clash.overlap.link, clash.overlap.other, any->at.text("reason")});
+        continue;
+      }
       const std::string &link = link_name(clash.overlap.link),
                         &other = link_name(clash.overlap.other);
       fail(link,

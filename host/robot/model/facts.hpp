@@ -90,7 +90,8 @@ struct MimicFact {
 
 struct NoCollideFact {
   XmlElement at;
-  std::string link, other;
+  std::string link, other;  ///< both "*": all that overlap in a pose
+  bool is_any() const { return link == "*" && other == "*"; }
 };
 
 /// Sensors have the same ids on each bus.

@@ -206,6 +206,10 @@ Entity load_part_of_robot(const std::string& path) {
   return load(path, "", false);
 }
 
+Entity load_part_of_robot_text(const std::string& path, const std::string& text) {
+  return load(path, "", false, text);
+}
+
 Entity load_robot_text(const std::string& path, const std::string& text) {
   Entity entity = load(path, "", true, text);
   require_bus(entity, make_params(entity));

@@ -14,6 +14,8 @@ Entity load_robot(const std::string& path, const std::string& bus = "");
 Entity load_robot_on_any_bus(const std::string& path, const std::string& bus);
 /// Any model with a body and a bus, even without legs or IMU; it cannot be controlled.
 Entity load_part_of_robot(const std::string& path);
+/// The same from a text that is not in the file yet.
+Entity load_part_of_robot_text(const std::string& path, const std::string& text);
 /// A text that is not in the file yet; includes are relative to the file.
 Entity load_robot_text(const std::string& path, const std::string& text);
 /// Checks only what needs no whole robot: well-formed XML, numbers, unique elements.

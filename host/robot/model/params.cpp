@@ -1,5 +1,7 @@
 #include "host/robot/model/params.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -23,14 +25,9 @@ void to_rows(const Mat3& m, float (&rows)[9]) {
   for (int i = 0; i < 9; ++i) rows[i] = static_cast<float>(m(i / 3, i % 3));
 }
 
-void put_name(const Entity& entity, const std::string& name, char (&place)[kNameLength]) {
-  if (name.size() >= kNameLength) {
-    throw LoadError(
-        entity.file, 1,
-        "the name '" + name + "' is longer than " + std::to_string(kNameLength - 1) + " characters",
-        "shorten it");
-  }
-  std::memcpy(place, name.c_str(), name.size());
+void put_name(const std::string& name, char (&place)[kNameLength]) {
+  const std::string short_one = short_name(name);
+  std::memcpy(place, short_one.c_str(), short_one.size());
 }
 
 AxisKind kind_of(const Vec3& axis) {
@@ -76,7 +73,7 @@ JointParams joint_params(const Entity& entity, std::size_t j, Params& params) {
   const Node& link = entity.nodes[j + 1];
   const Servo& servo = joint.servo;
   JointParams p;
-  put_name(entity, joint.name, p.name);
+  put_name(joint.name, p.name);
   p.parent = static_cast<std::uint8_t>(joint.parent);
   p.axis_kind = kind_of(joint.axis);
   p.servo_id = static_cast<std::uint8_t>(servo.id);
@@ -148,6 +145,13 @@ void find_head(const Entity& entity, Params& params) {
 
 }  // namespace
 
+std::string short_name(const std::string& name) {
+  if (name.size() < kNameLength) return name;
+  std::uint32_t hash = 2166136261U;  // FNV-1a, www.isthe.com/chongo/tech/comp/fnv
+  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
+  return fmt::format("{}_{:04x}", name.substr(0, kNameLength - 6), hash >> 16);
+}
+
 double servo_stiffness_n_m_rad(const Servo& servo) {
   const double counts_per_rad = servo.counts_per_rev / (2 * std::numbers::pi);
   return servo.stall_torque_n_m * servo.p_gain / servo.p_gain_unit * counts_per_rad / kFullDuty;
@@ -176,7 +180,7 @@ std::optional<int> tuning_id(const std::string& name) {
 
 Params make_params(const Entity& entity) {
   Params params;
-  put_name(entity, entity.name, params.name);
+  put_name(entity.name, params.name);
   params.period_us = entity.period_us;
   params.rise_torque_percent = entity.rise_torque_percent;
   params.baud = entity.baud;

@@ -8,9 +8,12 @@
 
 namespace verp::model {
 
+/// A name as the controller knows it: the same up to 23 characters; of a longer one the first 18
+/// and a hash of all.
+std::string short_name(const std::string& name);
+
 /// Controller's constants: single precision, fixed capacity, defaults filled in. Throws LoadError
-/// beyond 4 kinds of servo settings or 23 characters a name, and for unknown or out-of-range
-/// tuning.
+/// beyond 4 kinds of servo settings, and for unknown or out-of-range tuning.
 Params make_params(const Entity& entity);
 
 /// N m/rad: duty grows by p/128 of 1/885 a count, and torque follows.

@@ -101,6 +101,7 @@ void refuse_second_root(const XmlElement& robot, const Facts& facts) {
 /// libsdformat rejects such a joint without name or line.
 void refuse_no_direction(const XmlElement& robot) {
   for (const XmlElement& joint : robot.children("joint")) {
+    if (joint.text("type", "") == "fixed") continue;
     for (const XmlElement& axis : joint.children("axis")) {
       const auto xyz = parse_numbers(axis.text("xyz", "1 0 0"));
       const bool none =

@@ -91,7 +91,10 @@ void PreparedUrdfs::prepare(const XmlElement& original) {
       joint->SetAttribute("name", name.c_str());
     }
     const char* type = joint->Attribute("type");
-    if (type != nullptr && std::string(type) == "fixed") keep_fixed_joint(robot, name);
+    if (type == nullptr || std::string(type) != "fixed") continue;
+    keep_fixed_joint(robot, name);
+    // Exporters write zeros here, which libsdformat refuses.
+    if (XMLElement* const axis = joint->FirstChildElement("axis")) joint->DeleteChild(axis);
   }
   copy_of_[canonical(original.file())] = write_copy(document, original.file());
 }

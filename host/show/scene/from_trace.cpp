@@ -9,6 +9,7 @@
 #include "host/robot/model/load.hpp"
 #include "host/robot/model/load_error.hpp"
 #include "host/robot/model/load_world.hpp"
+#include "host/robot/model/params.hpp"
 #include "host/robot/model/principal.hpp"
 #include "host/show/scene/body_track.hpp"
 #include "host/show/scene/measured.hpp"
@@ -141,7 +142,7 @@ constexpr std::size_t kEvery = 125;  // between States: most that a seek recompu
 bool is_same_robot(const Entity& entity, const Params& params) {
   if (entity.joints.size() != params.joint_count) return false;
   for (std::size_t j = 0; j < entity.joints.size(); ++j) {
-    if (entity.joints[j].name != text_of(params.joint[j].name)) return false;
+    if (model::short_name(entity.joints[j].name) != text_of(params.joint[j].name)) return false;
   }
   return true;
 }

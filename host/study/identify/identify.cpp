@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "host/robot/model/load_error.hpp"
+#include "host/robot/model/params.hpp"
 #include "host/study/identify/fit.hpp"
 
 namespace verp::identify {
@@ -44,7 +45,7 @@ void require_same_robot(const model::Entity& entity, const record::Trace& trace)
         j < params.joint_count
             ? std::string(params.joint[j].name, ::strnlen(params.joint[j].name, kNameLength))
             : "missing";
-    if (here.substr(0, kNameLength) == there) continue;
+    if (model::short_name(here) == there) continue;
     throw record::TraceError(
         trace.file,
         fmt::format("of another robot: joint {} is '{}', here it is '{}'", j, there, here),

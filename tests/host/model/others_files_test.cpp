@@ -5,6 +5,7 @@
 #include <string>
 
 #include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
 #include "tests/host/model/test_files.hpp"
 
 /// Third-party files with one fault each. The error must be within five lines of it.
@@ -358,16 +359,60 @@ TEST(OthersFiles, RobotWithoutLegsOrImuIsRefused) {
   }
 }
 
-// Names are lines in tables and 23 characters in a controller.
-TEST(OthersFiles, NamesThatNothingHasRoomForAreRefused) {
-  for (const std::string name : {"head&#10;yaw", "head_yaw_as_the_maker_calls_it"}) {
-    std::string text = read_text(robot_file("generic21"));
-    for (auto at = text.find("\"head_yaw\""); at != std::string::npos;
-         at = text.find("\"head_yaw\"")) {
-      text.replace(at + 1, 8, name);
-    }
-    expect_sdf_refused(text, "<joint name=\"" + name, "the name '");
-  }
+std::string with_head_named(const std::string& name) {
+  std::string text = read_text(robot_file("generic21"));
+  for (auto at = text.find("\"head_yaw\""); at != std::string::npos; at = text.find("\"head_yaw\""))
+    text.replace(at + 1, 8, name);
+  return text;
+}
+
+TEST(OthersFiles, NamesAreOneLineEach) {
+  expect_sdf_refused(with_head_named("head&#10;yaw"), "<joint name=\"head&#10;yaw", "the name '");
+}
+
+TEST(OthersFiles, LongNamesAreShortInTheControllerOnly) {
+  const std::string name = "head_yaw_as_the_maker_calls_it";
+  const TemporaryFile file("robot.sdf", with_head_named(name));
+  const Entity robot = load_robot(file.path());
+  const auto joint = std::find_if(robot.joints.begin(), robot.joints.end(),
+                                  [&](const Joint& each) { return each.name == name; });
+  ASSERT_NE(joint, robot.joints.end());
+  const Params params = make_params(robot);
+  const std::string inside = params.joint[joint - robot.joints.begin()].name;
+  EXPECT_EQ(inside, short_name(name));
+  EXPECT_EQ(inside.substr(0, 19), "head_yaw_as_the_ma_");
+  EXPECT_NE(inside, short_name("head_yaw_as_the_maker_called_it"));
+  EXPECT_NE(std::find(robot.notes.begin(), robot.notes.end(),
+                      "'" + name + "' is '" + inside + "' to the controller"),
+            robot.notes.end());
+}
+
+/// CAD exporters write zeros there.
+TEST(OthersFiles, AxisOfAFixedJointIsNotLookedAt) {
+  std::string text =
+      read_text(std::string(VERP_SOURCE_DIR) + "/tests/host/model/odd_robot/odd.urdf");
+  const auto at = text.find("<parent link=\"base_link\"/>");
+  ASSERT_NE(at, std::string::npos);
+  text.insert(at, "<axis xyz=\"0 0 0\"/>");
+  const TemporaryFile urdf("odd.urdf", text);
+  std::string wrapper =
+      read_text(std::string(VERP_SOURCE_DIR) + "/tests/host/model/odd_robot/robot.sdf");
+  wrapper.replace(wrapper.find("odd.urdf"), 8,
+                  std::filesystem::path(urdf.path()).filename().string());
+  const TemporaryFile file("robot.sdf", wrapper);
+  EXPECT_EQ(load_robot(file.path()).name, "odd");
+}
+
+TEST(OthersFiles, OverlapsOfTheMakersShapesMayBeAllowedAtOnce) {
+  std::string text = read_text(robot_file("generic21"));
+  const auto at = text.find("</model>");
+  text.insert(at, "<verp:box frame=\"l_foot\" centre=\"0 0 0.3\" size=\"0.1 0.1 0.1\"/>\n");
+  expect_sdf_refused(text, "<link name=\"trunk\"", "overlap by");
+  text.insert(at, "<verp:no_collide link=\"*\" other=\"*\" reason=\"the maker's\"/>\n");
+  const TemporaryFile file("robot.sdf", text);
+  const auto pairs = load_robot(file.path()).no_collide;
+  EXPECT_TRUE(std::any_of(pairs.begin(), pairs.end(),
+                          [](const NoCollide& pair) { return pair.reason == "the maker's"; }));
 }
 
 // The libraries expect a handful of links; 20,000 took minutes.

@@ -9,6 +9,7 @@ cli::Subcommand add_run(CLI::App& root);
 cli::Subcommand add_shadow(CLI::App& root);
 cli::Subcommand add_check(CLI::App& root);
 cli::Subcommand add_export(CLI::App& root);
+cli::Subcommand add_import(CLI::App& root);
 cli::Subcommand add_new(CLI::App& root);
 cli::Subcommand add_bus(CLI::App& root);
 cli::Subcommand add_flash(CLI::App& root);

@@ -6,9 +6,9 @@ namespace {
 using namespace verp::tool;
 
 std::vector<verp::cli::Subcommand> commands(CLI::App& root) {
-  return {add_action(root), add_hil(root),    add_run(root),   add_shadow(root),
-          add_check(root),  add_export(root), add_new(root),   add_bus(root),
-          add_flash(root),  add_deploy(root), add_debug(root), add_doctor(root)};
+  return {add_action(root), add_hil(root),    add_run(root),   add_shadow(root), add_check(root),
+          add_export(root), add_import(root), add_new(root),   add_bus(root),    add_flash(root),
+          add_deploy(root), add_debug(root),  add_doctor(root)};
 }
 
 }  // namespace

@@ -1,0 +1,113 @@
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "host/apps/cli/console.hpp"
+#include "host/apps/cli/exit_status.hpp"
+#include "host/apps/cli/other_program.hpp"
+#include "host/apps/tool/robot/commands.hpp"
+#include "host/author/import/import.hpp"
+#include "host/os/files/whole.hpp"
+
+namespace verp::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ImportWords {
+  import::Wish wish;
+  bool json = false;
+};
+
+void write_beside(const fs::path& file, const std::string& text) {
+  const files::Trouble trouble = files::replace(file, text);
+  if (trouble.any()) throw cli::ToolError(cli::kBadInput, file.string() + ": " + trouble.text());
+}
+
+/// Work of the owner is kept.
+void refuse_existing(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder / "robot.sdf", error)) return;
+  throw cli::ToolError(cli::kBadInput, fmt::format("{}: is there already; remove it, or choose "
+                                                   "another folder with -o",
+                                                   (folder / "robot.sdf").string()));
+}
+
+cli::Json json_of(const import::Imported& robot, const std::string& sdf) {
+  cli::Json findings = cli::Json::array();
+  for (const import::Finding& each : robot.findings) {
+    const bool guess = each.sureness == import::Finding::Sureness::kGuessed;
+    findings.push_back(
+        {{"what", each.what}, {"value", each.value}, {"guessed", guess}, {"check", each.check}});
+  }
+  return {{"name", robot.name},
+          {"robot", sdf},
+          {"findings", findings},
+          {"left_out", robot.left_out},
+          {"refusal", robot.refusal}};
+}
+
+void tell(const import::Imported& robot, const std::string& sdf) {
+  std::string text;
+  for (const import::Finding& each : robot.findings) {
+    const bool guess = each.sureness == import::Finding::Sureness::kGuessed;
+    text += fmt::format("{:<8} {:<10} {}{}\n", guess ? "guessed" : "found", each.what, each.value,
+                        guess && !each.check.empty() ? "; " + each.check : "");
+  }
+  for (const std::string& each : robot.left_out) text += "changed  " + each + "\n";
+  cli::answer(text);
+  if (robot.refusal.empty())
+    cli::answer(fmt::format("{}: made; `verp walk {}` walks it\n", sdf, sdf));
+}
+
+int import_file(const ImportWords& words) {
+  import::Wish wish = words.wish;
+  std::error_code error;
+  if (fs::is_directory(wish.file, error)) {
+    throw cli::ToolError(cli::kBadInput, wish.file + ": is a folder; give the URDF in it");
+  }
+  if (wish.folder.empty()) wish.folder = fs::path(wish.file).stem().string() + "_verp";
+  const fs::path folder = wish.folder, sdf = folder / "robot.sdf";
+  refuse_existing(folder);
+  const bool made = fs::create_directories(folder, error);
+  if (error) {
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("{}: cannot be made ({}); choose another place "
+                                     "with -o",
+                                     folder.string(), error.message()));
+  }
+  import::Imported robot;
+  try {
+    robot = import::import_robot(wish);
+  } catch (...) {
+    if (made) fs::remove(folder, error);
+    throw;
+  }
+  write_beside(sdf, robot.sdf);
+  write_beside(folder / "import.md", import::page_of(robot, wish));
+  if (words.json) {
+    cli::print_json(json_of(robot, sdf.string()));
+  } else {
+    tell(robot, sdf.string());
+  }
+  if (robot.refusal.empty()) return cli::kGood;
+  throw cli::ToolError(cli::kBadInput, robot.refusal);
+}
+
+}  // namespace
+
+cli::Subcommand add_import(CLI::App& root) {
+  CLI::App* app = cli::declare_other(root, "import");
+  auto words = std::make_shared<ImportWords>();
+  app->add_option("FILE", words->wish.file, "URDF of a robot; it is not changed")->required();
+  app->add_option("-o,--output", words->wish.folder, "folder (default: FILE's name and _verp)");
+  app->add_option("--name", words->wish.name, "of the robot (default: the file's)");
+  app->add_option("--servos", words->wish.servo_type,
+                  "type of its servos (default: the weakest that carries it)");
+  cli::add_json_flag(*app, words->json);
+  return {app, [words] { return import_file(*words); }};
+}
+
+}  // namespace verp::tool

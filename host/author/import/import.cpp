@@ -1,0 +1,405 @@
+#include "host/author/import/import.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <numbers>
+
+#include "common/model/params.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/servo_types.hpp"
+
+namespace verp::import {
+namespace {
+
+namespace fs = std::filesystem;
+using Sureness = Finding::Sureness;
+
+constexpr std::size_t kLegJointCount = 6;
+constexpr double kMostServo_rad = 3.14;  // a single turn, with room for the encoder's last counts
+constexpr double kGravity_m_s2 = 9.80665;
+// On one leg, hip at 0.81 of the leg, the knee's arm is 0.295 of the leg (stance.cpp). A walk needs
+// twice what standing does.
+// Of the whole robot: a link's radius of gyration, at most and usually. Of a sole: how far its
+// middle is ahead of the ankle, where that tells.
+constexpr double kMostGyration = 0.3, kUsualGyration = 0.05, kLeastReach = 0.05;
+constexpr double kKneeArm = 0.295, kTorqueReserve = 2;
+
+/// Small letters, digits and _, as robots are named.
+std::string plain(const std::string& name) {
+  std::string out;
+  for (const char c : name) {
+    const auto u = static_cast<unsigned char>(c);
+    out += u < 128 && std::isalnum(u) != 0 ? static_cast<char>(std::tolower(u)) : '_';
+  }
+  if (out.size() >= kNameLength) out.resize(kNameLength - 1);
+  return out.empty() ? "robot" : out;
+}
+
+class Importer {
+ public:
+  explicit Importer(const Wish& wish)
+      : wish_(wish), source_(wish.file), robot_(root_of(source_)), s_(skeleton_of_urdf(robot_)) {}
+
+  Imported import() {
+    body_ = find_body(s_, robot_);
+    shorten_legs();
+    out_.name = w_.name = plain(wish_.name.empty() ? s_.name : wish_.name);
+    w_.uri =
+        fs::relative(fs::weakly_canonical(wish_.file), fs::weakly_canonical(wish_.folder)).string();
+    choose_servos();
+    choose_type();
+    mend_inertias();
+    place_body();
+    measure();
+    if (!body_.sure_of_forward) look_at_soles();
+    stand_within_limits();
+    say_what_was_found();
+    out_.sdf = text_of(w_, s_, body_);
+    try {
+      model::load_robot_text(place(), out_.sdf);
+    } catch (const model::LoadError& error) {
+      out_.refusal = error.what();
+    }
+    return std::move(out_);
+  }
+
+ private:
+  static model::XmlElement root_of(const model::XmlSource& source) {
+    const auto urdfs = source.urdfs();
+    if (!urdfs.empty() && urdfs.front().file() == source.path()) return urdfs.front();
+    throw model::LoadError(source.path(), 1, "this is SDF, and `verp import` reads URDF",
+                           "add the verp: elements to it: host/guide/your-robot.md says which");
+  }
+
+  std::string place() const { return (fs::path(wish_.folder) / "robot.sdf").string(); }
+  const Bone& bone(int index) const { return s_.bones[static_cast<std::size_t>(index)]; }
+  const LinkPart& link(int index) const { return s_.links[static_cast<std::size_t>(index)]; }
+
+  void found(Sureness sureness, std::string what, std::string value, std::string check = "") {
+    out_.findings.push_back({sureness, std::move(what), std::move(value), std::move(check)});
+  }
+
+  /// Joints beyond the sixth, such as toes, are fixed.
+  void shorten_legs() {
+    for (FoundLimb& leg : body_.legs) {
+      if (leg.bones.size() < kLegJointCount) {
+        robot_.fail(fmt::format("its legs have {} joints, from '{}' to '{}'", leg.bones.size(),
+                                link(body_.trunk).name, link(leg.tip).name),
+                    "VERP walks on legs of six joints");
+      }
+      leg.bones.resize(kLegJointCount);
+      leg.tip = bone(leg.bones.back()).child;
+    }
+  }
+
+  bool keeps(int index) const {
+    return std::any_of(w_.servos.begin(), w_.servos.end(),
+                       [&](const ServoRow& row) { return row.bone == index; }) ||
+           std::find(followers_.begin(), followers_.end(), index) != followers_.end();
+  }
+
+  /// Legs first, then arms and head, as many as the controller has room for. What follows a joint
+  /// that stays needs no servo.
+  void choose_servos() {
+    std::vector<int> wanted;
+    for (const auto* limbs : {&body_.legs, &body_.others}) {
+      for (const FoundLimb& limb : *limbs)
+        wanted.insert(wanted.end(), limb.bones.begin(), limb.bones.end());
+    }
+    for (const int each : wanted) {
+      if (keeps(each)) continue;
+      if (w_.servos.size() + followers_.size() == kMaxJoints) break;
+      const bool follows = std::any_of(wanted.begin(), wanted.end(), [&](int driver) {
+        return bone(driver).name == bone(each).follows;
+      });
+      if (follows) {
+        followers_.push_back(each);
+      } else {
+        w_.servos.push_back(row_of(each));
+      }
+    }
+    for (std::size_t i = 0; i < s_.bones.size(); ++i) leave(static_cast<int>(i));
+    std::vector<std::string> fixed;
+    for (const int each : w_.fixed) fixed.push_back(bone(each).name);
+    if (!fixed.empty())
+      out_.left_out.push_back(fmt::format("fixed at zero: joints {}", fmt::join(fixed, ", ")));
+    for (FoundLimb& limb : body_.others) trim(limb);
+    std::erase_if(body_.others, [](const FoundLimb& limb) { return limb.bones.empty(); });
+  }
+
+  void leave(int index) {
+    const Bone& each = bone(index);
+    const bool kept = keeps(index);
+    const bool is_follower =
+        std::find(followers_.begin(), followers_.end(), index) != followers_.end();
+    if (!each.follows.empty() && !is_follower) w_.dropped_mimics.push_back(each.name);
+    if (kept || each.kind == Bone::Kind::kFixed) return;
+    w_.fixed.push_back(index);
+  }
+
+  void trim(FoundLimb& limb) {
+    std::erase_if(limb.bones, [&](int each) { return !keeps(each); });
+    if (!limb.bones.empty()) limb.tip = bone(limb.bones.back()).child;
+  }
+
+  ServoRow row_of(int index) {
+    const Bone& each = bone(index);
+    ServoRow row{index, each.lower_rad, each.upper_rad};
+    const bool stops = each.lower_rad < each.upper_rad && !each.has_no_stops;
+    if (!stops) row.lower_rad = -kMostServo_rad, row.upper_rad = kMostServo_rad;
+    row.lower_rad = std::clamp(row.lower_rad, -kMostServo_rad, kMostServo_rad - 0.1);
+    row.upper_rad = std::clamp(row.upper_rad, row.lower_rad + 0.05, kMostServo_rad);
+    const double lost_rad =
+        std::abs(row.lower_rad - each.lower_rad) + std::abs(row.upper_rad - each.upper_rad);
+    if (!stops) {
+      out_.left_out.push_back(
+          fmt::format("joint {} has no limits: a servo's single turn is taken", each.name));
+    } else if (lost_rad > 0.02) {
+      out_.left_out.push_back(
+          fmt::format("joint {} turns from {:.3g} to {:.3g} rad: the part of a "
+                      "servo's single turn is taken",
+                      each.name, each.lower_rad, each.upper_rad));
+    }
+    return row;
+  }
+
+  double leg_m() const {
+    const FoundLimb& leg = body_.legs.front();
+    double sum = 0;
+    for (std::size_t i = 2; i + 2 < leg.bones.size(); ++i) {
+      sum += (bone(leg.bones[i + 1]).pose.translation() - bone(leg.bones[i]).pose.translation())
+                 .norm();
+    }
+    return sum;
+  }
+
+  void take_type(const std::string& name) {
+    const model::ServoType* const type = model::find_servo_type(model::servo_types(), name);
+    if (type == nullptr) {
+      throw model::LoadError("--servos", 0, "there is no servo type '" + name + "'",
+                             "choose one of: " + model::names_of(model::servo_types()));
+    }
+    w_.servo_type = name;
+    w_.protocol = model::protocol_name(type->protocol);
+    found(Sureness::kRead, "servos", name);
+  }
+
+  void choose_type() {
+    const double needed_n_m = kTorqueReserve * kKneeArm * s_.mass_kg() * kGravity_m_s2 * leg_m();
+    if (!wish_.servo_type.empty()) {
+      take_type(wish_.servo_type);
+      return;
+    }
+    double best = INFINITY;
+    for (const model::ServoType& type : model::servo_types()) {
+      if (type.protocol != BusProtocol::kDynamixel2 || type.stall_torque_n_m < needed_n_m) continue;
+      if (type.stall_torque_n_m >= best) continue;
+      best = type.stall_torque_n_m;
+      w_.servo_type = type.name;
+    }
+    if (w_.servo_type.empty()) {
+      w_.servo_type = "motor";
+      w_.own_type = fmt::format(
+          "<verp:servo_type name=\"motor\" like=\"xm540_w270\" stall_torque_n_m=\"{:.3g}\" "
+          "no_load_rev_min=\"60\"/>",
+          std::ceil(needed_n_m));
+    }
+    found(Sureness::kGuessed, "servos",
+          fmt::format("{}, the weakest known with {:.2g} N m, twice what a knee has to hold",
+                      w_.servo_type, needed_n_m),
+          "give the robot's own with --servos TYPE");
+  }
+
+  Vec3 middle_of(const std::vector<const FoundLimb*>& limbs) const {
+    Vec3 sum = Vec3::Zero();
+    for (const FoundLimb* limb : limbs) sum += bone(limb->bones.front()).pose.translation();
+    return sum / static_cast<double>(limbs.size());
+  }
+
+  /// Halfway from the hips to what sits on top; axes x ahead, y left, z up.
+  void place_body() {
+    const Vec3 hips = middle_of({&body_.legs[0], &body_.legs[1]});
+    std::vector<const FoundLimb*> top;
+    for (const FoundLimb& limb : body_.others) top.push_back(&limb);
+    double up_m = 0.35 * leg_m();
+    if (!top.empty()) up_m = std::max(up_m, (middle_of(top).z() - hips.z()) / 2);
+    w_.body.linear().col(0) = body_.forward;
+    w_.body.linear().col(1) = body_.left;
+    w_.body.linear().col(2) = Vec3::UnitZ();
+    w_.body.translation() = hips + up_m * Vec3::UnitZ();
+  }
+
+  static int node_of(const model::Entity& entity, const std::string& link) {
+    for (std::size_t i = 0; i < entity.nodes.size(); ++i) {
+      if (entity.nodes[i].name == link) return static_cast<int>(i);
+    }
+    return 0;
+  }
+
+  void measure() {
+    w_.soles.clear();
+    w_.trunk_box.reset();
+    const model::Entity probe = model::load_part_of_robot_text(place(), text_of(w_, s_, body_));
+    for (const FoundLimb& leg : body_.legs)
+      w_.soles.push_back(sole_of(probe, node_of(probe, link(leg.tip).name), leg_m()));
+    if (!probe.nodes[0].collisions.empty()) return;
+    Eigen::AlignedBox3d box;
+    for (const Vec3& point : points_of(probe, 0)) box.extend(point);
+    if (box.isEmpty()) {
+      const double half_m = 0.3 * leg_m();
+      box.extend(Vec3(-half_m / 2, -half_m, -half_m));
+      box.extend(Vec3(half_m / 2, half_m, half_m));
+    }
+    const Vec3 centre = box.center(), half = 0.45 * box.sizes();  // corners are round
+    w_.trunk_box = Eigen::AlignedBox3d(centre - half, centre + half);
+  }
+
+  /// Feet reach further ahead of the ankle than behind it.
+  void look_at_soles() {
+    double ahead = 0;
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (!w_.soles[side].measured) return;
+      const Vec3 ankle = w_.body.inverse() * link(body_.legs[side].tip).pose.translation();
+      const Eigen::AlignedBox3d& box = w_.soles[side].box;
+      ahead += (box.center().x() - ankle.x()) / box.sizes().x();
+    }
+    if (std::abs(ahead) < 2 * kLeastReach) return;
+    body_.sure_of_forward = true;
+    body_.reasons = {"its feet are longer there"};
+    if (ahead > 0) return;
+    body_.turn_round();
+    place_body();
+    measure();
+  }
+
+  /// Moments in another unit than kg m2 make links larger than the robot.
+  void mend_inertias() {
+    Eigen::AlignedBox3d extent;
+    for (const LinkPart& part : s_.links) extent.extend(part.pose.translation());
+    const double size_m = extent.sizes().norm();
+    const double unit = unit_of_inertias(size_m);
+    for (const LinkPart& part : s_.links) {
+      const double radius_m = part.radius_m * std::sqrt(unit);
+      if (radius_m < size_m) continue;
+      const double wanted_m = kUsualGyration * size_m;
+      w_.inertia_scales.emplace_back(part.name, std::pow(wanted_m / radius_m, 2));
+      out_.left_out.push_back(
+          fmt::format("link {}: its moments are those of a body of {:.2g} m; "
+                      "those of {:.2g} m are taken",
+                      part.name, radius_m, wanted_m));
+    }
+  }
+
+  /// In kg m2: 1, unless most links would be larger than the robot.
+  double unit_of_inertias(double size_m) {
+    std::vector<double> radii;
+    for (const LinkPart& part : s_.links) {
+      if (part.radius_m > 0) radii.push_back(part.radius_m);
+    }
+    if (radii.empty()) return 1;
+    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+    std::nth_element(radii.begin(), middle, radii.end());
+    if (*middle < size_m) return 1;
+    for (const auto& [unit, factor] :
+         {std::pair{"g m2", 1e-3}, {"kg mm2", 1e-6}, {"g cm2", 1e-7}, {"g mm2", 1e-9}}) {
+      if (*middle * std::sqrt(factor) > kMostGyration * size_m) continue;
+      w_.inertia_scales.emplace_back("*", factor);
+      out_.left_out.push_back(fmt::format("all moments of inertia are taken as {}", unit));
+      return factor;
+    }
+    return 1;
+  }
+
+  /// Joints beside the legs that cannot stand at zero; the legs' angles are found.
+  void stand_within_limits() {
+    for (const ServoRow& row : w_.servos) {
+      const bool of_leg = std::any_of(body_.legs.begin(), body_.legs.end(), [&](const auto& leg) {
+        return std::find(leg.bones.begin(), leg.bones.end(), row.bone) != leg.bones.end();
+      });
+      const double rad = std::clamp(0.0, row.lower_rad, row.upper_rad);
+      if (!of_leg && rad != 0) w_.stand.emplace_back(bone(row.bone).name, rad);
+    }
+  }
+
+  std::string joints_of(const FoundLimb& limb) const {
+    std::vector<std::string> names;
+    for (const int each : limb.bones) names.push_back(bone(each).name);
+    return fmt::format("{}", fmt::join(names, ", "));
+  }
+
+  void say_what_was_found() {
+    found(Sureness::kRead, "mass", fmt::format("{:.4g} kg", s_.mass_kg()),
+          "weigh the robot, battery included");
+    found(Sureness::kMeasured, "trunk", link(body_.trunk).name);
+    found(body_.sure_of_forward ? Sureness::kMeasured : Sureness::kGuessed, "ahead",
+          fmt::format("({:.3g}, {:.3g}, 0) of the file: {}", body_.forward.x(), body_.forward.y(),
+                      fmt::join(body_.reasons, ", ")),
+          body_.sure_of_forward ? "" : "does the robot look that way?");
+    for (const auto* limbs : {&body_.legs, &body_.others}) {
+      for (const FoundLimb& limb : *limbs) found(Sureness::kMeasured, limb.name, joints_of(limb));
+    }
+    for (std::size_t side = 0; side < w_.soles.size(); ++side) {
+      const Sole& sole = w_.soles[side];
+      const Vec3 size = sole.box.sizes();
+      found(sole.measured ? Sureness::kMeasured : Sureness::kGuessed,
+            side == 0 ? "left sole" : "right sole",
+            fmt::format("{:.0f} by {:.0f} mm under {}{}", 1000 * size.x(), 1000 * size.y(),
+                        link(body_.legs[side].tip).name,
+                        sole.measured ? "" : ", from the leg's length: the foot has no shape here"),
+            sole.measured ? "" : "measure it, and write it into <verp:box>");
+    }
+    const auto imu = std::find_if(s_.links.begin(), s_.links.end(),
+                                  [](const LinkPart& part) { return part.has_imu; });
+    const bool has = imu != s_.links.end();
+    found(has ? Sureness::kRead : Sureness::kGuessed, "IMU",
+          has ? imu->name : link(body_.trunk).name,
+          has ? "" : "on which link is it, and turned how?");
+    found(Sureness::kGuessed, "ids",
+          fmt::format("1 to {}, in the order of the limbs", w_.servos.size()),
+          "write the robot's own into <verp:servo>, with direction and offset");
+  }
+
+  const Wish& wish_;
+  model::XmlSource source_;
+  model::XmlElement robot_;
+  Skeleton s_;
+  Body body_;
+  Wrapper w_;
+  Imported out_;
+  std::vector<int> followers_;
+};
+
+const char* word(Sureness sureness) {
+  return sureness == Sureness::kRead       ? "read"
+         : sureness == Sureness::kMeasured ? "measured"
+                                           : "**guessed**";
+}
+
+}  // namespace
+
+Imported import_robot(const Wish& wish) {
+  return Importer(wish).import();
+}
+
+std::string page_of(const Imported& robot, const Wish& wish) {
+  std::string out =
+      fmt::format("# {}\n\nFrom `{}`, which is not changed. `robot.sdf` wraps it.\n\n", robot.name,
+                  fs::path(wish.file).filename().string());
+  if (!robot.refusal.empty()) out += fmt::format("**It does not load yet:** {}\n\n", robot.refusal);
+  out += "| what | found | how | please check |\n|---|---|---|---|\n";
+  for (const Finding& each : robot.findings)
+    out += fmt::format("| {} | {} | {} | {} |\n", each.what, each.value, word(each.sureness),
+                       each.check);
+  if (!robot.left_out.empty()) out += "\n## Changed or left out\n\n";
+  for (const std::string& each : robot.left_out) out += "- " + each + "\n";
+  return out;
+}
+
+}  // namespace verp::import

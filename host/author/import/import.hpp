@@ -1,0 +1,36 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "host/author/import/wrapper.hpp"
+#include "host/robot/model/load_error.hpp"
+
+/// A robot's file of another maker, made to walk: `verp import`.
+namespace verp::import {
+
+struct Wish {
+  std::string file, folder;  ///< the foreign file; where robot.sdf will be
+  std::string name;          ///< of the robot; empty: the file's
+  std::string servo_type;    ///< empty: the weakest that carries the robot
+};
+
+/// One line of import.md's table.
+struct Finding {
+  enum class Sureness { kRead, kMeasured, kGuessed } sureness = Sureness::kRead;
+  std::string what, value, check;  ///< `check`: what a person should look at; may be empty
+};
+
+struct Imported {
+  std::string name, sdf;
+  std::vector<Finding> findings;
+  std::vector<std::string> left_out;  ///< one line each
+  std::string refusal;                ///< why the twin does not load it; empty: it loads
+};
+
+/// Throws LoadError where the file cannot be understood, or has no two legs of six joints.
+Imported import_robot(const Wish& wish);
+
+/// import.md.
+std::string page_of(const Imported& robot, const Wish& wish);
+
+}  // namespace verp::import

@@ -1,0 +1,31 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "host/author/import/skeleton.hpp"
+
+/// Finds limbs from the tree and its geometry alone; names do not matter.
+namespace verp::import {
+
+struct FoundLimb {
+  std::string name;        ///< left_leg, right_leg, left_arm, right_arm, head
+  int tip = -1;            ///< link that the last joint moves
+  std::vector<int> bones;  ///< turning ones, from the trunk to the tip
+};
+
+struct Body {
+  int trunk = -1;  ///< link where the legs' chains part
+  std::vector<FoundLimb> legs, others;
+  Vec3 forward = Vec3::UnitX(), left = Vec3::UnitY();  ///< horizontal, root's frame
+  std::vector<std::string> reasons;                    ///< of the guess of `forward`
+  bool sure_of_forward = false;
+
+  void turn_round();  ///< what was ahead is behind
+};
+
+/// The lowest tip of at least four turning joints in the zero pose is a foot; the tip that mirrors
+/// it best is the other. Knees that bend one way tell what is ahead; else the file's x axis.
+/// Throws LoadError where no two legs are found.
+Body find_body(const Skeleton& skeleton, const model::XmlElement& at);
+
+}  // namespace verp::import

@@ -1,0 +1,25 @@
+#pragma once
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "host/robot/model/entity.hpp"
+
+/// Where a link's shapes are, at the zero pose in the body's frame.
+namespace verp::import {
+
+using model::Vec3;
+
+/// Corners of contact shapes without meshes; if there are none, of what is seen, meshes included.
+/// Empty: the link has no shape, or its meshes are missing.
+std::vector<Vec3> points_of(const model::Entity& entity, int node);
+
+struct Sole {
+  Eigen::AlignedBox3d box;  ///< flat: its z is the floor
+  bool measured = true;     ///< false: no shape, guessed from the leg's length
+};
+
+/// The bounding box of the points within 4 mm of the lowest; within more where these are no sole.
+Sole sole_of(const model::Entity& entity, int foot, double leg_m);
+
+}  // namespace verp::import

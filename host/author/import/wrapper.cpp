@@ -1,0 +1,201 @@
+#include "host/author/import/wrapper.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace verp::import {
+namespace {
+
+constexpr int kImuId = 120;
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+/// SDF's pose: metres, then turns about fixed x, y, z.
+std::string pose_text(const Transform& pose) {
+  const Eigen::Matrix3d r = pose.linear();
+  const double pitch = std::asin(std::clamp(-r(2, 0), -1.0, 1.0));
+  const double roll = std::atan2(r(2, 1), r(2, 2)), yaw = std::atan2(r(1, 0), r(0, 0));
+  const auto number = [](double value) { return std::abs(value) < 5e-7 ? 0.0 : value; };
+  const Vec3 at = pose.translation();
+  return fmt::format("<pose>{:.6g} {:.6g} {:.6g} {:.7g} {:.7g} {:.7g}</pose>", number(at.x()),
+                     number(at.y()), number(at.z()), number(roll), number(pitch), number(yaw));
+}
+
+class Writer {
+ public:
+  Writer(const Wrapper& wrapper, const Skeleton& skeleton, const Body& body)
+      : w_(wrapper), s_(skeleton), b_(body) {}
+
+  std::string write() {
+    out_ = "<?xml version=\"1.0\" ?>\n";
+    line(0,
+         "<!-- Made by `verp import`. import.md beside it says what was read and what was guessed. "
+         "-->");
+    line(0, "<sdf version=\"1.9\" xmlns:verp=\"https://verp.dev/sdf/1\">");
+    line(1, fmt::format("<model name=\"{}\">", escaped(w_.name)));
+    line(2, fmt::format("<include merge=\"true\"><uri>{}</uri></include>", escaped(w_.uri)));
+    frames();
+    limbs();
+    left_out();
+    bus();
+    poses();
+    line(1, "</model>");
+    line(0, "</sdf>");
+    return std::move(out_);
+  }
+
+ private:
+  void line(int depth, const std::string& text) {
+    out_ += std::string(static_cast<std::size_t>(2 * depth), ' ') + text + '\n';
+  }
+  const LinkPart& link(int index) const { return s_.links[static_cast<std::size_t>(index)]; }
+  const Bone& bone(int index) const { return s_.bones[static_cast<std::size_t>(index)]; }
+  bool is_probe() const { return w_.soles.empty(); }
+
+  void frame(const char* name, int on, const Transform& in_body) {
+    const Transform pose = link(on).pose.inverse() * w_.body * in_body;
+    line(2, fmt::format("<frame name=\"{}\" attached_to=\"{}\">{}</frame>", name,
+                        escaped(link(on).name), pose_text(pose)));
+  }
+
+  static Transform at(const Vec3& place) { return Transform(Eigen::Translation3d(place)); }
+
+  void box(const char* on, const Vec3& centre, const Vec3& size) {
+    line(2,
+         fmt::format("<verp:box frame=\"{}\" centre=\"{:.6g} {:.6g} {:.6g}\" size=\"{:.6g} {:.6g} "
+                     "{:.6g}\" friction=\"0.8\"/>",
+                     on, centre.x(), centre.y(), centre.z(), size.x(), size.y(), size.z()));
+  }
+
+  void frames() {
+    const Transform pose = link(b_.trunk).pose.inverse() * w_.body;
+    line(2, fmt::format("<verp:body link=\"{}\">{}</verp:body>", escaped(link(b_.trunk).name),
+                        pose_text(pose)));
+    for (std::size_t side = 0; side < w_.soles.size(); ++side) {
+      const Vec3 centre = w_.soles[side].box.center(), size = w_.soles[side].box.sizes();
+      const char* const name = side == 0 ? "verp_l_sole" : "verp_r_sole";
+      const double thick_m = std::max(0.002, size.x() / 16);
+      frame(name, b_.legs[side].tip, at(centre));
+      box(name, {0, 0, thick_m / 2}, {size.x(), size.y(), thick_m});
+    }
+    if (!w_.trunk_box) return;
+    frame("verp_trunk", b_.trunk, at(w_.trunk_box->center()));
+    box("verp_trunk", Vec3::Zero(), w_.trunk_box->sizes());
+  }
+
+  void limbs() {
+    if (is_probe()) return;
+    const std::string base = escaped(link(b_.trunk).name);
+    const auto limb = [&](const std::string& name, const std::string& tip) {
+      line(2, fmt::format("<verp:limb name=\"{}\" base=\"{}\" tip=\"{}\"/>", name, base, tip));
+    };
+    limb("left_leg", "verp_l_sole");
+    limb("right_leg", "verp_r_sole");
+    for (const FoundLimb& each : b_.others) limb(each.name, escaped(link(each.tip).name));
+  }
+
+  bool is_foot(const LinkPart& part) const {
+    const int at = static_cast<int>(&part - s_.links.data());
+    for (const FoundLimb& leg : b_.legs) {
+      for (const int below : s_.hanging_on(leg.tip)) {
+        if (below == at) return true;
+      }
+    }
+    return false;
+  }
+
+  void drop(const char* what, const std::string& name, const char* reason) {
+    line(2, fmt::format("<verp:drop what=\"{}\" name=\"{}\" reason=\"{}\"/>", what, escaped(name),
+                        reason));
+  }
+
+  void left_out() {
+    for (const LinkPart& part : s_.links) {
+      if (part.has_mesh_contact) {
+        drop("collision", part.name, "contacts use boxes, not meshes");
+      } else if (is_foot(part) && !is_probe() && part.has_contact) {
+        drop("collision", part.name, "the sole is one box");
+      }
+      if (part.mass_kg <= 0 && part.has_shape)
+        drop("massless_link", part.name, "the file gives it no mass");
+    }
+    for (const auto& [name, scale] : w_.inertia_scales) {
+      line(2,
+           fmt::format("<verp:inertia link=\"{}\" scale=\"{:.4g}\" reason=\"no body of this size "
+                       "has the file's moments\"/>",
+                       escaped(name), scale));
+    }
+    for (const std::string& joint : w_.dropped_mimics)
+      drop("mimic", joint, "the joint that it follows is fixed, or it is");
+    for (const int each : w_.fixed) {
+      line(2, fmt::format("<verp:fix joint=\"{}\" reason=\"walking does not need it\"/>",
+                          escaped(bone(each).name)));
+    }
+    if (is_probe()) return;
+    line(2, "<verp:no_collide link=\"*\" other=\"*\" reason=\"the maker's shapes overlap\"/>");
+  }
+
+  void bus() {
+    if (!w_.own_type.empty()) line(2, w_.own_type);
+    line(2, fmt::format("<verp:bus protocol=\"{}\">", w_.protocol));
+    int id = 0;
+    for (const ServoRow& row : w_.servos) {
+      line(3, fmt::format("<verp:servo joint=\"{}\" id=\"{}\" type=\"{}\" lower_rad=\"{:.6g}\" "
+                          "upper_rad=\"{:.6g}\"/>",
+                          escaped(bone(row.bone).name), ++id, w_.servo_type, row.lower_rad,
+                          row.upper_rad));
+    }
+    line(2, "</verp:bus>");
+    if (is_probe()) return;
+    line(2, fmt::format("<verp:imu link=\"{}\" id=\"{}\" type=\"icm20648\"/>", imu_link(), kImuId));
+  }
+
+  std::string imu_link() const {
+    for (const LinkPart& part : s_.links) {
+      if (part.has_imu) return escaped(part.name);
+    }
+    return escaped(link(b_.trunk).name);
+  }
+
+  void poses() {
+    if (w_.stand.empty() || is_probe()) return;
+    for (const char* const pose : {"stand", "sit"}) {
+      line(2, fmt::format("<verp:pose name=\"{}\">", pose));
+      for (const auto& [joint, rad] : w_.stand)
+        line(3, fmt::format("<verp:joint name=\"{}\" rad=\"{:.6g}\"/>", escaped(joint), rad));
+      line(2, "</verp:pose>");
+    }
+  }
+
+  const Wrapper& w_;
+  const Skeleton& s_;
+  const Body& b_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string text_of(const Wrapper& wrapper, const Skeleton& skeleton, const Body& body) {
+  return Writer(wrapper, skeleton, body).write();
+}
+
+}  // namespace verp::import

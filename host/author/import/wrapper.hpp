@@ -1,0 +1,34 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/author/import/limbs.hpp"
+#include "host/author/import/shapes.hpp"
+
+/// The robot.sdf that wraps a foreign file.
+namespace verp::import {
+
+struct ServoRow {
+  int bone = -1;
+  double lower_rad = 0, upper_rad = 0;
+};
+
+struct Wrapper {
+  std::string name, uri;  ///< of the model; of the wrapped file, from the wrapper's folder
+  std::string servo_type, protocol = "dynamixel2";
+  std::string own_type;          ///< a <verp:servo_type> element; empty: none
+  std::vector<ServoRow> servos;  ///< joints that stay, ids from 1
+  std::vector<int> fixed;        ///< bones that turn or slide in the file
+  std::vector<std::string> dropped_mimics;
+  std::vector<std::pair<std::string, double>> inertia_scales;  ///< by link; "*": all
+  Transform body = Transform::Identity();                      ///< root's frame
+  std::vector<Sole> soles;  ///< left, right, in the body's frame; empty: a probe
+  std::optional<Eigen::AlignedBox3d> trunk_box;       ///< body's frame
+  std::vector<std::pair<std::string, double>> stand;  ///< joints that cannot stand at zero
+};
+
+/// Without soles: a text that loads as a part of a robot, to measure its shapes.
+std::string text_of(const Wrapper& wrapper, const Skeleton& skeleton, const Body& body);
+
+}  // namespace verp::import

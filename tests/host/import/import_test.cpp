@@ -1,0 +1,255 @@
+#include "host/author/import/import.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "host/os/files/temporary_directory.hpp"
+#include "host/os/files/whole.hpp"
+#include "host/robot/model/leg.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
+
+/// Robots of our own with the habits of CAD exporters. No name tells what a part is.
+namespace verp::import {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Habits {
+  double yaw_rad = 0;            ///< of the whole robot in its file
+  int leg_joints = 6;            ///< 7: with toes
+  double knee_lower_rad = 0;     ///< to 2.4
+  double sole_ahead_m = 0.01;    ///< middle of the sole, from the ankle
+  double moments_times = 1;      ///< a unit beside kg m2
+  bool feet_are_meshes = false;  ///< which nobody has
+  bool has_no_stops = false;     ///< continuous joints
+  bool has_right_leg = true;
+  std::string in_names = "";
+};
+
+class Maker {
+ public:
+  explicit Maker(const Habits& habits) : h_(habits) {}
+
+  std::string urdf() {
+    text_ = "<robot name=\"Part Studio 1\">\n<link name=\"root\"/>\n";
+    joint("root", "p1", "fixed", {0, 0, 0.3}, {0, 0, 0}, h_.yaw_rad);
+    link("p1", 1.2, "<box size=\"0.08 0.12 0.15\"/>", {0, 0, 0});
+    for (const int side : {1, -1}) {
+      if (side > 0 || h_.has_right_leg) leg(side);
+      joint("p1", arm(side), "revolute", {0, 0.085 * side, 0.06}, {0, 1, 0});
+      link(arm(side), 0.2, "<box size=\"0.03 0.03 0.14\"/>", {0, 0, -0.07});
+    }
+    return text_ + "</robot>\n";
+  }
+
+ private:
+  static std::string arm(int side) { return side > 0 ? "p2" : "p3"; }
+
+  void leg(int side) {
+    const Vec3 axes[] = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0},
+                         {0, 1, 0}, {1, 0, 0}, {0, 1, 0}};
+    const Vec3 places[] = {{0, 0.037 * side, -0.09}, {0, 0, -0.01}, {0, 0, 0},       {0, 0, -0.093},
+                           {0, 0, -0.093},           {0, 0, 0},     {0.04, 0, -0.02}};
+    std::string above = "p1";
+    for (int k = 0; k < h_.leg_joints; ++k) {
+      const std::string below = fmt::format("{}_{}", side > 0 ? "p4" : "p5", k);
+      joint(above, below, "revolute", places[k], axes[k], 0, k == 3 ? h_.knee_lower_rad : -1.6,
+            k == 3 ? 2.4 : 1.6);
+      const bool foot = k == std::min(h_.leg_joints, 6) - 1;
+      const std::string shape = h_.feet_are_meshes
+                                    ? "<mesh filename=\"package://nowhere/foot.stl\"/>"
+                                    : "<box size=\"0.1 0.06 0.01\"/>";
+      link(below, 0.1, foot ? shape : "", {foot ? h_.sole_ahead_m : 0.0, 0, foot ? -0.025 : 0.0});
+      above = below;
+    }
+  }
+
+  void joint(const std::string& above, const std::string& below, const std::string& type,
+             const Vec3& at, const Vec3& axis, double yaw = 0, double lower = -1.6,
+             double upper = 1.6) {
+    const bool endless = h_.has_no_stops && type == "revolute";
+    text_ += fmt::format(
+        "<joint name=\"{}{}\" type=\"{}\"><parent link=\"{}\"/><child link=\"{}\"/>"
+        "<origin xyz=\"{} {} {}\" rpy=\"0 0 {}\"/><axis xyz=\"{} {} {}\"/>{}</joint>\n",
+        "j" + below, h_.in_names, endless ? "continuous" : type, above, below, at.x(), at.y(),
+        at.z(), yaw, axis.x(), axis.y(), axis.z(),
+        type == "fixed" || endless
+            ? ""
+            : fmt::format("<limit lower=\"{}\" upper=\"{}\" effort=\"0\" velocity=\"0\"/>", lower,
+                          upper));
+  }
+
+  void link(const std::string& name, double mass, const std::string& shape, const Vec3& at) {
+    const double moment = 4e-4 * mass * h_.moments_times;
+    text_ += fmt::format(
+        "<link name=\"{0}\"><inertial><origin xyz=\"{1} {2} {3}\"/><mass value=\"{4}\"/><inertia "
+        "ixx=\"{5}\" iyy=\"{5}\" izz=\"{5}\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>",
+        name, at.x(), at.y(), at.z(), mass, moment);
+    for (const char* what : {"visual", "collision"}) {
+      if (shape.empty()) continue;
+      text_ += fmt::format("<{0}><origin xyz=\"{1} {2} {3}\"/><geometry>{4}</geometry></{0}>", what,
+                           at.x(), at.y(), at.z(), shape);
+    }
+    text_ += "</link>\n";
+  }
+
+  Habits h_;
+  std::string text_;
+};
+
+class ImportedFile : public ::testing::Test {
+ protected:
+  Imported import(const Habits& habits, const std::string& file = "robot.urdf") {
+    urdf_ = folder_.path() / file;
+    std::ofstream(urdf_) << Maker(habits).urdf();
+    fs::create_directories(folder_.path() / "out");
+    return import_robot({urdf_.string(), (folder_.path() / "out").string(), "", ""});
+  }
+
+  /// As a user would load it.
+  model::Entity loaded(const Imported& robot) {
+    const fs::path sdf = folder_.path() / "out" / "robot.sdf";
+    EXPECT_EQ(robot.refusal, "");
+    std::ofstream(sdf) << robot.sdf;
+    return model::load_robot(sdf.string());
+  }
+
+  static const Finding& finding(const Imported& robot, const std::string& what) {
+    static const Finding kNone;
+    for (const Finding& each : robot.findings) {
+      if (each.what == what) return each;
+    }
+    ADD_FAILURE() << what;
+    return kNone;
+  }
+
+  static bool was_changed(const Imported& robot, const std::string& part) {
+    return std::any_of(robot.left_out.begin(), robot.left_out.end(), [&](const std::string& each) {
+      return each.find(part) != std::string::npos;
+    });
+  }
+
+  /// Left is left, soles lie under the ankles, knees bend ahead of the hips.
+  static void expect_a_biped(const model::Entity& robot) {
+    const auto origins = model::node_origins(robot);
+    for (const auto& [name, side] : {std::pair{"left_leg", 1.0}, {"right_leg", -1.0}}) {
+      const model::Limb& leg = *model::find_limb(robot, name);
+      const auto foot = static_cast<std::size_t>(leg.joints.back() + 1);
+      EXPECT_NEAR(origins[foot].y(), 0.037 * side, 1e-6) << name;
+      const auto knee = static_cast<std::size_t>(leg.joints[3]);
+      EXPECT_GT(robot.joints[knee].stand_rad * robot.joints[knee].axis.y(), 0.2) << name;
+    }
+  }
+
+  files::TemporaryDirectory folder_;
+  fs::path urdf_;
+};
+
+TEST_F(ImportedFile, LegsAreFoundWhateverTheirNames) {
+  const Imported robot = import({});
+  EXPECT_EQ(finding(robot, "left_leg").value, "jp4_0, jp4_1, jp4_2, jp4_3, jp4_4, jp4_5");
+  EXPECT_EQ(finding(robot, "right_arm").value, "jp3");
+  EXPECT_EQ(robot.name, "part_studio_1");
+  expect_a_biped(loaded(robot));
+}
+
+TEST_F(ImportedFile, ForeignFileStaysAsItIs) {
+  const Imported robot = import({}, "a & b's <robot> 1.urdf");
+  expect_a_biped(loaded(robot));
+  EXPECT_EQ(files::read(urdf_), Maker({}).urdf());
+}
+
+TEST_F(ImportedFile, RobotMayLookAnyWayInItsFile) {
+  for (const double yaw_rad : {1.5707963, -1.5707963, 3.1415927, 0.5}) {
+    const Imported robot = import({.yaw_rad = yaw_rad});
+    const model::Entity entity = loaded(robot);
+    if (yaw_rad == 0.5) continue;  // loads: the feet are apart along no axis of the file
+    expect_a_biped(entity);
+    EXPECT_EQ(finding(robot, "ahead").sureness, Finding::Sureness::kMeasured);
+  }
+}
+
+TEST_F(ImportedFile, FeetTellWhatIsAheadWhereKneesDoNot) {
+  const Imported robot =
+      import({.yaw_rad = 3.1415927, .knee_lower_rad = -2.4, .sole_ahead_m = 0.02});
+  EXPECT_EQ(finding(robot, "ahead").value, "(-1, 0, 0) of the file: its feet are longer there");
+  expect_a_biped(loaded(robot));
+}
+
+TEST_F(ImportedFile, WhereNothingTellsXIsAheadAndThisIsAGuess) {
+  const Imported robot = import({.knee_lower_rad = -2.4, .sole_ahead_m = 0});
+  EXPECT_EQ(finding(robot, "ahead").sureness, Finding::Sureness::kGuessed);
+  expect_a_biped(loaded(robot));
+}
+
+TEST_F(ImportedFile, SolesAreTheLowestFacesOfTheFeet) {
+  const model::Entity robot = loaded(import({}));
+  const model::Limb& leg = *model::find_limb(robot, "left_leg");
+  EXPECT_NEAR(leg.sole_max_m.x() - leg.sole_min_m.x(), 0.1, 1e-4);
+  EXPECT_NEAR(leg.sole_max_m.y() - leg.sole_min_m.y(), 0.06, 1e-4);
+  EXPECT_NEAR(leg.tip.translation().x(), 0.01, 1e-6);
+  EXPECT_NEAR(leg.tip.translation().z(), -0.03, 1e-6);
+}
+
+TEST_F(ImportedFile, FeetWhoseMeshesAreMissingAreGuessedAndSaid) {
+  const Imported robot = import({.feet_are_meshes = true});
+  EXPECT_EQ(finding(robot, "left sole").sureness, Finding::Sureness::kGuessed);
+  EXPECT_NE(page_of(robot, {"robot.urdf", "", "", ""}).find("**guessed**"), std::string::npos);
+  expect_a_biped(loaded(robot));
+}
+
+TEST_F(ImportedFile, JointsWithoutStopsGetAServosTurn) {
+  const Imported robot = import({.sole_ahead_m = 0.02, .has_no_stops = true});
+  EXPECT_TRUE(was_changed(robot, "joint jp4_3 has no limits"));
+  for (const model::Joint& joint : loaded(robot).joints)
+    EXPECT_NEAR(joint.upper_rad - joint.lower_rad, 6.28, 0.01) << joint.name;
+}
+
+TEST_F(ImportedFile, ToesAreFixedAndSaid) {
+  const Imported robot = import({.leg_joints = 7});
+  EXPECT_TRUE(was_changed(robot, "jp4_6"));
+  EXPECT_EQ(model::find_limb(loaded(robot), "left_leg")->joints.size(), 6U);
+}
+
+TEST_F(ImportedFile, MomentsInAnotherUnitBecomeThoseOfTheSameRobot) {
+  const model::Entity robot = loaded(import({}));
+  for (const double times : {1e3, 1e6}) {
+    const Imported other = import({.moments_times = times});
+    EXPECT_TRUE(was_changed(other, "all moments of inertia are taken as "));
+    const double share =
+        loaded(other).nodes[3].inertia_kg_m2.trace() / robot.nodes[3].inertia_kg_m2.trace();
+    EXPECT_NEAR(share, 1, 1e-6) << times;
+  }
+}
+
+TEST_F(ImportedFile, LongNamesStayOutsideTheController) {
+  const model::Entity robot = loaded(import({.in_names = "_as_the_exporter_of_a_cad_calls_it"}));
+  const Params params = model::make_params(robot);
+  EXPECT_EQ(robot.joints[0].name, "jp2_as_the_exporter_of_a_cad_calls_it");
+  EXPECT_EQ(std::string(params.joint[0].name).substr(0, 19), "jp2_as_the_exporte_");
+  for (int j = 1; j < params.joint_count; ++j)
+    EXPECT_STRNE(params.joint[j].name, params.joint[j - 1].name);
+}
+
+TEST_F(ImportedFile, WhatHasNoTwoLegsOfSixJointsIsRefused) {
+  for (const auto& [habits, said] : {std::pair{Habits{.leg_joints = 5}, "its legs have 5 joints"},
+                                     {Habits{.leg_joints = 3}, "no leg is found"},
+                                     {Habits{.has_right_leg = false}, "only one leg is found"}}) {
+    try {
+      import(habits);
+      ADD_FAILURE() << said;
+    } catch (const model::LoadError& error) {
+      EXPECT_NE(error.message.find(said), std::string::npos) << error.what();
+      EXPECT_EQ(error.file, urdf_.string());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace verp::import

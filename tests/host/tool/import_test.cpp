@@ -1,0 +1,42 @@
+#include "tests/host/tool/program.hpp"
+
+namespace verp::tool::test {
+namespace {
+
+class Import : public Program {
+ protected:
+  Import() {
+    fs::copy_file(fs::path(VERP_SOURCE_DIR) / "tests/host/model/odd_robot/odd.urdf",
+                  folder_ / "odd.urdf");
+  }
+};
+
+TEST_F(Import, ForeignRobotWalksFromItsUntouchedFile) {
+  const std::string before = slurp(folder_ / "odd.urdf");
+  const Outcome made = verp("import odd.urdf");
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_NE(made.out.find("`verp walk odd_verp/robot.sdf` walks it"), std::string::npos)
+      << made.out;
+  EXPECT_NE(
+      slurp(folder_ / "odd_verp" / "import.md").find("| left sole | 104 by 66 mm under l_foot"),
+      std::string::npos);
+  const Outcome walked = verp("walk odd_verp/robot.sdf --for 8");
+  EXPECT_EQ(walked.status, 0) << walked.out << walked.err;
+  EXPECT_EQ(slurp(folder_ / "odd.urdf"), before);
+}
+
+TEST_F(Import, WrongFilesAndPlacesAreRefused) {
+  ASSERT_EQ(verp("import odd.urdf -o here").status, 0);
+  const std::string kept = slurp(folder_ / "here" / "robot.sdf");
+  expect_refused("import odd.urdf -o here", "is there already");
+  EXPECT_EQ(slurp(folder_ / "here" / "robot.sdf"), kept);
+  expect_refused("import nothing.urdf -o other", "cannot read this file");
+  expect_refused("import . -o other", "is a folder");
+  expect_refused("import here/robot.sdf -o other", "this is SDF");
+  expect_refused("import odd.urdf -o odd.urdf/below", "cannot be made");
+  expect_refused("import odd.urdf -o other --servos nonesuch", "no servo type 'nonesuch'");
+  EXPECT_FALSE(fs::exists(folder_ / "other"));
+}
+
+}  // namespace
+}  // namespace verp::tool::test
