@@ -130,6 +130,8 @@ class Importer {
     for (const int each : w_.fixed) fixed.push_back(bone(each).name);
     if (!fixed.empty())
       out_.left_out.push_back(fmt::format("fixed at zero: joints {}", fmt::join(fixed, ", ")));
+    for (const std::string& sensor : s_.sensors_to_drop)
+      out_.left_out.push_back(fmt::format("sensor {}: the twin has no such sensor", sensor));
     for (FoundLimb& limb : body_.others) trim(limb);
     std::erase_if(body_.others, [](const FoundLimb& limb) { return limb.bones.empty(); });
   }
@@ -355,12 +357,10 @@ class Importer {
                         sole.measured ? "" : ", from the leg's length: the foot has no shape here"),
             sole.measured ? "" : "measure it, and write it into <verp:box>");
     }
-    const auto imu = std::find_if(s_.links.begin(), s_.links.end(),
-                                  [](const LinkPart& part) { return part.has_imu; });
-    const bool has = imu != s_.links.end();
-    found(has ? Sureness::kRead : Sureness::kGuessed, "IMU",
-          has ? imu->name : link(body_.trunk).name,
-          has ? "" : "on which link is it, and turned how?");
+    const int imu = imu_of(s_, body_);
+    found(imu >= 0 ? Sureness::kRead : Sureness::kGuessed, "IMU",
+          link(imu >= 0 ? imu : body_.trunk).name,
+          imu >= 0 ? "" : "on which link is it, and turned how?");
     found(Sureness::kGuessed, "ids",
           fmt::format("1 to {}, in the order of the limbs", w_.servos.size()),
           "write the robot's own into <verp:servo>, with direction and offset");

@@ -66,7 +66,7 @@ LinkPart link_of(const XmlElement& element) {
 
 Bone::Kind kind_of(const std::string& type) {
   if (type == "revolute" || type == "continuous") return Bone::Kind::kTurns;
-  return type == "fixed" ? Bone::Kind::kFixed : Bone::Kind::kSlides;
+  return type == "prismatic" ? Bone::Kind::kSlides : Bone::Kind::kFixed;
 }
 
 void read_limits(const XmlElement& joint, Bone& bone) {
@@ -90,7 +90,7 @@ class UrdfReader {
     }
     if (bones_.links.empty()) robot_.fail("there is no <link> in it", "give a robot's URDF");
     for (const XmlElement& joint : robot_.children("joint")) add(joint);
-    find_imus();
+    find_sensors();
     find_root();
     place(bones_.root, Transform::Identity(), 0);
     for (const LinkPart& link : bones_.links) refuse_unreached(link);
@@ -127,16 +127,31 @@ class UrdfReader {
     bones_.bones.push_back(bone);
   }
 
-  /// <gazebo reference="LINK"><sensor type="imu">
-  void find_imus() {
+  /// <gazebo reference="LINK or JOINT"><sensor>
+  void find_sensors() {
     for (const XmlElement& gazebo : robot_.children("gazebo")) {
-      const auto link = index_.find(gazebo.text("reference", ""));
-      if (link == index_.end()) continue;
+      const std::string on = gazebo.text("reference", "");
       for (const XmlElement& sensor : gazebo.children("sensor")) {
-        if (sensor.text("type", "") != "imu") continue;
-        bones_.links[static_cast<std::size_t>(link->second)].has_imu = true;
+        const std::string type = sensor.text("type", "");
+        const auto link = index_.find(on);
+        if (type == "imu" && link != index_.end())
+          bones_.links[static_cast<std::size_t>(link->second)].has_imu = true;
+        const bool is_fixed = std::any_of(
+            bones_.bones.begin(), bones_.bones.end(),
+            [&](const Bone& bone) { return bone.name == on && bone.kind == Bone::Kind::kFixed; });
+        if (scans_planes(sensor) || (type == "force_torque" && is_fixed))
+          bones_.sensors_to_drop.push_back(sensor.text("name", ""));
       }
     }
+  }
+
+  static bool scans_planes(const XmlElement& sensor) {
+    for (const char* const kind : {"ray", "lidar"}) {
+      const auto laser = first(sensor, kind);
+      const auto scan = laser ? first(*laser, "scan") : std::nullopt;
+      if (scan && first(*scan, "vertical")) return true;
+    }
+    return false;
   }
 
   void find_root() {

@@ -42,6 +42,9 @@ struct Skeleton {
   std::vector<LinkPart> links;
   std::vector<Bone> bones;
   int root = 0;
+  /// Sensors that the twin cannot have: a lidar that scans in several planes, a force-torque sensor
+  /// in a fixed joint.
+  std::vector<std::string> sensors_to_drop;
 
   double mass_kg() const;
   /// Turning bones from the root to this link.

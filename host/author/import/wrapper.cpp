@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace verp::import {
@@ -150,7 +151,8 @@ class Writer {
       line(2, fmt::format("<verp:fix joint=\"{}\" reason=\"walking does not need it\"/>",
                           escaped(bone(each).name)));
     }
-    if (is_probe()) return;
+    for (const std::string& sensor : s_.sensors_to_drop)
+      drop("sensor", sensor, "the twin has no such sensor, and walking does not need it");
     line(2, "<verp:no_collide link=\"*\" other=\"*\" reason=\"the maker's shapes overlap\"/>");
   }
 
@@ -170,10 +172,8 @@ class Writer {
   }
 
   std::string imu_link() const {
-    for (const LinkPart& part : s_.links) {
-      if (part.has_imu) return escaped(part.name);
-    }
-    return escaped(link(b_.trunk).name);
+    const int imu = imu_of(s_, b_);
+    return escaped(link(imu < 0 ? b_.trunk : imu).name);
   }
 
   void poses() {
@@ -193,6 +193,19 @@ class Writer {
 };
 
 }  // namespace
+
+int imu_of(const Skeleton& skeleton, const Body& body) {
+  const std::vector<int> trunk = skeleton.turning_to(body.trunk);
+  for (std::size_t i = 0; i < skeleton.links.size(); ++i) {
+    if (!skeleton.links[i].has_imu) continue;
+    const std::vector<int> way = skeleton.turning_to(static_cast<int>(i));
+    const bool is_on_trunk = std::all_of(way.begin(), way.end(), [&](int bone) {
+      return std::find(trunk.begin(), trunk.end(), bone) != trunk.end();
+    });
+    if (is_on_trunk) return static_cast<int>(i);
+  }
+  return -1;
+}
 
 std::string text_of(const Wrapper& wrapper, const Skeleton& skeleton, const Body& body) {
   return Writer(wrapper, skeleton, body).write();

@@ -28,6 +28,7 @@ class SensorAssembler {
       const sdf::Link& link = *model_.LinkByIndex(l);
       for (std::uint64_t i = 0; i < link.SensorCount(); ++i) {
         const sdf::Sensor& sensor = *link.SensorByIndex(i);
+        if (facts_.is_dropped("sensor", sensor.Name())) continue;
         const bool is_imu = facts_.imu && sensor.Name() == facts_.imu->sensor;
         LinkTree::Located place = tree_.locate(link.Name(), facts_.body->at);
         const Transform link_pose = place.pose;
@@ -72,6 +73,7 @@ class SensorAssembler {
       joint.ResolveChildLink(child);
       for (std::uint64_t i = 0; i < joint.SensorCount(); ++i) {
         const sdf::Sensor& sensor = *joint.SensorByIndex(i);
+        if (facts_.is_dropped("sensor", sensor.Name())) continue;
         const LinkTree::Located place = tree_.locate(child, facts_.body->at);
         // libsdformat 12 has no frames in joints: the pose is in the joint's frame.
         if (!sensor.PoseRelativeTo().empty())

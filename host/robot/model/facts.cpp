@@ -217,9 +217,9 @@ class FactReader {
     e.allow({"what", "name", "reason"});
     e.text("reason");
     const std::string what = e.text("what");
-    if (what != "collision" && what != "massless_link" && what != "mimic") {
+    if (what != "collision" && what != "massless_link" && what != "mimic" && what != "sensor") {
       e.fail("<verp:drop> what='" + what + "' is unknown",
-             "write collision, massless_link or mimic");
+             "write collision, massless_link, mimic or sensor");
     }
     f_.drops.push_back({e, what, e.text("name")});
   }

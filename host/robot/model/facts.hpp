@@ -70,7 +70,7 @@ struct BoxFact {
 /// A part of the file that is ignored.
 struct DropFact {
   XmlElement at;
-  std::string what;  ///< mesh_collision, collision, massless_link, mimic
+  std::string what;  ///< collision, massless_link, mimic, sensor
   std::string name;  ///< "*": all
 };
 

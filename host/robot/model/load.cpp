@@ -124,10 +124,11 @@ sdf::Errors read(const XmlSource& source, const Text& text, const PreparedUrdfs&
   throw LoadError(place.file, place.line, error.Message(), fix);
 }
 
-void cross_check(const XmlSource& source, const Facts& facts, const sdf::Model& model) {
+void cross_check(const XmlSource& source, const Facts& facts, const PreparedUrdfs& urdfs,
+                 const sdf::Model& model) {
   UrdfTotals expected;
   for (const XmlElement& urdf : source.urdfs()) {
-    const UrdfTotals totals = check_urdf(source, urdf, facts);
+    const UrdfTotals totals = check_urdf(source, urdf, facts, urdfs.plain_copy_of(urdf.file()));
     expected.moving_joints += totals.moving_joints;
     expected.mass_kg += totals.mass_kg;
   }
@@ -181,17 +182,18 @@ Entity load(const std::string& path, const std::string& bus, bool whole, const T
   const XmlElement model = source.model();
   Facts facts = read_facts(model, bus);
   const LibraryConsole silence;
+  const PreparedUrdfs urdfs(source);
   for (const XmlElement& urdf : source.urdfs()) {
-    check_urdf(source, urdf, facts);
+    check_urdf(source, urdf, facts, urdfs.plain_copy_of(urdf.file()));
     for (MimicFact& mimic : urdf_mimics(urdf, facts)) facts.mimics.push_back(std::move(mimic));
   }
-  const PreparedUrdfs urdfs(source);
   sdf::Root root;
   const sdf::Errors errors = read(source, text, urdfs, root);
   if (!errors.empty()) fail(source, urdfs, errors.front());
   if (!root.Model()) model.fail("libsdformat finds no model here", "put one <model> below <sdf>");
-  cross_check(source, facts, *root.Model());
+  cross_check(source, facts, urdfs, *root.Model());
   Entity entity = assemble(source, facts, *root.Model(), urdfs.names());
+  entity.notes.insert(entity.notes.end(), urdfs.notes().begin(), urdfs.notes().end());
   if (whole) require_legs_and_imu(model, facts);
   return entity;
 }

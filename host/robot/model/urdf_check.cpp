@@ -113,16 +113,30 @@ void refuse_no_direction(const XmlElement& robot) {
   }
 }
 
+/// A servo's row may have them instead.
+void refuse_no_limit(const XmlElement& robot, const Facts& facts) {
+  for (const ServoFact& servo : facts.bus().servos) {
+    if (servo.lower_rad && servo.upper_rad) continue;
+    const XmlElement joint = element_of(robot, "joint", servo.joint);
+    if (joint.name() != "joint" || joint.text("type", "") != "revolute") continue;
+    if (joint.children("limit").empty()) {
+      joint.fail("joint '" + servo.joint + "' has no limits",
+                 "add <limit> with lower and upper, in radians");
+    }
+  }
+}
+
 std::shared_ptr<urdf::ModelInterface> read_urdf(const XmlSource& source, const XmlElement& robot,
-                                                const Facts& facts) {
+                                                const Facts& facts, const std::string& copy) {
   for (const char* kind : {"link", "joint"}) refuse_duplicates(robot, kind);
   refuse_loops(robot);
   refuse_no_ratio(robot);
   refuse_second_root(robot, facts);
   refuse_no_direction(robot);
+  refuse_no_limit(robot, facts);
   UrdfErrors errors;
   console_bridge::useOutputHandler(&errors);
-  auto urdf = urdf::parseURDFFile(robot.file());
+  auto urdf = urdf::parseURDFFile(copy);
   console_bridge::noOutputHandler();
   if (urdf) return urdf;
   for (const XmlElement& joint : robot.children("joint")) {  // a link may have the same name
@@ -142,7 +156,8 @@ std::shared_ptr<urdf::ModelInterface> read_urdf(const XmlSource& source, const X
 void check_links(const XmlElement& robot, const urdf::ModelInterface& urdf, const Facts& facts) {
   for (const auto& [name, link] : urdf.links_) {
     const bool is_frame = link->visual_array.empty() && link->collision_array.empty();
-    if (link->inertial || is_frame || facts.is_dropped("massless_link", name)) continue;
+    const bool has_mass = !element_of(robot, "link", name).children("inertial").empty();
+    if (has_mass || is_frame || facts.is_dropped("massless_link", name)) continue;
     element_of(robot, "link", name)
         .fail("link '" + name + "' has a shape and no mass",
               "give it an <inertial>, or declare: <verp:drop what=\"massless_link\" name=\"" +
@@ -152,8 +167,9 @@ void check_links(const XmlElement& robot, const urdf::ModelInterface& urdf, cons
 
 }  // namespace
 
-UrdfTotals check_urdf(const XmlSource& source, const XmlElement& robot, const Facts& facts) {
-  const auto urdf = read_urdf(source, robot, facts);
+UrdfTotals check_urdf(const XmlSource& source, const XmlElement& robot, const Facts& facts,
+                      const std::string& copy) {
+  const auto urdf = read_urdf(source, robot, facts, copy);
   check_links(robot, *urdf, facts);
   UrdfTotals totals;
   for (const auto& [name, joint] : urdf->joints_) {

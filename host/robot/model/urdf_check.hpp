@@ -11,7 +11,9 @@ struct UrdfTotals {
 };
 
 /// Throws LoadError for losses of libsdformat's import that no <verp:drop> or <verp:fix> declares:
-/// shapes without mass. Reports urdfdom's errors at the named link or joint in `source`.
-UrdfTotals check_urdf(const XmlSource& source, const XmlElement& robot, const Facts& facts);
+/// shapes without mass. `copy`: the prepared file, which urdfdom reads (urdf_prepare.hpp). Reports
+/// its errors at the named link or joint in `source`.
+UrdfTotals check_urdf(const XmlSource& source, const XmlElement& robot, const Facts& facts,
+                      const std::string& copy);
 
 }  // namespace verp::model

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -42,6 +43,48 @@ void add_stand_in_mass(XMLElement& link) {
   for (const char* product : {"ixy", "ixz", "iyz"}) inertia->SetAttribute(product, "0");
 }
 
+/// XML's white space separates numbers; urdfdom knows blanks only.
+void part_by_blanks(XMLElement& element) {
+  for (const auto* each = element.FirstAttribute(); each != nullptr; each = each->Next()) {
+    std::string value = each->Value();
+    const auto is_space = [](char c) { return c == '\t' || c == '\n' || c == '\r'; };
+    if (std::none_of(value.begin(), value.end(), is_space)) continue;
+    std::replace_if(value.begin(), value.end(), is_space, ' ');
+    element.SetAttribute(each->Name(), value.c_str());
+  }
+  for (auto* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    part_by_blanks(*child);
+  }
+}
+
+/// urdfdom wants limits, effort and speed of each joint; here the servo's count.
+void complete_limit(XMLElement& joint) {
+  XMLElement* const limit = joint.FirstChildElement("limit");
+  const char* const type = joint.Attribute("type");
+  if (limit == nullptr && type != nullptr && std::string(type) == "revolute")
+    joint.SetAttribute("type", "continuous");
+  for (const char* const each : {"effort", "velocity"}) {
+    if (limit != nullptr && limit->Attribute(each) == nullptr) limit->SetAttribute(each, "0");
+  }
+}
+
+/// Exporters repeat a material in each link's file.
+void keep_first_materials(XMLElement& robot) {
+  std::set<std::string> known;
+  for (auto* each = robot.FirstChildElement("material"); each != nullptr;) {
+    XMLElement* const next = each->NextSiblingElement("material");
+    if (!known.insert(name_of(*each)).second) robot.DeleteChild(each);
+    each = next;
+  }
+}
+
+std::string end_of(const XMLElement& joint, const char* end) {
+  const XMLElement* const element = joint.FirstChildElement(end);
+  const char* const link = element ? element->Attribute("link") : nullptr;
+  return link ? link : "";
+}
+
 void keep_fixed_joint(XMLElement& robot, const std::string& joint) {
   XMLElement* const gazebo = robot.InsertNewChildElement("gazebo");
   gazebo->SetAttribute("reference", joint.c_str());
@@ -67,13 +110,49 @@ PreparedUrdfs::PreparedUrdfs(const XmlSource& source) {
 
 PreparedUrdfs::~PreparedUrdfs() {
   std::error_code ignored;
-  for (const auto& [path, copy] : copy_of_) std::filesystem::remove(copy, ignored);
+  for (const auto* copies : {&copy_of_, &plain_copy_of_}) {
+    for (const auto& [path, copy] : *copies) std::filesystem::remove(copy, ignored);
+  }
+}
+
+/// A link without mass that stands for the world. A robot is on no stand: its joint goes, too.
+void PreparedUrdfs::untie(XMLElement& robot) {
+  for (auto* joint = robot.FirstChildElement("joint"); joint != nullptr;
+       joint = joint->NextSiblingElement("joint")) {
+    const char* const given = joint->Attribute("type");
+    const std::string type = given ? given : "", parent = end_of(*joint, "parent");
+    if (type != "floating" && type != "planar" && (type != "fixed" || parent != "world")) continue;
+    for (auto* link = robot.FirstChildElement("link"); link != nullptr;
+         link = link->NextSiblingElement("link")) {
+      if (name_of(*link) != parent || has_mass(*link)) continue;
+      notes_.push_back("joint '" + name_of(*joint) + "' ties the robot to '" + parent +
+                       "': left out");
+      robot.DeleteChild(link);
+      robot.DeleteChild(joint);
+      return;
+    }
+  }
 }
 
 void PreparedUrdfs::prepare(const XmlElement& original) {
   XMLDocument document;
   original.raw().GetDocument()->DeepCopy(&document);
   XMLElement& robot = *document.RootElement();
+  if (robot.Attribute("name") == nullptr) robot.SetAttribute("name", "robot");
+  part_by_blanks(robot);
+  keep_first_materials(robot);
+  untie(robot);
+  for (auto* joint = robot.FirstChildElement("joint"); joint != nullptr;
+       joint = joint->NextSiblingElement("joint")) {
+    complete_limit(*joint);
+  }
+  const std::string path = canonical(original.file());
+  plain_copy_of_[path] = write_copy(document, original.file());
+  rename_and_weigh(robot);
+  copy_of_[path] = write_copy(document, original.file());
+}
+
+void PreparedUrdfs::rename_and_weigh(XMLElement& robot) {
   std::set<std::string> links;
   for (auto* link = robot.FirstChildElement("link"); link != nullptr;
        link = link->NextSiblingElement("link")) {
@@ -96,7 +175,10 @@ void PreparedUrdfs::prepare(const XmlElement& original) {
     // Exporters write zeros here, which libsdformat refuses.
     if (XMLElement* const axis = joint->FirstChildElement("axis")) joint->DeleteChild(axis);
   }
-  copy_of_[canonical(original.file())] = write_copy(document, original.file());
+}
+
+std::string PreparedUrdfs::plain_copy_of(const std::string& path) const {
+  return plain_copy_of_.at(canonical(path));
 }
 
 std::string PreparedUrdfs::copy_of(const std::string& path) const {

@@ -2,11 +2,13 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "host/robot/model/xml_source.hpp"
 
-/// Prepares URDF files for libsdformat's import, which drops links without mass and everything
-/// beyond, forgets names of fixed links, and has one name space for links and joints.
+/// Prepares URDF files for urdfdom, and for libsdformat's import, which drops links without mass
+/// and everything beyond, forgets names of fixed links, and has one name space for links and
+/// joints.
 namespace verp::model {
 
 struct UrdfNames {
@@ -28,15 +30,22 @@ class PreparedUrdfs {
   PreparedUrdfs& operator=(const PreparedUrdfs&) = delete;
 
   std::string copy_of(const std::string& path) const;
+  /// A copy with the file's own names and masses, for urdfdom.
+  std::string plain_copy_of(const std::string& path) const;
   /// Its line numbers mean nothing to users.
   bool is_copy(const std::string& path) const;
   const UrdfNames& names() const { return names_; }
+  /// What is left out, one line each.
+  const std::vector<std::string>& notes() const { return notes_; }
 
  private:
   void prepare(const XmlElement& robot);
+  void untie(tinyxml2::XMLElement& robot);
+  void rename_and_weigh(tinyxml2::XMLElement& robot);
 
-  std::map<std::string, std::string> copy_of_;
+  std::map<std::string, std::string> copy_of_, plain_copy_of_;
   UrdfNames names_;
+  std::vector<std::string> notes_;
 };
 
 }  // namespace verp::model

@@ -30,6 +30,7 @@ struct Habits {
   bool has_no_stops = false;     ///< continuous joints
   bool has_right_leg = true;
   std::string in_names = "";
+  std::string more = "";  ///< elements of the robot
 };
 
 class Maker {
@@ -45,7 +46,7 @@ class Maker {
       joint("p1", arm(side), "revolute", {0, 0.085 * side, 0.06}, {0, 1, 0});
       link(arm(side), 0.2, "<box size=\"0.03 0.03 0.14\"/>", {0, 0, -0.07});
     }
-    return text_ + "</robot>\n";
+    return text_ + h_.more + "</robot>\n";
   }
 
  private:
@@ -235,6 +236,29 @@ TEST_F(ImportedFile, LongNamesStayOutsideTheController) {
   EXPECT_EQ(std::string(params.joint[0].name).substr(0, 19), "jp2_as_the_exporte_");
   for (int j = 1; j < params.joint_count; ++j)
     EXPECT_STRNE(params.joint[j].name, params.joint[j - 1].name);
+}
+
+/// The twin's lidars scan in one plane, and its force-torque sensors are in joints that move.
+TEST_F(ImportedFile, SensorsThatTheTwinLacksAreLeftOutAndSaid) {
+  const std::string sensors =
+      "<gazebo reference=\"p1\"><sensor name=\"lidar\" type=\"ray\"><ray><scan><horizontal>"
+      "<samples>8</samples><min_angle>-1</min_angle><max_angle>1</max_angle></horizontal><vertical>"
+      "<samples>16</samples><min_angle>-1</min_angle><max_angle>1</max_angle></vertical></scan>"
+      "<range><min>0.1</min><max>9</max></range></ray></sensor>"
+      "<sensor name=\"gyro\" type=\"imu\"/></gazebo>"
+      "<gazebo reference=\"jp1\"><sensor name=\"load\" type=\"force_torque\"/></gazebo>";
+  const Imported robot = import({.more = sensors});
+  EXPECT_TRUE(was_changed(robot, "sensor lidar"));
+  EXPECT_TRUE(was_changed(robot, "sensor load"));
+  EXPECT_EQ(finding(robot, "IMU").sureness, Finding::Sureness::kRead);
+  EXPECT_TRUE(loaded(robot).lasers.empty());
+}
+
+TEST_F(ImportedFile, ImuOutsideTheTrunkIsNotTheRobots) {
+  const Imported robot =
+      import({.more = "<gazebo reference=\"p2\"><sensor name=\"gyro\" type=\"imu\"/></gazebo>"});
+  EXPECT_EQ(finding(robot, "IMU").sureness, Finding::Sureness::kGuessed);
+  expect_a_biped(loaded(robot));
 }
 
 TEST_F(ImportedFile, WhatHasNoTwoLegsOfSixJointsIsRefused) {

@@ -167,8 +167,6 @@ TEST(OthersFiles, WhatIsGivenTwiceIsRefused) {
 
 TEST(OthersFiles, UrdfWithoutALimitIsRefusedAtItsJoint) {
   expect_urdf_refused(urdf_joint("j", hung("a", "b")), "<joint name=\"j\"", "limits");
-  expect_urdf_refused(urdf_joint("j", hung("a", "b") + "<limit lower=\"0\" upper=\"1\"/>"),
-                      "<joint name=\"j\"", "no effort");
 }
 
 TEST(OthersFiles, UrdfWithDuplicatesIsRefusedAtTheSecond) {
@@ -257,7 +255,6 @@ TEST(OthersFiles, TenOfEachFaultOfAUrdfAreRefusedWhereTheyStand) {
   const Fault faults[] = {
       {"no axis", "<axis", "/>", "<axis xyz=\"0 0 0\"/>", "axis"},
       {"no limit", "<limit", "/>", "", "limit"},
-      {"no effort", " effort=\"3\"", "", "", "effort"},
       {"no such parent", "<parent link=\"", "", "<parent link=\"nobody_", "nobody_"},
       {"a type that is none", "\"revolute\"", "", "\"hinge\"", "hinge"},
       {"a mimic", "<limit", "", "<mimic joint=\"neck\"/><limit", "mimics 'neck'"},
@@ -387,20 +384,50 @@ TEST(OthersFiles, LongNamesAreShortInTheControllerOnly) {
             robot.notes.end());
 }
 
-/// CAD exporters write zeros there.
-TEST(OthersFiles, AxisOfAFixedJointIsNotLookedAt) {
-  std::string text =
-      read_text(std::string(VERP_SOURCE_DIR) + "/tests/host/model/odd_robot/odd.urdf");
-  const auto at = text.find("<parent link=\"base_link\"/>");
-  ASSERT_NE(at, std::string::npos);
-  text.insert(at, "<axis xyz=\"0 0 0\"/>");
-  const TemporaryFile urdf("odd.urdf", text);
-  std::string wrapper =
-      read_text(std::string(VERP_SOURCE_DIR) + "/tests/host/model/odd_robot/robot.sdf");
+/// The odd robot with `with` in place of the first `part` of its URDF.
+Entity odd_robot_with(const std::string& part, const std::string& with) {
+  const std::string folder = VERP_SOURCE_DIR "/tests/host/model/odd_robot/";
+  std::string text = read_text(folder + "odd.urdf"), wrapper = read_text(folder + "robot.sdf");
+  const auto at = text.find(part);
+  EXPECT_NE(at, std::string::npos) << part;
+  const TemporaryFile urdf("odd.urdf", text.replace(at, part.size(), with));
   wrapper.replace(wrapper.find("odd.urdf"), 8,
                   std::filesystem::path(urdf.path()).filename().string());
   const TemporaryFile file("robot.sdf", wrapper);
-  EXPECT_EQ(load_robot(file.path()).name, "odd");
+  return load_robot(file.path());
+}
+
+/// CAD exporters write zeros there.
+TEST(OthersFiles, AxisOfAFixedJointIsNotLookedAt) {
+  const std::string parent = "<parent link=\"base_link\"/>";
+  EXPECT_EQ(odd_robot_with(parent, "<axis xyz=\"0 0 0\"/>" + parent).name, "odd");
+}
+
+TEST(OthersFiles, HabitsOfExportersThatChangeNothingLoad) {
+  const Entity odd = odd_robot_with("<robot", "<robot");
+  for (const auto& [part, with] :
+       {std::pair{" effort=\"3\"", ""},
+        {" velocity=\"7\"", ""},
+        {"<robot name=\"odd\">", "<robot>"},
+        {"xyz=\"0 0 0.09\"", "xyz=\"0\n\t0   0.09\""},
+        {"</robot>",
+         "<material name=\"a\"><color rgba=\"1 0 0 1\"/></material>"
+         "<material name=\"a\"><color rgba=\"1 0 0 1\"/></material></robot>"}}) {
+    const Entity robot = odd_robot_with(part, with);
+    EXPECT_EQ(robot.joints.size(), odd.joints.size()) << with;
+    EXPECT_EQ(total_mass(robot), total_mass(odd)) << with;
+    EXPECT_EQ(robot.nodes[1].com_m, odd.nodes[1].com_m) << with;
+  }
+}
+
+TEST(OthersFiles, RobotThatItsFileTiesToTheWorldIsFreeAndSaysSo) {
+  for (const std::string type : {"floating", "planar"}) {
+    const Entity robot = odd_robot_with("<joint name=\"base\" type=\"fixed\">",
+                                        "<joint name=\"base\" type=\"" + type + "\">");
+    ASSERT_FALSE(robot.notes.empty());
+    EXPECT_EQ(robot.notes.back(), "joint 'base' ties the robot to 'base_link': left out");
+    EXPECT_NEAR(total_mass(robot), total_mass(odd_robot_with("<robot", "<robot")), 1e-9);
+  }
 }
 
 TEST(OthersFiles, OverlapsOfTheMakersShapesMayBeAllowedAtOnce) {
