@@ -70,6 +70,17 @@ function(verp_add_contract_tests machine)
   set_tests_properties(contract.${VERP_BOARD} contract_can.${VERP_BOARD} PROPERTIES LABELS "contract;target")
 endfunction()
 
+# tests/host/stm32_drivers as the STM32 boards compile their drivers: same core, -Os (boards/stm32/images.cmake). Models of
+# the chip stand in for its registers. Two files would take minutes in an emulator.
+function(verp_add_driver_tests machine)
+  file(GLOB tests CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/host/stm32_drivers/*_test.cpp)
+  list(FILTER tests EXCLUDE REGEX "(shared_sector|imu_long)_test")
+  file(GLOB models CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/support/stm32/*.cpp ${CMAKE_SOURCE_DIR}/tests/support/can/*.cpp)
+  set(VERP_WITH ${models})
+  verp_add_unit_image(drivers drivers.${VERP_BOARD} ${machine} ${tests})
+  target_compile_options(drivers_${VERP_BOARD} PRIVATE -Os)
+endfunction()
+
 # Tests with a PC half take it from a PC build, which must exist.
 set(VERP_HOST_DIR ${CMAKE_SOURCE_DIR}/build/host-release CACHE PATH "PC build whose programs test this board")
 function(verp_add_target_test name suite)

@@ -40,8 +40,10 @@ class ServoPowerSwitch : public ::testing::Test {
     const app::OperatorOrder order = panel.order(0);
     const bool emergency = (order.flags & kEmergencyStopFlag) != 0;
     const bool stand = order.command.request == Request::kStand;
-    mode = safety::next_mode(mode, safety::kServosKnown | (emergency ? safety::kEmergency : 0u) |
-                                       (stand ? safety::kAskStand : safety::kAskRelax));
+    std::uint32_t conditions = safety::kServosKnown;
+    if (emergency) conditions |= safety::kEmergency;
+    conditions |= std::uint32_t{stand ? safety::kAskStand : safety::kAskRelax};
+    mode = safety::next_mode(mode, conditions);
     torque_off_ticks = safety::has_torque(mode) ? 0 : torque_off_ticks + 1;
     const auto step = supply.after_tick(drive, panel.pressed(), mode);
     idle();

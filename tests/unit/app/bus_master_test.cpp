@@ -79,6 +79,37 @@ TEST(BusMaster, RepliesMayComeByteByByte) {
   EXPECT_EQ(exchange.value, 1);
 }
 
+// A write before a read leaves two echoes in front of the answer.
+TEST(BusMaster, EchoesOfItsOwnPacketsAreStraysAndNoAnswers) {
+  static hal::ScriptedBus bus;
+  static BusMaster master(bus);
+  std::uint8_t write[32], read[32], line[96];
+  dxl::Encoder encoder(write, sizeof write);
+  dxl::begin_sync_write(encoder, dxl::address::kTorqueEnable, 1);
+  encoder.u8(kId), encoder.u8(0);
+  const std::size_t written = encoder.finish();
+  const std::size_t asked =
+      dxl::encode_read(read, sizeof read, kId, dxl::address::kPresentPosition, 4);
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < written; ++i) line[size++] = write[i];
+  for (std::size_t i = 0; i < asked; ++i) line[size++] = read[i];
+  const std::uint8_t value[] = {7, 0, 0, 0};
+  size += dxl::encode_status(line + size, sizeof line - size, kId, 0, value, sizeof value);
+  bus.expect(write, written, line, 0, 0);
+  bus.expect(read, asked, line, size, kSoonUs);
+  __builtin_memcpy(master.frame(), write, written);
+  EXPECT_TRUE(master.send(written));
+  __builtin_memcpy(master.frame(), read, asked);
+  int position = -1;
+  EXPECT_TRUE(master.request(asked, kLateUs, [&](const dxl::Packet& packet) {
+    position = packet.parameters[0];
+    return Take::kDone;
+  }));
+  EXPECT_EQ(position, 7);
+  EXPECT_EQ(master.counters().strays, 2u);
+  EXPECT_EQ(master.counters().errors, 0u);
+}
+
 TEST(ReadChain, PutsTheFirstMissedDeviceLast) {
   ReadChain<4> chain;
   for (std::uint8_t id = 1; id <= 4; ++id) chain.add(id, static_cast<std::uint8_t>(id - 1));

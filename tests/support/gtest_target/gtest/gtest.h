@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -6,9 +7,10 @@
 #include <cstring>
 #include <initializer_list>
 #include <type_traits>
+#include <vector>
 
 /// The part of GoogleTest that the tests use, without exceptions. The program supplies
-/// testing::put() and calls testing::run_all(); only typed tests have fixtures and need a heap.
+/// testing::put() and calls testing::run_all(); tests with fixtures need a heap.
 namespace testing {
 
 /// `text` may hold part of a line.
@@ -75,6 +77,48 @@ struct Case {
 };
 
 class Test {};
+
+template <class Value>
+struct TestParamInfo {
+  Value param;
+};
+template <class Value>
+class TestWithParam : public Test {
+ public:
+  using ParamType = Value;
+  static const Value& GetParam() { return *now; }
+  static inline const Value* now = nullptr;
+};
+template <class First, class... More>
+constexpr std::array<First, 1 + sizeof...(More)> Values(First first, More... more) {
+  return {first, more...};
+}
+/// A suite's parameters; a test runs with each in turn.
+template <class Suite>
+struct Instances {
+  template <class List>
+  explicit Instances(const List& list) {
+    all.insert(all.end(), list.begin(), list.end());
+  }
+  static inline std::vector<typename Suite::ParamType> all;
+};
+
+/// A fixture may be larger than the stack.
+template <class Body>
+void run_fixture() {
+  auto* const test = new Body;
+  test->body();
+  delete test;
+}
+template <class Suite, class Body>
+void run_instances() {
+  if (Instances<Suite>::all.empty()) ++Case::failures;
+  for (const auto& each : Instances<Suite>::all) {
+    Suite::now = &each;
+    run_fixture<Body>();
+  }
+}
+
 template <class... Type>
 struct Types {};
 
@@ -207,15 +251,23 @@ inline int run_all(const char* filter) {
   static void suite##_##name##_body()
 
 #define TYPED_TEST_SUITE(suite, types) using suite##_types = types
-// A fixture may be larger than the stack.
+#define VERP_FIXTURE_(suite, name, runner)                              \
+  struct suite##_##name : suite {                                       \
+    void body();                                                        \
+  };                                                                    \
+  static ::testing::Case suite##_##name##_case(#suite, #name, &runner); \
+  void suite##_##name::body()
+#define TEST_F(suite, name) VERP_FIXTURE_(suite, name, (::testing::run_fixture<suite##_##name>))
+#define TEST_P(suite, name) \
+  VERP_FIXTURE_(suite, name, (::testing::run_instances<suite, suite##_##name>))
+// Names of the parameters are left out.
+#define INSTANTIATE_TEST_SUITE_P(prefix, suite, values, ...) \
+  static const ::testing::Instances<suite> suite##_instances##prefix(values)
+
 #define TYPED_TEST(suite, name)                                                              \
   template <class TypeParam>                                                                 \
   struct suite##_##name : suite<TypeParam> {                                                 \
-    static void run() {                                                                      \
-      auto* const test = new suite##_##name;                                                 \
-      test->body();                                                                          \
-      delete test;                                                                           \
-    }                                                                                        \
+    static void run() { ::testing::run_fixture<suite##_##name>(); }                          \
     void body();                                                                             \
   };                                                                                         \
   static ::testing::TypedCases<suite##_##name, suite##_types> suite##_##name##_cases(#suite, \
@@ -273,4 +325,5 @@ inline int run_all(const char* filter) {
 #define ASSERT_DOUBLE_EQ(a, b) VERP_CHECK_(VERP_DOUBLE_(a, b), return )
 #define ASSERT_STREQ(a, b) VERP_CHECK_(VERP_TEXT_(a, b), return )
 #define FAIL() VERP_CHECK_(::testing::Outcome(false).because("Failed"), return )
+#define SCOPED_TRACE(words) static_cast<void>(words)
 #define SUCCEED() static_cast<void>(0)
