@@ -29,6 +29,7 @@ constexpr double kGravity_m_s2 = 9.80665;
 // Of the whole robot: a link's radius of gyration, at most and usually. Of a sole: how far its
 // middle is ahead of the ankle, where that tells.
 constexpr double kMostGyration = 0.3, kUsualGyration = 0.05, kLeastReach = 0.05;
+constexpr double kLinkShare = 0.01;  // of the robot's mass, for a link without
 constexpr double kKneeArm = 0.295, kTorqueReserve = 2;
 
 /// Small letters, digits and _, as robots are named.
@@ -289,14 +290,44 @@ class Importer {
     const double unit = unit_of_inertias(size_m);
     for (const LinkPart& part : s_.links) {
       const double radius_m = part.radius_m * std::sqrt(unit);
-      if (radius_m < size_m) continue;
-      const double wanted_m = kUsualGyration * size_m;
-      w_.inertia_scales.emplace_back(part.name, std::pow(wanted_m / radius_m, 2));
-      out_.left_out.push_back(
-          fmt::format("link {}: its moments are those of a body of {:.2g} m; "
-                      "those of {:.2g} m are taken",
-                      part.name, radius_m, wanted_m));
+      const bool is_small = radius_m < size_m;
+      if (part.is_no_body) {
+        put_ball(part, is_small && radius_m > 0 ? radius_m : kUsualGyration * size_m);
+      } else if (!is_small) {
+        const double wanted_m = kUsualGyration * size_m;
+        w_.inertia_scales.emplace_back(part.name, std::pow(wanted_m / radius_m, 2));
+        out_.left_out.push_back(
+            fmt::format("link {}: its moments are those of a body of {:.2g} m; "
+                        "those of {:.2g} m are taken",
+                        part.name, radius_m, wanted_m));
+      }
     }
+    for (const ServoRow& row : w_.servos) weigh(bone(row.bone).child, size_m);
+    for (const int follower : followers_) weigh(bone(follower).child, size_m);
+  }
+
+  void put_ball(const LinkPart& part, double gyration_m) {
+    w_.balls.push_back({part.name, std::clamp(gyration_m / std::sqrt(0.4), 0.001, 1.0), 0});
+    out_.left_out.push_back(fmt::format(
+        "link {}: no body has its moments of inertia; those of a ball are taken", part.name));
+  }
+
+  /// What a joint moves has a mass.
+  void weigh(int moved, double size_m) {
+    double mass_kg = 0;
+    std::vector<int> piece = {moved};
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      mass_kg += link(piece[i]).mass_kg;
+      for (std::size_t b = 0; b < s_.bones.size(); ++b) {
+        if (s_.bones[b].parent == piece[i] && !keeps(static_cast<int>(b)))
+          piece.push_back(s_.bones[b].child);
+      }
+    }
+    if (mass_kg > 0) return;
+    const double guess_kg = kLinkShare * s_.mass_kg();
+    w_.balls.push_back({link(moved).name, kUsualGyration * size_m / std::sqrt(0.4), guess_kg});
+    out_.left_out.push_back(fmt::format("link {} has no mass: {:.2g} kg are taken, a guess",
+                                        link(moved).name, guess_kg));
   }
 
   /// In kg m2: 1, unless most links would be larger than the robot.

@@ -6,6 +6,7 @@
 
 #include "host/robot/model/load_error.hpp"
 #include "host/robot/model/number.hpp"
+#include "host/robot/model/principal.hpp"
 
 namespace verp::import {
 namespace {
@@ -45,6 +46,16 @@ bool touches_a_mesh(const XmlElement& link) {
   return false;
 }
 
+void read_moments(const XmlElement& inertia, LinkPart& link) {
+  const auto at = [&](const char* each) { return inertia.number(each, 0); };
+  model::Mat3 moments;
+  moments << at("ixx"), at("ixy"), at("ixz"), at("ixy"), at("iyy"), at("iyz"), at("ixz"), at("iyz"),
+      at("izz");
+  const Vec3 principal = model::principal_moments(moments);
+  link.radius_m = std::sqrt(principal.cwiseAbs().maxCoeff() / link.mass_kg);
+  link.is_no_body = principal[0] <= 0 || principal[0] + principal[1] < principal[2] * (1 - 1e-6);
+}
+
 LinkPart link_of(const XmlElement& element) {
   LinkPart link;
   link.name = element.text("name");
@@ -52,12 +63,7 @@ LinkPart link_of(const XmlElement& element) {
   const auto mass = inertial ? first(*inertial, "mass") : std::nullopt;
   if (mass) link.mass_kg = mass->number("value", 0);
   const auto inertia = inertial ? first(*inertial, "inertia") : std::nullopt;
-  if (inertia && link.mass_kg > 0) {
-    double most = 0;
-    for (const char* moment : {"ixx", "iyy", "izz"})
-      most = std::max(most, inertia->number(moment, 0));
-    link.radius_m = std::sqrt(most / link.mass_kg);
-  }
+  if (inertia && link.mass_kg > 0) read_moments(*inertia, link);
   link.has_contact = first(element, "collision").has_value();
   link.has_shape = link.has_contact || first(element, "visual");
   link.has_mesh_contact = touches_a_mesh(element);

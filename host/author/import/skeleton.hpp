@@ -29,6 +29,8 @@ struct LinkPart {
   std::string name;
   double mass_kg = 0;
   double radius_m = 0;  ///< of gyration: root of the largest moment over mass
+  bool is_no_body =
+      false;  ///< its moments: one is not positive, or larger than the sum of the others
   Transform pose = Transform::Identity();
   bool has_shape = false;         ///< seen or touched
   bool has_contact = false;       ///< any <collision>

@@ -124,6 +124,11 @@ class Writer {
     return false;
   }
 
+  bool is_weighed(const std::string& link) const {
+    return std::any_of(w_.balls.begin(), w_.balls.end(),
+                       [&](const Ball& ball) { return ball.link == link && ball.mass_kg > 0; });
+  }
+
   void drop(const char* what, const std::string& name, const char* reason) {
     line(2, fmt::format("<verp:drop what=\"{}\" name=\"{}\" reason=\"{}\"/>", what, escaped(name),
                         reason));
@@ -136,7 +141,7 @@ class Writer {
       } else if (is_foot(part) && !is_probe() && part.has_contact) {
         drop("collision", part.name, "the sole is one box");
       }
-      if (part.mass_kg <= 0 && part.has_shape)
+      if (part.mass_kg <= 0 && part.has_shape && !is_weighed(part.name))
         drop("massless_link", part.name, "the file gives it no mass");
     }
     for (const auto& [name, scale] : w_.inertia_scales) {
@@ -144,6 +149,14 @@ class Writer {
            fmt::format("<verp:inertia link=\"{}\" scale=\"{:.4g}\" reason=\"no body of this size "
                        "has the file's moments\"/>",
                        escaped(name), scale));
+    }
+    for (const Ball& ball : w_.balls) {
+      const std::string mass =
+          ball.mass_kg > 0 ? fmt::format(" mass_kg=\"{:.4g}\"", ball.mass_kg) : "";
+      line(2,
+           fmt::format("<verp:inertia link=\"{}\" ball_m=\"{:.4g}\"{} reason=\"{}\"/>",
+                       escaped(ball.link), ball.radius_m, mass,
+                       mass.empty() ? "no body has the file's moments" : "the file has no mass"));
     }
     for (const std::string& joint : w_.dropped_mimics)
       drop("mimic", joint, "the joint that it follows is fixed, or it is");

@@ -14,6 +14,12 @@ struct ServoRow {
   double lower_rad = 0, upper_rad = 0;
 };
 
+/// In place of a link's moments, and of its mass if that is given.
+struct Ball {
+  std::string link;
+  double radius_m = 0, mass_kg = 0;
+};
+
 struct Wrapper {
   std::string name, uri;  ///< of the model; of the wrapped file, from the wrapper's folder
   std::string servo_type, protocol = "dynamixel2";
@@ -22,8 +28,9 @@ struct Wrapper {
   std::vector<int> fixed;        ///< bones that turn or slide in the file
   std::vector<std::string> dropped_mimics;
   std::vector<std::pair<std::string, double>> inertia_scales;  ///< by link; "*": all
-  Transform body = Transform::Identity();                      ///< root's frame
-  std::vector<Sole> soles;  ///< left, right, in the body's frame; empty: a probe
+  std::vector<Ball> balls;
+  Transform body = Transform::Identity();  ///< root's frame
+  std::vector<Sole> soles;                 ///< left, right, in the body's frame; empty: a probe
   std::optional<Eigen::AlignedBox3d> trunk_box;       ///< body's frame
   std::vector<std::pair<std::string, double>> stand;  ///< joints that cannot stand at zero
 };

@@ -328,7 +328,9 @@ class Assembler {
 
     for (const InertiaFact& fact : facts_.inertias) {
       e_.notes.push_back("inertia of '" + fact.link + "' times " + fact.at.text("scale", "1") +
-                         (fact.com_m ? ", centre of mass at " + fact.at.text("com") : "") + ": " +
+                         (fact.com_m ? ", centre of mass at " + fact.at.text("com") : "") +
+                         (fact.ball_m ? ", a ball of radius " + fact.at.text("ball_m") : "") +
+                         (fact.mass_kg ? ", mass " + fact.at.text("mass_kg") : "") + ": " +
                          fact.at.text("reason"));
     }
     for (const DropFact& fact : facts_.drops) {

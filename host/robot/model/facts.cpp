@@ -190,12 +190,16 @@ class FactReader {
     f_.tuning.push_back({e, name, e.number("value")});
   }
   void inertia(const XmlElement& e) {
-    e.allow({"link", "scale", "com", "reason"});
+    e.allow({"link", "scale", "com", "ball_m", "mass_kg", "reason"});
     e.text("reason");
-    InertiaFact fact{e, e.text("link"), e.number_within("scale", 1e-6, 1e6, ", like 0.001", 1), {}};
+    InertiaFact fact{
+        e, e.text("link"), e.number_within("scale", 1e-9, 1e6, ", like 0.001", 1), {}, {}, {}};
     if (e.has("com")) fact.com_m = e.vector("com");
-    if (fact.com_m && fact.link == "*") {
-      e.fail("<verp:inertia> gives one centre of mass to all links", "name the link");
+    if (e.has("ball_m")) fact.ball_m = e.number_within("ball_m", 1e-3, 1, " m");
+    if (e.has("mass_kg")) fact.mass_kg = e.number_within("mass_kg", 1e-6, 100, " kg");
+    if (fact.mass_kg && !fact.ball_m) e.fail("<verp:inertia> mass_kg without ball_m", "add ball_m");
+    if ((fact.com_m || fact.ball_m) && fact.link == "*") {
+      e.fail("<verp:inertia> gives all links one centre of mass, or one ball", "name the link");
     }
     f_.inertias.push_back(fact);
   }

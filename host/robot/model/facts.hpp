@@ -61,6 +61,8 @@ struct InertiaFact {
   std::string link;  ///< "*": all
   double scale = 1;
   std::optional<Vec3> com_m;  ///< replaces the file's, link frame; never for "*"
+  /// Of a URDF's link, never for "*": the moments become those of a ball of this radius.
+  std::optional<double> ball_m, mass_kg;
 };
 struct BoxFact {
   XmlElement at;

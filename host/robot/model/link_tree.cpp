@@ -83,6 +83,7 @@ bool LinkTree::is_urdf_link(const std::string& name) const {
 double LinkTree::inertia_scale(const std::string& link) const {
   double scale = 1;
   for (const InertiaFact& fact : facts_.inertias) {
+    if (fact.link == link && fact.ball_m) return fact.scale;  // "*" is about the file's moments
     if (fact.link == "*" || fact.link == link) scale *= fact.scale;
   }
   return scale;

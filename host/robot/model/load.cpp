@@ -182,7 +182,7 @@ Entity load(const std::string& path, const std::string& bus, bool whole, const T
   const XmlElement model = source.model();
   Facts facts = read_facts(model, bus);
   const LibraryConsole silence;
-  const PreparedUrdfs urdfs(source);
+  const PreparedUrdfs urdfs(source, facts);
   for (const XmlElement& urdf : source.urdfs()) {
     check_urdf(source, urdf, facts, urdfs.plain_copy_of(urdf.file()));
     for (MimicFact& mimic : urdf_mimics(urdf, facts)) facts.mimics.push_back(std::move(mimic));

@@ -156,8 +156,7 @@ std::shared_ptr<urdf::ModelInterface> read_urdf(const XmlSource& source, const X
 void check_links(const XmlElement& robot, const urdf::ModelInterface& urdf, const Facts& facts) {
   for (const auto& [name, link] : urdf.links_) {
     const bool is_frame = link->visual_array.empty() && link->collision_array.empty();
-    const bool has_mass = !element_of(robot, "link", name).children("inertial").empty();
-    if (has_mass || is_frame || facts.is_dropped("massless_link", name)) continue;
+    if (link->inertial || is_frame || facts.is_dropped("massless_link", name)) continue;
     element_of(robot, "link", name)
         .fail("link '" + name + "' has a shape and no mass",
               "give it an <inertial>, or declare: <verp:drop what=\"massless_link\" name=\"" +

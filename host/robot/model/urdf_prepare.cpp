@@ -69,6 +69,28 @@ void complete_limit(XMLElement& joint) {
   }
 }
 
+XMLElement& child_of(XMLElement& parent, const char* name) {
+  XMLElement* const found = parent.FirstChildElement(name);
+  return found != nullptr ? *found : *parent.InsertNewChildElement(name);
+}
+
+/// <verp:inertia ball_m>
+void put_balls(XMLElement& robot, const Facts& facts) {
+  for (auto* link = robot.FirstChildElement("link"); link != nullptr;
+       link = link->NextSiblingElement("link")) {
+    for (const InertiaFact& fact : facts.inertias) {
+      if (!fact.ball_m || fact.link != name_of(*link)) continue;
+      XMLElement& inertial = child_of(*link, "inertial");
+      XMLElement& mass = child_of(inertial, "mass");
+      if (fact.mass_kg) mass.SetAttribute("value", *fact.mass_kg);
+      const double moment = 0.4 * mass.DoubleAttribute("value") * *fact.ball_m * *fact.ball_m;
+      XMLElement& inertia = child_of(inertial, "inertia");
+      for (const char* each : {"ixx", "iyy", "izz"}) inertia.SetAttribute(each, moment);
+      for (const char* each : {"ixy", "ixz", "iyz"}) inertia.SetAttribute(each, "0");
+    }
+  }
+}
+
 /// Exporters repeat a material in each link's file.
 void keep_first_materials(XMLElement& robot) {
   std::set<std::string> known;
@@ -104,8 +126,8 @@ std::string write_copy(XMLDocument& document, const std::string& original) {
 
 }  // namespace
 
-PreparedUrdfs::PreparedUrdfs(const XmlSource& source) {
-  for (const XmlElement& robot : source.urdfs()) prepare(robot);
+PreparedUrdfs::PreparedUrdfs(const XmlSource& source, const Facts& facts) {
+  for (const XmlElement& robot : source.urdfs()) prepare(robot, facts);
 }
 
 PreparedUrdfs::~PreparedUrdfs() {
@@ -134,7 +156,7 @@ void PreparedUrdfs::untie(XMLElement& robot) {
   }
 }
 
-void PreparedUrdfs::prepare(const XmlElement& original) {
+void PreparedUrdfs::prepare(const XmlElement& original, const Facts& facts) {
   XMLDocument document;
   original.raw().GetDocument()->DeepCopy(&document);
   XMLElement& robot = *document.RootElement();
@@ -146,6 +168,7 @@ void PreparedUrdfs::prepare(const XmlElement& original) {
        joint = joint->NextSiblingElement("joint")) {
     complete_limit(*joint);
   }
+  put_balls(robot, facts);
   const std::string path = canonical(original.file());
   plain_copy_of_[path] = write_copy(document, original.file());
   rename_and_weigh(robot);

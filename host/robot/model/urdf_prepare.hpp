@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "host/robot/model/facts.hpp"
 #include "host/robot/model/xml_source.hpp"
 
 /// Prepares URDF files for urdfdom, and for libsdformat's import, which drops links without mass
@@ -24,7 +25,7 @@ struct UrdfNames {
 class PreparedUrdfs {
  public:
   /// Throws LoadError if a copy cannot be written.
-  explicit PreparedUrdfs(const XmlSource& source);
+  PreparedUrdfs(const XmlSource& source, const Facts& facts);
   ~PreparedUrdfs();
   PreparedUrdfs(const PreparedUrdfs&) = delete;
   PreparedUrdfs& operator=(const PreparedUrdfs&) = delete;
@@ -39,7 +40,7 @@ class PreparedUrdfs {
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
-  void prepare(const XmlElement& robot);
+  void prepare(const XmlElement& robot, const Facts& facts);
   void untie(tinyxml2::XMLElement& robot);
   void rename_and_weigh(tinyxml2::XMLElement& robot);
 

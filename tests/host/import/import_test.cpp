@@ -31,6 +31,8 @@ struct Habits {
   bool has_right_leg = true;
   std::string in_names = "";
   std::string more = "";  ///< elements of the robot
+  double foot_kg = 0.1;   ///< below 0: without <inertial>
+  double flatter = 1;     ///< least moment over the others: below 0 or above 2 no body has them
 };
 
 class Maker {
@@ -66,7 +68,8 @@ class Maker {
       const std::string shape = h_.feet_are_meshes
                                     ? "<mesh filename=\"package://nowhere/foot.stl\"/>"
                                     : "<box size=\"0.1 0.06 0.01\"/>";
-      link(below, 0.1, foot ? shape : "", {foot ? h_.sole_ahead_m : 0.0, 0, foot ? -0.025 : 0.0});
+      link(below, foot ? h_.foot_kg : 0.1, foot ? shape : "",
+           {foot ? h_.sole_ahead_m : 0.0, 0, foot ? -0.025 : 0.0});
       above = below;
     }
   }
@@ -90,8 +93,9 @@ class Maker {
     const double moment = 4e-4 * mass * h_.moments_times;
     text_ += fmt::format(
         "<link name=\"{0}\"><inertial><origin xyz=\"{1} {2} {3}\"/><mass value=\"{4}\"/><inertia "
-        "ixx=\"{5}\" iyy=\"{5}\" izz=\"{5}\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>",
-        name, at.x(), at.y(), at.z(), mass, moment);
+        "ixx=\"{5}\" iyy=\"{5}\" izz=\"{6}\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>",
+        name, at.x(), at.y(), at.z(), mass, moment, moment * h_.flatter);
+    if (mass < 0) text_.resize(text_.rfind("<inertial>"));
     for (const char* what : {"visual", "collision"}) {
       if (shape.empty()) continue;
       text_ += fmt::format("<{0}><origin xyz=\"{1} {2} {3}\"/><geometry>{4}</geometry></{0}>", what,
@@ -236,6 +240,26 @@ TEST_F(ImportedFile, LongNamesStayOutsideTheController) {
   EXPECT_EQ(std::string(params.joint[0].name).substr(0, 19), "jp2_as_the_exporte_");
   for (int j = 1; j < params.joint_count; ++j)
     EXPECT_STRNE(params.joint[j].name, params.joint[j - 1].name);
+}
+
+TEST_F(ImportedFile, MomentsThatNoBodyHasBecomeABallsAndAreSaid) {
+  for (const double flatter : {-1.0, 2.5, 0.0}) {
+    const Imported robot = import({.flatter = flatter});
+    EXPECT_TRUE(was_changed(robot, "link p1: no body has its moments")) << flatter;
+    const model::Entity entity = loaded(robot);
+    expect_a_biped(entity);
+    const model::Mat3& moments = entity.nodes[1].inertia_kg_m2;
+    EXPECT_NEAR(moments(0, 0), moments(2, 2), 1e-9);
+    EXPECT_NEAR(moments(0, 0) / entity.nodes[1].mass_kg, 4e-4 * std::max(1.0, flatter), 1e-5);
+  }
+}
+
+TEST_F(ImportedFile, WhatAJointMovesHasAMassAndAGuessIsSaid) {
+  for (const double foot_kg : {0.0, -1.0}) {
+    const Imported robot = import({.foot_kg = foot_kg});
+    EXPECT_TRUE(was_changed(robot, "link p4_5 has no mass")) << foot_kg;
+    EXPECT_NEAR(model::total_mass(loaded(robot)), 1.2 + 2 * 0.2 + 10 * 0.1, 0.1);
+  }
 }
 
 /// The twin's lidars scan in one plane, and its force-torque sensors are in joints that move.
