@@ -31,6 +31,13 @@ struct WriteEntry {
 /// another kind.
 bool write_entry(const Packet& packet, std::size_t& offset, WriteEntry& entry);
 
+/// Ping, Read, and the reads of several devices: requests that change nothing. In a firmware image
+/// the codes' bits take less room than a list.
+constexpr bool is_read(Instruction instruction) {
+  const auto code = static_cast<unsigned>(instruction);
+  return code <= 0x02 || (code & 0xE7) == 0x82;
+}
+
 constexpr bool is_fast_read(Instruction instruction) {
   return instruction == Instruction::kFastSyncRead || instruction == Instruction::kFastBulkRead;
 }

@@ -13,6 +13,12 @@ namespace verp::app {
 /// Answers Ping, Read, Write, Reg Write, Action, Sync, Bulk and fast reads, Sync and Bulk Write and
 /// Reboot; others give the Instruction Error.
 ///
+/// Requests are executed and answered in order. One gets no answer: a read or Ping when the next
+/// request is one too and is whole in the link before the answer began to leave. Its master has
+/// asked again, and would take the older answer for the newer one. So a master may send writes and
+/// one read together and count the answers (OperatorPort), and several reads with a write before
+/// each (TickPort), but not two reads in a row.
+///
 /// Registers (OperatorRegisters, SensorRegisters):
 ///  - id(), model(), version(), status_level(), alert(), armed()
 ///  - read(address, size): the bytes, or nullptr; write(), reg_write(), action(): all or an error
@@ -22,14 +28,14 @@ namespace verp::app {
 template <class Registers>
 class DynamixelDevice {
  public:
-  /// Takes at most kSlice bytes from the link; nothing while part of a reply waits for room. True
-  /// if there was anything to do.
+  /// Takes at most kSlice bytes from the link; nothing while half a reply waits for room. True if
+  /// there was anything to do.
   bool poll();
 
   Registers& registers() { return registers_; }
-  bool reply_waits() const { return sent_ < reply_size_; }
+  bool reply_waits() const { return reply_size_ > 0; }
   /// A master wants a restart; asked only with torque off.
-  bool reboot_asked() const { return reboot_asked_ && sent_ == reply_size_; }
+  bool reboot_asked() const { return reboot_asked_ && !reply_waits(); }
 
  protected:
   template <class... Arguments>
@@ -43,10 +49,9 @@ class DynamixelDevice {
   static constexpr std::size_t kSlice = 64;
   enum StatusLevel : std::uint8_t { kPingOnly = 0, kReads = 1, kAll = 2 };
 
-  bool push();
-
-  // One byte can complete several packets if a false header hid them.
-  void serve(bool found);
+  void push();
+  // False: an earlier answer must leave first.
+  bool take(const dxl::Packet& packet);
   void handle(const dxl::Packet& packet);
   dxl::Error execute(const dxl::Packet& packet);
   void ping(std::uint8_t id, bool all);
@@ -65,56 +70,59 @@ class DynamixelDevice {
   dxl::ReadEntry waiting_;  ///< sent once `before_us_` has answered
   std::uint8_t before_us_ = dxl::kBroadcast;
   bool reboot_asked_ = false;
-  bool more_ = false;  ///< the parser may hold another packet
+  bool found_ = false;         ///< the parser's packet waits
+  bool answers_read_ = false;  ///< so does the reply
   std::size_t arrived_ = 0;
   std::size_t taken_ = 0;
-  std::size_t reply_size_ = 0;
-  std::size_t sent_ = 0;
+  std::size_t reply_size_ = 0;  ///< 0: no reply waits
+  std::size_t sent_ = 0;        ///< of the reply that waits; 0 if none does
   std::uint8_t inbox_[kSlice];
   std::uint8_t reply_[dxl::kMaxPacket];
 };
 
 template <class Registers>
 bool DynamixelDevice<Registers>::poll() {
-  bool busy = push();
-  if (more_) serve(parser_.next());
-  if (sent_ < reply_size_ && !registers_.holds()) return busy;
+  if (sent_ > 0) push();
+  if (sent_ > 0) return true;
+  bool busy = reply_waits();
   if (taken_ == arrived_) {
     taken_ = 0;
     arrived_ = link_.read(inbox_, sizeof inbox_, 0);
   }
-  while (taken_ < arrived_ && (sent_ == reply_size_ || registers_.holds())) {
+  for (;;) {
+    // One byte can complete several packets if a false header hid them.
+    while (found_ && take(parser_.packet())) found_ = parser_.next();
+    if (found_ || taken_ == arrived_) break;
+    found_ = parser_.push(inbox_[taken_++]);
     busy = true;
-    serve(parser_.push(inbox_[taken_++]));
   }
+  if (arrived_ < kSlice) push();  // a full inbox: the link may hold a newer request
   registers_.link(parser_.crc_errors(), link_.errors());
   return busy;
 }
 
 template <class Registers>
-bool DynamixelDevice<Registers>::push() {
-  if (sent_ == reply_size_ || registers_.holds()) return false;
+void DynamixelDevice<Registers>::push() {
+  if (!reply_waits() || registers_.holds()) return;
   sent_ += link_.write(reply_ + sent_, reply_size_ - sent_, 0);
-  if (!link_.connected()) sent_ = reply_size_;  // the peer is gone
-  return true;
+  // Without connection the peer is gone.
+  if (sent_ == reply_size_ || !link_.connected()) sent_ = reply_size_ = 0;
 }
 
 template <class Registers>
-void DynamixelDevice<Registers>::serve(bool found) {
-  for (; found; found = parser_.next()) {
-    const dxl::Packet& packet = parser_.packet();
-    if (packet.is_status()) {
-      overhear(packet.id);
-    } else {
-      before_us_ = dxl::kBroadcast;
-      if (registers_.holds()) sent_ = reply_size_;
-      handle(packet);
-    }
-    push();
-    more_ = sent_ < reply_size_ && !registers_.holds();
-    if (more_) return;
+bool DynamixelDevice<Registers>::take(const dxl::Packet& packet) {
+  if (packet.is_status()) {
+    overhear(packet.id);
+    return true;
   }
-  more_ = false;
+  const bool read = dxl::is_read(packet.instruction);
+  if (sent_ == 0 && (registers_.holds() || (read && answers_read_))) reply_size_ = 0;
+  push();
+  if (reply_waits()) return false;
+  before_us_ = dxl::kBroadcast;
+  answers_read_ = read;
+  handle(packet);
+  return true;
 }
 
 template <class Registers>
@@ -122,22 +130,15 @@ void DynamixelDevice<Registers>::handle(const dxl::Packet& packet) {
   const std::uint8_t id = registers_.id();
   if (packet.id != dxl::kBroadcast && packet.id != id) return;
   registers_.heard();
-  switch (packet.instruction) {
-    case dxl::Instruction::kPing:
-      return ping(id, packet.id == dxl::kBroadcast);
-    case dxl::Instruction::kRead:
-      return read(packet);
-    case dxl::Instruction::kSyncRead:
-    case dxl::Instruction::kBulkRead:
-    case dxl::Instruction::kFastSyncRead:
-    case dxl::Instruction::kFastBulkRead:
-      return read_in_turn(packet, id);
-    case dxl::Instruction::kSyncWrite:
-    case dxl::Instruction::kBulkWrite:
-      return write_each(packet, id);
-    default:
-      return acknowledge(packet.id, execute(packet));
+  using dxl::Instruction;
+  const Instruction asked = packet.instruction;
+  if (asked == Instruction::kPing) return ping(id, packet.id == dxl::kBroadcast);
+  if (asked == Instruction::kRead) return read(packet);
+  if (answers_read_) return read_in_turn(packet, id);
+  if (asked == Instruction::kSyncWrite || asked == Instruction::kBulkWrite) {
+    return write_each(packet, id);
   }
+  acknowledge(packet.id, execute(packet));
 }
 
 template <class Registers>
@@ -228,7 +229,6 @@ void DynamixelDevice<Registers>::show_fast(const dxl::ReadEntry& own, std::size_
   const std::uint8_t* data = registers_.read(own.address, own.length);
   if (data == nullptr) return;
   std::uint16_t crc = 0;
-  sent_ = 0;
   reply_size_ = dxl::encode_fast_block(reply_, true, all_bytes, own.id,
                                        dxl::error_field(dxl::Error::kNone, registers_.alert()),
                                        data, own.length, crc);
@@ -252,7 +252,6 @@ void DynamixelDevice<Registers>::acknowledge(std::uint8_t asked_as, dxl::Error e
 template <class Registers>
 void DynamixelDevice<Registers>::reply(std::uint8_t id, dxl::Error error, const std::uint8_t* data,
                                        std::size_t size) {
-  sent_ = 0;
   reply_size_ = dxl::encode_status(reply_, sizeof reply_, id,
                                    dxl::error_field(error, registers_.alert()), data, size);
   registers_.answers_after(0);

@@ -254,12 +254,106 @@ TEST(OperatorDevice, ForeignAndBadPacketsGetNoAnswer) {
 // A false header hides requests until its CRC fails.
 TEST(OperatorDevice, AnswersAllRequestsThatComeOutTogether) {
   Bench& bench = fresh_bench();
-  std::uint8_t bytes[64] = {0xFF, 0xFF, 0xFD, 0x00, bench.id, 20, 0x00};
+  std::uint8_t bytes[64] = {0xFF, 0xFF, 0xFD, 0x00, bench.id, 35, 0x00};
+  const std::uint8_t relax = 0;
   std::size_t size = 7;
   for (int i = 0; i < 2; ++i) {
+    size +=
+        dxl::encode_write(bytes + size, sizeof bytes - size, bench.id, reg("request"), &relax, 1);
     size += dxl::encode_ping(bytes + size, sizeof bytes - size, bench.id);
   }
-  EXPECT_EQ(bench.send(bytes, size).packets, 2);
+  EXPECT_EQ(bench.send(bytes, size).packets, 4);
+}
+
+/// Requests that lie whole in the link before the device looks.
+struct Together {
+  explicit Together(Bench& to) : bench(to) {}
+  Together& ping() { return add(dxl::encode_ping(end(), room(), bench.id)); }
+  Together& read(std::uint16_t length) {
+    return add(dxl::encode_read(end(), room(), bench.id, 0, length));
+  }
+  Together& write(std::uint16_t address, std::uint8_t value) {
+    return add(dxl::encode_write(end(), room(), bench.id, address, &value, 1));
+  }
+  /// Data bytes of each answer in order, a digit each.
+  unsigned answers() {
+    const std::size_t fits = bench.wire.right().write(bytes, size, 0);
+    EXPECT_EQ(fits, size);
+    unsigned sizes = 0;
+    dxl::Parser parser;
+    std::uint8_t some[64];
+    for (int idle = 0; idle < 2;) {
+      idle = bench.device.poll() ? 0 : idle + 1;
+      const std::size_t count = bench.wire.right().read(some, sizeof some, 0);
+      for (std::size_t i = 0; i < count; ++i) {
+        if (parser.push(some[i])) sizes = sizes * 10 + static_cast<unsigned>(parser.packet().size);
+      }
+    }
+    return sizes;
+  }
+
+  Bench& bench;
+  std::uint8_t bytes[256] = {};
+  std::size_t size = 0;
+
+ private:
+  std::uint8_t* end() { return bytes + size; }
+  std::size_t room() const { return sizeof bytes - size; }
+  Together& add(std::size_t count) {
+    size += count;
+    return *this;
+  }
+};
+
+TEST(OperatorDevice, OfReadsInARowAnswersTheNewest) {
+  EXPECT_EQ(Together(fresh_bench()).read(2).read(3).read(4).answers(), 4u);
+  EXPECT_EQ(Together(fresh_bench()).ping().read(4).answers(), 4u);
+  EXPECT_EQ(Together(fresh_bench()).read(4).ping().answers(), 3u);
+  // More than the device takes at once.
+  Bench& bench = fresh_bench();
+  Together many(bench);
+  for (int i = 0; i < 12; ++i) many.read(2);
+  EXPECT_EQ(many.read(4).answers(), 4u);
+}
+
+// TickPort sends a write and a read of each block together, OperatorPort an order and a read.
+TEST(OperatorDevice, ExecutesEveryWriteAndAnswersTheReadsAroundItInOrder) {
+  Bench& bench = relaxed_bench();
+  Together requests(bench);
+  requests.read(3).read(4).write(reg("request"), 1).read(5).write(reg("torque_limit"), 50);
+  requests.write(reg("request"), 2).read(6).read(7);
+  EXPECT_EQ(requests.answers(), 405007u);
+  EXPECT_TRUE(bench.device.order(1).command.request == static_cast<Request>(2));
+  EXPECT_EQ(bench.device.torque_limit_percent(), 50);
+}
+
+TEST(OperatorDevice, FinishesTheAnswerThatBeganToLeave) {
+  Bench& bench = fresh_bench();
+  const std::size_t size =
+      dxl::encode_read(bench.frame, sizeof bench.frame, bench.id, reg("device_kind"), 400);
+  bench.wire.right().write(bench.frame, size, 0);
+  while (bench.device.poll() && !bench.device.reply_waits()) {
+  }
+  ASSERT_TRUE(bench.device.reply_waits()) << "part of it has left";
+  const Reply reply = bench.plain(Instruction::kPing);
+  EXPECT_EQ(reply.packets, 2);
+  EXPECT_EQ(reply.size, 3u);
+}
+
+TEST(OperatorDevice, AWriteBehindAnAnswerWithoutRoomWaitsForIt) {
+  Bench& bench = relaxed_bench();
+  std::uint8_t sink[256];
+  for (std::size_t full = 0; full < 256; full += 11) bench.wire.left().write(sink, 11, 0);
+  Together requests(bench);
+  requests.read(4).write(reg("request"), 1);
+  ASSERT_EQ(bench.wire.right().write(requests.bytes, requests.size, 0), requests.size);
+  for (int i = 0; i < 4; ++i) bench.device.poll();
+  EXPECT_TRUE(bench.device.reply_waits());
+  EXPECT_TRUE(bench.device.order(1).command.request == Request::kRelax);
+  bench.wire.right().read(sink, sizeof sink, 0);
+  const Reply reply = bench.send(nullptr, 0);
+  EXPECT_EQ(reply.packets, 2);
+  EXPECT_TRUE(bench.device.order(2).command.request == Request::kStand);
 }
 
 bool in_bounds(Bench& bench) {

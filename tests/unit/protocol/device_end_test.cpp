@@ -20,6 +20,20 @@ struct Received {
   bool complete = false;
 };
 
+TEST(DeviceEnd, KnowsTheRequestsThatChangeNothing) {
+  for (const Instruction each :
+       {Instruction::kPing, Instruction::kRead, Instruction::kSyncRead, Instruction::kFastSyncRead,
+        Instruction::kBulkRead, Instruction::kFastBulkRead}) {
+    EXPECT_TRUE(is_read(each)) << static_cast<int>(each);
+  }
+  for (const Instruction each :
+       {Instruction::kWrite, Instruction::kRegWrite, Instruction::kAction,
+        Instruction::kFactoryReset, Instruction::kReboot, Instruction::kClear,
+        Instruction::kSyncWrite, Instruction::kBulkWrite, Instruction::kStatus}) {
+    EXPECT_FALSE(is_read(each)) << static_cast<int>(each);
+  }
+}
+
 TEST(DeviceEnd, FindsItsPartOfTheDocumentedSyncRead) {
   const std::uint8_t bytes[] = {0xFF, 0xFF, 0xFD, 0x00, 0xFE, 0x09, 0x00, 0x82,
                                 0x84, 0x00, 0x04, 0x00, 0x01, 0x02, 0xCE, 0xFA};
