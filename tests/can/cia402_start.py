@@ -3,14 +3,15 @@
 
 It needs python3-can, CiA 301 and CiA 402. It never looks at a statusword but in TPDO 1, as the drive sends it by itself:
 after a reset and a start, after each controlword in RPDO 1, and when it starts again from pre-operational. Then it falls
-silent as a master, stops the drive, and stores and restores its settings. One JSON object on stdout says what it saw.
+silent as a master, stops the drive, and stores and restores its settings. Before, it moves the joint in profile position
+mode and makes that place home, as set-up tools do. One JSON object on stdout says what it saw.
 """
 import json
 import struct
 import sys
 import time
 
-from foreign_master import Master, Refused
+from foreign_master import PATIENCE_S, Master, Refused
 
 OWN_NODE = 5
 WATCH_MS = 200
@@ -55,6 +56,47 @@ def start_up(master, node):
 def start_again(master, node):
     nmt(master, 0x80, node)
     return started(master, node)
+
+
+def await_bits(master, node, bits):
+    """The statusword's mode bits 10, 12 and 13, once all of `bits` are set."""
+    end = time.monotonic() + PATIENCE_S
+    while (word := master.read(node, 0x6041, 0, "H")) & bits != bits:
+        if time.monotonic() > end:
+            raise Refused(f"statusword {word:04X}h, without {bits:04X}h")
+    return word & 0x3400
+
+
+def set_point(master, node, move):
+    """Profile position mode: bit 4 until the drive acknowledges with bit 12, then until bit 10 says that it is there."""
+    master.write(node, 0x6060, 0, "b", 1)
+    start = master.read(node, 0x6064, 0, "i")
+    for index, value in ((0x6081, 2000), (0x6083, 20000), (0x6084, 20000), (0x6067, 40)):
+        master.write(node, index, 0, "I", value)
+    master.write(node, 0x607A, 0, "i", start + move)
+    master.write(node, 0x6040, 0, "H", 0x1F)
+    taken = await_bits(master, node, 0x1000)
+    master.write(node, 0x6040, 0, "H", 0x0F)
+    await_bits(master, node, 0x0400)
+    return {"taken": taken, "moved": master.read(node, 0x6064, 0, "i") - start}
+
+
+def home(master, node):
+    """Homing mode, method 37: here. Method 1 needs a switch."""
+    master.write(node, 0x6060, 0, "b", 6)
+    try:
+        master.write(node, 0x6098, 0, "b", 1)
+        refused = False
+    except Refused:
+        refused = True
+    master.write(node, 0x6098, 0, "b", 37)
+    before = await_bits(master, node, 0)
+    master.write(node, 0x6040, 0, "H", 0x1F)
+    after = await_bits(master, node, 0x1000)
+    position = master.read(node, 0x6064, 0, "i")
+    master.write(node, 0x6040, 0, "H", 0x0F)
+    master.write(node, 0x6060, 0, "b", 8)
+    return {"refused": refused, "before": before, "after": after, "position": position}
 
 
 def beat(master, times):
@@ -106,6 +148,9 @@ def main(interface, node):
         "first": first,
         "start_up": start_up(master, node),
         "again": start_again(master, node),
+        "modes": master.read(node, 0x6502, 0, "I"),
+        "set_point": set_point(master, node, 400),
+        "home": home(master, node),
         "silent": fall_silent(master, node),
         "stopped": stop_idle(master, node),
         "stored": store(master, node),

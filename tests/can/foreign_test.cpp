@@ -148,6 +148,15 @@ TEST_F(ForeignMaster, ACia402MasterStartsADriveByWhatItTellsByItself) {
   EXPECT_EQ(told.at("first"), 0x00020192) << "the first frame to a twin is answered";
   EXPECT_EQ(told.at("start_up"), json({0x40, 0x21, 0x23, 0x27}));
   EXPECT_EQ(told.at("again"), 0x27) << "from pre-operational, with torque";
+  EXPECT_EQ(told.at("modes"), 0xA1) << "1, 6 and 8";
+  const json& set_point = told.at("set_point");
+  EXPECT_EQ(set_point.at("taken").get<unsigned>() & 0x3000, 0x1000u) << "without following error";
+  EXPECT_NEAR(set_point.at("moved").get<int>(), 400, 45) << "the window, and the encoder's noise";
+  const json& home = told.at("home");
+  EXPECT_EQ(home.at("refused"), true);
+  EXPECT_EQ(home.at("before"), 0x0400) << "not started";
+  EXPECT_EQ(home.at("after"), 0x1400) << "attained";
+  EXPECT_NEAR(home.at("position").get<int>(), 0, 45);
   const json& silent = told.at("silent");
   EXPECT_EQ(silent.at("emergency").get<std::string>().substr(0, 6), "308111");
   EXPECT_EQ(silent.at("state"), "7f") << "pre-operational";

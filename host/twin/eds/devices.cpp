@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "common/protocol/canopen/robot_plan.hpp"
 #include "host/twin/can/device_node.hpp"
+#include "host/twin/can/profile_objects.hpp"
 #include "host/twin/eds/eds.hpp"
 #include "host/twin/eds/initials.hpp"
 
@@ -40,28 +42,52 @@ Value value_of(const cia402::ObjectRow& row) {
   return {.name = row.name,
           .type = integer(row.bytes, row.is_signed),
           .writable = row.access == cia402::ObjectAccess::kWrite,
-          .mappable = row.mapping != cia402::ObjectMapping::kNone};
+          .mappable = row.mapping != cia402::ObjectMapping::kNone,
+          .commissioned = can::is_commissioned(row.at)};
+}
+
+/// Rising index.
+std::vector<cia402::ObjectRow> profile_of_a_drive() {
+  std::vector<cia402::ObjectRow> rows(cia402::kDriveRows,
+                                      cia402::kDriveRows + cia402::kDriveRowCount);
+  const auto own = can::profile_rows();
+  rows.insert(rows.end(), own.begin(), own.end());
+  std::sort(rows.begin(), rows.end(), [](const cia402::ObjectRow& a, const cia402::ObjectRow& b) {
+    return std::pair(a.at.index, a.at.subindex) < std::pair(b.at.index, b.at.subindex);
+  });
+  return rows;
+}
+
+/// Of an object with members; null: it has none.
+const char* name_of(std::uint16_t index) {
+  switch (index) {
+    case cia402::object::kMinPosition.index:
+      return "Software position limit";
+    case cia402::object::kEncoderIncrements.index:
+      return "Position encoder resolution";
+    case can::profile_at::kSwitchSpeed.index:
+      return "Homing speeds";
+    case cia402::object::kPeriodValue.index:
+      return "Interpolation time period";
+    default:
+      return nullptr;
+  }
 }
 
 /// Rows with the same index form one object.
 void add_profile(std::vector<Object>& objects) {
-  for (std::size_t i = 0; i < cia402::kDriveRowCount; ++i) {
-    const cia402::ObjectRow& row = cia402::kDriveRows[i];
-    const bool member = cia402::highest_subindex(row.at.index) != 0;
-    if (member && objects.back().index == row.at.index) {
+  for (const cia402::ObjectRow& row : profile_of_a_drive()) {
+    const char* name = name_of(row.at.index);
+    if (name != nullptr && objects.back().index == row.at.index) {
       objects.back().values.push_back(value_of(row));
       continue;
     }
-    const bool limits = row.at.index == cia402::object::kMinPosition.index;
-    const bool encoder = row.at.index == cia402::object::kEncoderIncrements.index;
-    objects.push_back({.index = row.at.index,
-                       .name = !member   ? row.name
-                               : limits  ? "Software position limit"
-                               : encoder ? "Position encoder resolution"
-                                         : "Interpolation time period",
-                       .values = {value_of(row)},
-                       .has_members = member,
-                       .is_array = limits || encoder});
+    objects.push_back(
+        {.index = row.at.index,
+         .name = name != nullptr ? name : row.name,
+         .values = {value_of(row)},
+         .has_members = name != nullptr,
+         .is_array = name != nullptr && row.at.index != cia402::object::kPeriodValue.index});
   }
 }
 
