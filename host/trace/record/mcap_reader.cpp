@@ -89,15 +89,37 @@ class Source {
 
 class Reader::Parser {
  public:
-  explicit Parser(std::unique_ptr<std::istream> in) : in_(std::move(in)) {}
+  Parser(std::unique_ptr<std::istream> in, Damage damage)
+      : in_(std::move(in)), goes_on_(damage == Damage::kLeftOut) {}
 
   const File& file() const { return file_; }
   File take() && { return std::move(file_); }
   const File& run(const OnMessage& on_message) {
-    file_ = File();
+    // A damaged chunk may declare channels that only the summary repeats.
+    if (goes_on_ && !declared_) pass({});
+    declared_ = goes_on_;
+    return pass(on_message);
+  }
+  void run_part(std::uint64_t part, const OnMessage& on_message) {
+    on_message_ = &on_message;
+    const std::uint64_t messages = file_.messages;
+    std::optional<Flaw> flaw = std::exchange(file_.flaw, std::nullopt);
+    std::optional<Flaw> end = std::exchange(file_.end, std::nullopt);
+    in_.seek(part);
+    top_level_record();
+    file_.messages = messages;
+    // A truncated chunk is one again.
+    if (!file_.flaw || flaw) file_.flaw = std::move(flaw);
+    if (!file_.end || end) file_.end = std::move(end);
+  }
+
+ private:
+  const File& pass(const OnMessage& on_message) {
+    const File before = std::exchange(file_, File());
     kept_bytes_ = 0;
+    if (declared_) keep_declarations(before);
     crc_ = 0;
-    footer_seen_ = false;
+    data_ended_ = footer_seen_ = false;
     on_message_ = &on_message;
     std::string magic;
     in_.seek(in_.size() - std::min<std::uint64_t>(in_.size(), kMagic.size()));
@@ -111,24 +133,33 @@ class Reader::Parser {
       fail(0, cut ? "the file ends inside its first 8 bytes" : "not an MCAP file (wrong magic)",
            cut);
     }
-    while (!file_.flaw && !footer_seen_) top_level_record();
-    if (!file_.flaw) check_ending();
+    while (!file_.end && !footer_seen_) top_level_record();
+    if (!file_.end) check_ending();
     return file_;
   }
-  void run_part(std::uint64_t part, const OnMessage& on_message) {
-    on_message_ = &on_message;
-    const std::uint64_t messages = file_.messages;
-    std::optional<Flaw> flaw = std::exchange(file_.flaw, std::nullopt);
-    in_.seek(part);
-    top_level_record();
-    file_.messages = messages;
-    // A truncated chunk is one again.
-    if (!file_.flaw || flaw) file_.flaw = std::move(flaw);
-  }
 
- private:
+  /// Nothing is read after it.
   void fail(std::uint64_t offset, std::string what, bool truncated = false) {
-    if (!file_.flaw) file_.flaw = Flaw{offset, std::move(what), truncated, false};
+    if (file_.end) return;
+    file_.end = Flaw{offset, std::move(what), truncated, false};
+    if (!file_.flaw) file_.flaw = file_.end;
+  }
+  /// A record whose content is damaged; reading goes on behind it if its length can be believed.
+  void leave_out(std::uint64_t offset, const std::string& what) {
+    if (!goes_on_ || !begins_record(in_.at())) return fail(offset, what);
+    if (!file_.flaw) file_.flaw = Flaw{offset, what, false, false};
+    ++file_.left_out.records;
+    file_.left_out.bytes += in_.at() - offset;
+  }
+  bool begins_record(std::uint64_t at) {
+    std::string head;
+    in_.take(kRecordHead, head);
+    in_.seek(at);
+    Cursor in(head);
+    const auto opcode = static_cast<Opcode>(in.number<std::uint8_t>());
+    const std::uint64_t length = in.u64();
+    return in.good() && opcode >= Opcode::kChunk && opcode <= Opcode::kDataEnd &&
+           length <= in_.size() - at - kRecordHead;
   }
   void overrun(std::uint64_t offset) {
     fail(offset, "edited or damaged: a record's fields overrun it");
@@ -144,6 +175,13 @@ class Reader::Parser {
   /// A copy that lives as long as the File; empty: too much.
   std::string_view keep(std::string_view text, std::uint64_t offset) {
     return may_keep(text.size(), offset) ? std::string_view(file_.texts.emplace_back(text)) : "";
+  }
+
+  void keep_declarations(const File& of) {
+    for (const auto& [id, each] : of.schemas)
+      file_.schemas[id] = {keep(each.name, 0), keep(each.encoding, 0), keep(each.data, 0)};
+    for (const auto& [id, each] : of.channels)
+      file_.channels[id] = {each.schema, keep(each.topic, 0), keep(each.encoding, 0)};
   }
 
   void top_level_record() {
@@ -165,12 +203,16 @@ class Reader::Parser {
     }
     if (ended_) return fail(start, "a record is longer than the file");
     if (head.good() && opcode == Opcode::kChunk) {
+      const std::optional<Flaw> before = file_.flaw;
       in_.take(kMostRecord, content_);
       truncated_chunk(content_, start);
-      file_.flaw.reset();
+      file_.flaw = before;
+      file_.end.reset();
     }
+    const bool first = !file_.flaw;
     fail(start, "the file ends inside a record", true);
-    file_.flaw->in_chunk = opcode == Opcode::kChunk;
+    file_.end->in_chunk = opcode == Opcode::kChunk;
+    if (first) file_.flaw = file_.end;
   }
 
   void record(Opcode opcode, std::string_view content, std::uint64_t start) {
@@ -195,13 +237,7 @@ class Reader::Parser {
         break;
       }
       case Opcode::kDataEnd:
-        if (in.u32() != crc_) {
-          return fail(start,
-                      "edited or damaged: the CRC of all bytes before this one does not match");
-        }
-        file_.data_whole = true;
-        crc_ = 0;
-        summary_start_ = in_.at();
+        data_ended(in.u32(), start);
         break;
       case Opcode::kFooter:
         return footer(in, content, start);
@@ -210,6 +246,17 @@ class Reader::Parser {
         return;  // indexes and statistics repeat the data section; CRCs cover them
     }
     if (!in.good() || !in.at_end()) overrun(start);
+  }
+
+  void data_ended(std::uint32_t crc, std::uint64_t start) {
+    const bool gap = file_.left_out.records > 0;
+    if (crc != crc_ && !gap) {
+      return fail(start, "edited or damaged: the CRC of all bytes before this one does not match");
+    }
+    file_.data_whole = !gap;
+    data_ended_ = true;
+    crc_ = 0;
+    summary_start_ = in_.at();
   }
 
   void inner_record(Opcode opcode, std::string_view content, std::uint64_t start,
@@ -245,6 +292,10 @@ class Reader::Parser {
     message.data = in.take(content.size() - in.at());
     if (!in.good()) return;
     if (!file_.channels.contains(message.channel)) {
+      if (file_.left_out.records > 0) {
+        ++file_.left_out.messages;
+        return;
+      }
       return fail(message.offset, "a message of channel " + std::to_string(message.channel) +
                                       ", which nothing declares");
     }
@@ -260,7 +311,7 @@ class Reader::Parser {
     if (found == all.end()) {
       // The same fields of a copy.
       Cursor in(keep(content, start));
-      if (file_.flaw) return;
+      if (file_.end) return;
       in.u16();
       all[id] = read<Declared>(in);
     } else if (!(found->second == declared)) {
@@ -283,27 +334,27 @@ class Reader::Parser {
     const std::string_view compression = in.text();
     std::string_view records = in.take(in.u64());
     if (!in.good() || !in.at_end()) {
-      return fail(start, "edited or damaged: a chunk's fields overrun it");
+      return leave_out(start, "edited or damaged: a chunk's fields overrun it");
     }
     if (!compression.empty() && compression != kZstdName) {
-      return fail(start, "a chunk is compressed by " + std::string(compression) +
-                             ", and zstd alone is known here");
+      return leave_out(start, "a chunk is compressed by " + std::string(compression) +
+                                  ", and zstd alone is known here");
     }
-    if (size > kMostRecord) return fail(start, too_much("a chunk takes", size));
+    if (size > kMostRecord) return leave_out(start, too_much("a chunk takes", size));
     if (!compression.empty()) {
       auto unpacked = mcap::unpacked(compression, records, size);
       if (!unpacked) {
-        return fail(start, "edited or damaged: a compressed chunk is not the " +
-                               std::to_string(size) + " bytes that it says");
+        return leave_out(start, "edited or damaged: a compressed chunk is not the " +
+                                    std::to_string(size) + " bytes that it says");
       }
       unpacked_ = std::move(*unpacked);
       records = unpacked_;
     }
     if (size != records.size() || crc != crc32(records)) {
-      return fail(start, "edited or damaged: a chunk's CRC does not match");
+      return leave_out(start, "edited or damaged: a chunk's CRC does not match");
     }
     Cursor inner(records);
-    while (!inner.at_end() && !file_.flaw) {
+    while (!inner.at_end() && !file_.end) {
       const std::uint64_t offset =
           compression.empty() ? in_.at() - records.size() + inner.at() : start;
       const auto opcode = static_cast<Opcode>(inner.number<std::uint8_t>());
@@ -320,7 +371,7 @@ class Reader::Parser {
     in.take(8 + 8 + 8 + 4);
     if (!in.text().empty()) return;
     in.u64();
-    while (in.good() && !in.at_end() && !file_.flaw) {
+    while (in.good() && !in.at_end() && !file_.end) {
       const std::uint64_t offset = start + kRecordHead + in.at();
       const auto opcode = static_cast<Opcode>(in.number<std::uint8_t>());
       const std::string_view content = in.take(in.u64());
@@ -340,7 +391,7 @@ class Reader::Parser {
     const std::uint64_t covered = in.at();
     const std::uint32_t crc = in.u32();
     if (!in.good() || !in.at_end() || crc != crc32(content.substr(0, covered))) {
-      return fail(start, "edited or damaged: an attachment's CRC does not match");
+      return leave_out(start, "edited or damaged: an attachment's CRC does not match");
     }
     found.media_type = keep(found.media_type, start);
     found.data = keep(found.data, start);
@@ -351,7 +402,7 @@ class Reader::Parser {
     const std::uint64_t summary_start = in.u64();
     in.u64();
     const std::uint32_t crc = in.u32();
-    if (!in.good() || !in.at_end() || !file_.data_whole || summary_start != summary_start_) {
+    if (!in.good() || !in.at_end() || !data_ended_ || summary_start != summary_start_) {
       return fail(start, "edited or damaged: the footer does not point at the summary");
     }
     if (crc != crc32(content.substr(0, content.size() - 4), crc32(head_, crc_))) {
@@ -380,10 +431,13 @@ class Reader::Parser {
   std::string head_, content_, unpacked_;
   std::uint64_t kept_bytes_ = 0, summary_start_ = 0;
   std::uint32_t crc_ = 0;  ///< of the data section, then of the summary
-  bool ended_ = false, footer_seen_ = false;
+  bool ended_ = false, data_ended_ = false, footer_seen_ = false;
+  const bool goes_on_;     ///< behind damaged chunks
+  bool declared_ = false;  ///< the File has all declarations of an earlier pass
 };
 
-Reader::Reader(std::unique_ptr<std::istream> in) : parser_(new Parser(std::move(in))) {}
+Reader::Reader(std::unique_ptr<std::istream> in, Damage damage)
+    : parser_(new Parser(std::move(in), damage)) {}
 Reader::~Reader() = default;
 Reader::Reader(Reader&&) noexcept = default;
 

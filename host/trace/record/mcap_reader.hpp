@@ -35,6 +35,15 @@ struct Flaw {
   bool in_chunk = false;   ///< the end of a chunk is missing
 };
 
+/// What a reader that goes on after damage left out.
+struct LeftOut {
+  std::uint64_t records = 0;   ///< chunks and attachments
+  std::uint64_t bytes = 0;     ///< of them in the file
+  std::uint64_t messages = 0;  ///< of channels that no whole record declares
+};
+/// What a reader does at a chunk or attachment whose content is damaged.
+enum class Damage : std::uint8_t { kEnds, kLeftOut };
+
 /// All but the messages before the first flaw. Views are into `texts`.
 struct File {
   File() = default;
@@ -47,8 +56,10 @@ struct File {
   std::map<std::string, StringMap> metadata;
   std::map<std::string, Attachment> attachments;
   std::uint64_t messages = 0;
-  bool data_whole = false;  ///< no message is missing
-  std::optional<Flaw> flaw;
+  bool data_whole = false;   ///< no message is missing
+  std::optional<Flaw> flaw;  ///< the first one
+  LeftOut left_out;
+  std::optional<Flaw> end;  ///< where reading ended early
   std::deque<std::string> texts;
 
   const Channel* find_channel(std::string_view topic, std::uint16_t& id) const;
@@ -62,8 +73,8 @@ using OnMessage = std::function<void(const File& so_far, const Message& message)
 /// one chunk, of at most kMostRecord bytes each, and File's texts, of as many.
 class Reader {
  public:
-  /// Seekable.
-  explicit Reader(std::unique_ptr<std::istream> in);
+  /// Seekable. With Damage::kLeftOut messages behind damaged chunks are given, too.
+  explicit Reader(std::unique_ptr<std::istream> in, Damage damage = Damage::kEnds);
   ~Reader();
   Reader(Reader&&) noexcept;
 

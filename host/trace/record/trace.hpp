@@ -84,6 +84,7 @@ struct Trace {
 enum class Read {
   kStrict,   ///< any flaw is an error
   kRecover,  ///< all before the flaw, with a warning
+  kSalvage,  ///< also what stands behind damaged chunks: ticks are missing in between
 };
 
 /// Throws TraceError if missing, truncated, edited, foreign or of another layout.

@@ -9,7 +9,8 @@
 namespace verp::record {
 
 /// Throws TraceError for a missing file, a folder, a device.
-mcap::Reader open_mcap(const std::filesystem::path& file);
+mcap::Reader open_mcap(const std::filesystem::path& file,
+                       mcap::Damage damage = mcap::Damage::kEnds);
 
 void refuse_flaw(const std::filesystem::path& path, const mcap::File& file);
 

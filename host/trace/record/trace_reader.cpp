@@ -209,9 +209,20 @@ std::string lost_text(const mcap::File& file, std::size_t ticks) {
   return text + (file.flaw->in_chunk ? ", later ones are lost" : ", later ones, if any, are lost");
 }
 
+std::string left_out_text(const mcap::File& file, std::size_t ticks) {
+  const mcap::LeftOut& gap = file.left_out;
+  std::string text = fmt::format("left out: {} damaged record{} of {} bytes", gap.records,
+                                 gap.records == 1 ? "" : "s", gap.bytes);
+  if (gap.messages > 0)
+    text += fmt::format(", and {} messages of channels that only they declare", gap.messages);
+  text += fmt::format("; {} ticks are whole", ticks);
+  if (!file.end) return text;
+  return text + fmt::format("; ends at byte {}: {}", file.end->offset, file.end->what);
+}
+
 }  // namespace
 
-mcap::Reader open_mcap(const fs::path& file) {
+mcap::Reader open_mcap(const fs::path& file, mcap::Damage damage) {
   std::error_code error;
   if (fs::is_directory(file, error))
     throw TraceError(file, "is a folder", "name the .mcap file in it");
@@ -222,7 +233,7 @@ mcap::Reader open_mcap(const fs::path& file) {
     throw TraceError(file, "no such file, or it cannot be opened",
                      "check the path; `verp walk --record F.mcap` writes a trace");
   }
-  return mcap::Reader(std::move(in));
+  return mcap::Reader(std::move(in), damage);
 }
 
 void refuse_no_trace(const fs::path& path, const mcap::File& file) {
@@ -251,7 +262,9 @@ std::string core_of(const Trace& trace) {
   return "";
 }
 
-TraceFile::TraceFile(const fs::path& path, Read mode) : reader_(open_mcap(path)) {
+TraceFile::TraceFile(const fs::path& path, Read mode)
+    : reader_(
+          open_mcap(path, mode == Read::kSalvage ? mcap::Damage::kLeftOut : mcap::Damage::kEnds)) {
   const mcap::File& file =
       reader_.read([&](const mcap::File& so_far, const mcap::Message& message) {
         ticks_ += so_far.channels.at(message.channel).topic == kTickTopic ? 1 : 0;
@@ -266,8 +279,10 @@ TraceFile::TraceFile(const fs::path& path, Read mode) : reader_(open_mcap(path))
   }
   head_ = Head(path, file).load();
   if (file.flaw) {
-    head_.warning = fmt::format("{}: byte {}: {}; {}", path.string(), file.flaw->offset,
-                                file.flaw->what, lost_text(file, ticks_));
+    const bool gap = file.left_out.records > 0;
+    head_.warning =
+        fmt::format("{}: byte {}: {}; {}", path.string(), file.flaw->offset, file.flaw->what,
+                    gap ? left_out_text(file, ticks_) : lost_text(file, ticks_));
   }
 }
 

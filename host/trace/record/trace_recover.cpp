@@ -35,6 +35,7 @@ void copy(TraceFile& trace, mcap::Writer& to) {
     if (to.open_bytes() >= kChunkBytes) to.flush();
   });
   mcap::StringMap result{{"recovered_from", trace.head().file.string()}};
+  if (!trace.head().warning.empty()) result["recovered_damage"] = trace.head().warning;
   for (const auto& [name, entries] : trace.file().metadata) {
     if (name == "result") result.insert(entries.begin(), entries.end());
   }
@@ -46,7 +47,7 @@ void copy(TraceFile& trace, mcap::Writer& to) {
 
 Recovered recover_trace(const std::filesystem::path& file, const std::filesystem::path& output,
                         mcap::Compression compression) {
-  TraceFile trace(file, Read::kRecover);
+  TraceFile trace(file, Read::kSalvage);
   mcap::Writer writer(output, trace.file().profile, "verp", compression);
   try {
     copy(trace, writer);
@@ -57,6 +58,7 @@ Recovered recover_trace(const std::filesystem::path& file, const std::filesystem
   return {.ticks = trace.ticks(),
           .messages = trace.file().messages,
           .channels = trace.file().channels.size(),
+          .left_out = trace.file().left_out,
           .warning = trace.head().warning};
 }
 

@@ -155,7 +155,7 @@ cli::Subcommand add_trace(CLI::App& root) {
   }
   cli::add_json_flag(*show, words->json);
   CLI::App* mend =
-      add("recover", "write what stands before a truncation or damage as a whole trace");
+      add("recover", "write every whole message of a cut or damaged trace as a whole trace");
   mend->add_option("-o,--output", words->output, "file")->required();
   CLI::App* join = app->add_subcommand("merge", "several robots' traces as one file for viewers");
   join->add_option("TRACES", words->files,
