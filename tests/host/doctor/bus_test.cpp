@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
-#include <deque>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -13,66 +12,29 @@
 #include <thread>
 #include <vector>
 
-#include "common/protocol/canopen/sync.hpp"
+#include "common/protocol/feetech.hpp"
+#include "common/protocol/feetech_table.hpp"
 #include "host/apps/tool/robot/doctor_bus.hpp"
 #include "host/os/link/link.hpp"
 #include "host/os/link/system_clock.hpp"
-#include "host/robot/model/find.hpp"
-#include "host/robot/model/load.hpp"
-#include "host/robot/model/params.hpp"
 #include "host/twin/bus/realtime_server.hpp"
 #include "host/twin/bus/servo_device.hpp"
-#include "host/twin/can/virtual_can.hpp"
 #include "tests/host/bus/fake_plant.hpp"
+#include "tests/host/doctor/bus_case.hpp"
 
 namespace verp::tool {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// One finding of that state has both texts.
-void expect_finding(const Findings& found, const std::string& state, const std::string& text,
-                    const std::string& fix) {
-  const cli::Json json = found.json();
-  for (const cli::Json& each : json.at("checks")) {
-    if (each.at("state") == state &&
-        each.at("text").get<std::string>().find(text) != std::string::npos &&
-        each.at("fix").get<std::string>().find(fix) != std::string::npos) {
-      return;
-    }
-  }
-  ADD_FAILURE() << "no " << state << " with '" << text << "' and '" << fix << "':\n"
-                << found.text();
-}
-
-void expect_one_bad(const Findings& found) {
-  const cli::Json json = found.json();
-  const auto& all = json.at("checks");
-  EXPECT_EQ(std::count_if(all.begin(), all.end(),
-                          [](const auto& each) { return each.at("state") == "bad"; }),
-            1)
-      << found.text();
-}
-
-BusCase generic21(const std::string& link, bool can = false) {
-  BusCase made{.link = link,
-               .endpoint = link::parse_endpoint(link),
-               .timeout_us = 250'000,
-               .model = "generic21"};
-  const std::string file = model::find_model("generic21");
-  made.robot = can ? model::load_robot_on_can(file, "") : model::load_robot(file);
-  made.params = model::make_params(*made.robot);
-  return made;
-}
-
 /// generic21's servos on a socket, or on a pseudo-terminal whose baud rate they must match.
 class BusDoctor : public ::testing::Test {
  protected:
-  BusDoctor() {
+  explicit BusDoctor(const std::string& bus = "") : robot_(generic21("unix:/nowhere", bus)) {
     for (auto& each : plant_.measured)
       each = {.position_count = 2048, .temperature_c = 30, .voltage_v = 12};
     bus_.set_real_time(true);
-    for (int j = 0; j < robot_.params->servo_count(); ++j) {
+    for (int j = 0; bus.empty() && j < robot_.params->servo_count(); ++j) {
       set(robot_.params->joint[j].servo_id, dxl::address::kReturnDelay, 0);
     }
   }
@@ -125,7 +87,15 @@ class BusDoctor : public ::testing::Test {
     if (!answer_.empty()) link_->write(answer_.data(), answer_.size(), 100'000);
   }
 
-  BusCase robot_ = generic21("unix:/nowhere");
+  /// Without MODEL; the PC asks each id.
+  void forget_robot() {
+    robot_.robot.reset();
+    robot_.params.reset();
+    robot_.model.clear();
+    robot_.timeout_us = 25'000;
+  }
+
+  BusCase robot_;
   verp::test::FakePlant plant_;
   bus::VirtualBus bus_{*robot_.params, plant_};
   bus::RealtimeServer server_{bus_};
@@ -269,6 +239,63 @@ TEST_F(BusDoctor, TwoServosWithOneIdAreNamed) {
   expect_one_bad(found);
 }
 
+TEST_F(BusDoctor, WithoutARobotTwoServosWithOneIdAreNamedToo) {
+  add_twin_of(14);
+  forget_robot();
+  const Findings found = examined();
+  expect_finding(found, "bad", "two servos have id 14", "connect each alone");
+  expect_one_bad(found);
+}
+
+TEST_F(BusDoctor, WithoutARobotTwoServosAloneOnTheBusAreNamed) {
+  for (const int each : devices_of(robot_)) {
+    if (each != 14) unplug({each});
+  }
+  add_twin_of(14);
+  forget_robot();
+  expect_finding(examined(), "bad", "two servos have id 14", "connect each alone");
+}
+
+class FeetechDoctor : public BusDoctor {
+ protected:
+  FeetechDoctor() : BusDoctor("feetech") {}
+  /// As a new servo has the id of another one until it is set up.
+  void give_id(std::uint8_t from, std::uint8_t to) {
+    std::uint8_t frame[16];
+    bus_.send(frame,
+              feetech::encode_write(frame, sizeof frame, from, feetech::address::kId, &to, 1));
+    bus_.let_pass(bus_.now_us() + 5000);
+  }
+};
+
+TEST_F(FeetechDoctor, AHealthyBusGivesNoComplaint) {
+  const Findings found = examined();
+  expect_finding(found, "good", "24 answer", "");
+}
+
+TEST_F(FeetechDoctor, TwoServosWithOneIdAreNamed) {
+  give_id(16, 14);
+  const Findings found = examined();
+  expect_finding(found, "bad", "two servos have id 14",
+                 "connect each alone and give it its id: verp bus setup generic21");
+  expect_finding(found, "bad", "(id 16) does not answer", "verp bus setup generic21");
+}
+
+TEST_F(FeetechDoctor, WithoutARobotTwoServosWithOneIdAreNamedToo) {
+  give_id(16, 14);
+  forget_robot();
+  const Findings found = examined();
+  expect_finding(found, "bad", "two servos have id 14", "connect each alone");
+  expect_one_bad(found);
+}
+
+TEST_F(FeetechDoctor, AServoThatIsSilentIsNoSharedId) {
+  unplug({14});
+  const Findings found = examined();
+  expect_finding(found, "bad", "l_knee (id 14) does not answer", "verp bus setup generic21");
+  expect_one_bad(found);
+}
+
 TEST_F(BusDoctor, ACableIsNamedWhereALimbFallsSilent) {
   unplug({14, 16, 18});
   const Findings found = examined();
@@ -332,108 +359,6 @@ TEST_F(BusDoctor, WithoutARobotTheFixIsARegister) {
   robot_.model.clear();
   set(14, dxl::address::kReturnDelay, 250);
   expect_finding(examined(), "advice", "not 0", " --id 14 --register return_delay_time 0");
-}
-
-/// The twin's nodes in simulated time. `first`: what others send before we ask.
-class Nodes final : public can::ClientBus {
- public:
-  explicit Nodes(const Params& params) : bus_(params, plant_) { bus_.set_real_time(true); }
-  bool send(const CanFrame& frame) override {
-    ++sent;
-    const int command = frame.data[0] >> 5;  // CiA 301: 2, 3 an upload, 4 an abort
-    EXPECT_TRUE(frame.id > 0x600 && command >= 2 && command <= 4) << "it only reads";
-    return bus_.send(frame);
-  }
-  bool poll(CanFrame& frame, std::uint32_t timeout_us) override {
-    if (first.empty()) return bus_.poll(frame, timeout_us);
-    frame = first.front();
-    first.pop_front();
-    return true;
-  }
-  std::uint64_t now_us() override { return bus_.now_us(); }
-  hal::CanErrors errors() const override { return {}; }
-  bool connected() const override { return true; }
-  void unplug(int id) { bus_.set_connected(static_cast<std::uint8_t>(id), false); }
-
-  std::deque<CanFrame> first;
-  int sent = 0;
-
- private:
-  verp::test::FakePlant plant_;
-  can::VirtualCan bus_;
-};
-
-class CanDoctor : public ::testing::Test {
- protected:
-  Findings examined() {
-    Findings found;
-    can::Client client(nodes_, robot_.link, robot_.timeout_us);
-    examine_nodes(nodes_, client, robot_, found);
-    return found;
-  }
-  void send_syncs(std::initializer_list<std::uint8_t> counters) {
-    for (const std::uint8_t each : counters) nodes_.first.push_back(canopen::sync_frame(each));
-  }
-  BusCase robot_ = generic21("can:can0", true);
-  Nodes nodes_{*robot_.params};
-};
-
-TEST_F(CanDoctor, AHealthyBusGivesNoComplaint) {
-  const Findings found = examined();
-  EXPECT_EQ(found.size(), 1u) << found.text();
-  expect_finding(found, "good", " answer", "");
-}
-
-TEST_F(CanDoctor, SilenceNamesPowerRateAndTermination) {
-  for (const int each : devices_of(robot_)) nodes_.unplug(each);
-  expect_finding(examined(), "bad", "no node answers", "120 ohm at both ends");
-}
-
-TEST_F(CanDoctor, AMissingNodeIsNamedWithItsCable) {
-  for (const int each : {14, 16, 18}) nodes_.unplug(each);
-  expect_finding(examined(), "bad", "l_knee (id 14) and all behind it",
-                 "check the cable between l_hip_pitch (id 12) and l_knee");
-}
-
-TEST_F(CanDoctor, AnotherProductIsNamed) {
-  robot_.params->servo[robot_.params->joint[0].servo_profile].model_number = 7;
-  expect_finding(examined(), "bad", "is no drive of product 7", "its type in the robot's file");
-}
-
-TEST_F(CanDoctor, AnotherMasterIsNamedAndNothingIsSent) {
-  send_syncs({1, 2, 3, 4, 5, 1, 2, 3});
-  expect_finding(examined(), "bad", "another master commands this bus (identifier 0x080)",
-                 "end it");
-  EXPECT_EQ(nodes_.sent, 0);
-}
-
-TEST_F(CanDoctor, TwoMastersAreNamed) {
-  send_syncs({1, 3, 2, 4, 3, 5});
-  expect_finding(examined(), "bad", "two masters send SYNC", "end one");
-}
-
-TEST_F(CanDoctor, AnInterfaceThatIsMissingDownOrTooFastIsNamed) {
-  Machine machine("/nowhere", {});
-  Findings found;
-  machine.interfaces = [] { return std::vector<link::CanInterface>{}; };
-  examine_can_bus(machine, robot_, found);
-  machine.interfaces = [] {
-    return std::vector<link::CanInterface>{{.name = "can0", .is_can = true}};
-  };
-  examine_can_bus(machine, robot_, found);
-  machine.interfaces = [] {
-    return std::vector<link::CanInterface>{{.name = "can0",
-                                            .is_can = true,
-                                            .up = true,
-                                            .bitrate = 250000,
-                                            .restart_ms = 100,
-                                            .send_errors = 128}};
-  };
-  examine_can_bus(machine, robot_, found);
-  expect_finding(found, "bad", "no such interface", "is the adapter plugged in?");
-  expect_finding(found, "bad", "the interface is down", "sudo ip link set can0 up");
-  expect_finding(found, "bad", "can0 runs at 250000 bit/s", "type can bitrate 1000000");
-  expect_finding(found, "bad", "128 errors of sending", "120 ohm");
 }
 
 }  // namespace

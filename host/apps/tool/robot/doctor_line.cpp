@@ -5,6 +5,8 @@
 
 #include "common/protocol/control_table.hpp"
 #include "common/protocol/dynamixel2.hpp"
+#include "common/protocol/feetech.hpp"
+#include "common/protocol/feetech_table.hpp"
 #include "host/os/link/system_clock.hpp"
 
 namespace verp::tool {
@@ -70,8 +72,11 @@ LineAnswer take_apart(const Bytes& sent, Bytes heard) {
   }
   answer.bytes = heard.size();
   dxl::Parser parser;
+  std::size_t sound = 0;
   for (const std::uint8_t byte : heard) {
     for (bool more = parser.push(byte); more; more = parser.next()) {
+      sound += parser.packet().size +
+               (parser.packet().is_status() ? dxl::kStatusBytes : dxl::kInstructionBytes);
       if (parser.packet().is_status()) {
         answer.ids.insert(parser.packet().id);
       } else {
@@ -79,6 +84,7 @@ LineAnswer take_apart(const Bytes& sent, Bytes heard) {
       }
     }
   }
+  answer.garbage = answer.bytes - std::min(answer.bytes, sound);
   answer.damaged = parser.crc_errors();
   answer.old_ids = old_answers(heard);
   return answer;
@@ -99,6 +105,13 @@ LineAnswer read_one(link::Link& link, int id, std::uint32_t time_us) {
   dxl::encode_read(frame.data(), frame.size(), static_cast<std::uint8_t>(id),
                    dxl::address::kPresentPosition, 4);
   return ask(link, frame, time_us);
+}
+
+LineAnswer read_one_feetech(link::Link& link, int id, std::uint32_t time_us) {
+  std::uint8_t frame[16];
+  const std::size_t size = feetech::encode_read(frame, sizeof frame, static_cast<std::uint8_t>(id),
+                                                feetech::address::kPresentPosition, 2);
+  return ask(link, {frame, frame + size}, time_us);
 }
 
 LineAnswer ping_all(link::Link& link) {

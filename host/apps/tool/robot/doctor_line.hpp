@@ -10,6 +10,7 @@ namespace verp::tool {
 /// The bytes that came over a link after a request, taken apart.
 struct LineAnswer {
   std::size_t bytes = 0;      ///< without the echo
+  std::size_t garbage = 0;    ///< of them in no sound packet of Protocol 2
   bool echo = false;          ///< our own bytes came back
   bool master = false;        ///< another master's request was heard
   std::set<int> ids;          ///< of sound answers in Protocol 2
@@ -27,6 +28,8 @@ LineAnswer ping_all(link::Link& link);
 /// Pings one id, or reads its position, and listens for `time_us`.
 LineAnswer ping_one(link::Link& link, int id, std::uint32_t time_us);
 LineAnswer read_one(link::Link& link, int id, std::uint32_t time_us);
+/// Reads the position of a Feetech servo; of what came, only `bytes` and `echo` count.
+LineAnswer read_one_feetech(link::Link& link, int id, std::uint32_t time_us);
 /// Sends the Ping of Protocol 1 to all ids, then to the first ones in turn.
 LineAnswer ping_all_old(link::Link& link);
 

@@ -81,6 +81,10 @@ class SerialDoctor {
   /// Feetech servos collide in a Ping to all, and their requests look like answers: each of the
   /// robot's is asked, without a robot each id.
   std::set<int> ask_each(bus::Client& client) const;
+  /// Bytes come when it is asked, sound or not.
+  bool speaks(link::Link& link, int id) const;
+  /// Without a robot: ids of which a Ping to all tells nothing, because two servos share one.
+  std::set<int> speaking(link::Link& link) const;
   void examine_servos(link::Link& link, std::set<int> ids);
   /// False: answers come damaged.
   bool examine_servo(link::Link& link, bus::Client& client, const bus::Identity& servo);
@@ -138,7 +142,8 @@ void SerialDoctor::examine() {
       found_.bad("echo", "the adapter returns the bytes that it sends",
                  "switch its receiver off while it sends (its jumper or switch), or use a U2D2");
     }
-    silent = !feetech() && heard_.ids.empty() && heard_.damaged == 0;
+    const bool nothing = bus_.robot ? heard_.damaged == 0 : heard_.bytes == 0;
+    silent = !feetech() && heard_.ids.empty() && nothing;
     if (!silent) examine_servos(link, heard_.ids);
   }
   std::set<int> present = troubles_.present;
@@ -160,18 +165,32 @@ std::set<int> SerialDoctor::ask_each(bus::Client& client) const {
     }
     return found;
   }
-  if (feetech()) cli::complain("verp bus doctor: asking each id; MODEL makes it short");
   for (const bus::Identity& each : client.scan()) found.insert(each.id);
   return found;
 }
 
+bool SerialDoctor::speaks(link::Link& link, int id) const {
+  const auto ask = feetech() ? read_one_feetech : ping_one;
+  return ask(link, id, bus_.timeout_us).bytes > 0;
+}
+
+std::set<int> SerialDoctor::speaking(link::Link& link) const {
+  std::set<int> ids;
+  if (!feetech() && heard_.garbage == 0) return ids;
+  cli::complain("verp bus doctor: asking each id; MODEL makes it short");
+  const int last = feetech() ? feetech::kMaxId : dxl::kMaxId;
+  for (int id = 0; id <= last; ++id) {
+    if (speaks(link, id)) ids.insert(id);
+  }
+  return ids;
+}
+
 void SerialDoctor::examine_servos(link::Link& link, std::set<int> ids) {
   bus::Client client(link, bus_.endpoint, bus_.timeout_us, bus_.protocol);
-  ids.merge(feetech() && !bus_.robot ? ask_each(client) : devices_of(bus_));
+  ids.merge(bus_.robot ? devices_of(bus_) : speaking(link));
   for (const int id : ids) {
     const auto servo = client.ping(static_cast<std::uint8_t>(id), 2);
-    const bool clear = servo ? examine_servo(link, client, *servo)
-                             : feetech() || ping_one(link, id, bus_.timeout_us).bytes == 0;
+    const bool clear = servo ? examine_servo(link, client, *servo) : !speaks(link, id);
     if (servo || !clear) troubles_.present.insert(id);
     if (!clear) troubles_.damaged.insert(id);
   }
@@ -193,7 +212,8 @@ bool SerialDoctor::examine_servo(link::Link& link, bus::Client& client,
     if (client.read_once(servo.id, words_.position, words_.position_bytes)) ++good;
   }
   if (client.crc_errors() != before) return false;
-  if (good == 0 && !feetech() && read_one(link, servo.id, bus_.timeout_us).bytes > 0) return false;
+  const auto read = feetech() ? read_one_feetech : read_one;
+  if (good == 0 && read(link, servo.id, bus_.timeout_us).bytes > 0) return false;
   if (good == 0) troubles_.quiet.insert(servo.id);  // it answers pings only
   try {
     if (good > 0) read_registers(client, servo, feetech() ? 0 : 0.1 * model->low_dv);
