@@ -1,3 +1,7 @@
+#include <algorithm>
+
+#include "host/author/import/import.hpp"
+#include "host/os/files/temporary_directory.hpp"
 #include "tests/host/edit/files.hpp"
 #include "tests/host/model/test_files.hpp"
 #include "tests/host/scene/meshes.hpp"
@@ -59,6 +63,29 @@ TEST(ThirdParty, Op3KeepsItsMaterialsAndTheMeshesThatAreThere) {
 TEST(ThirdParty, OfTheirFilesOnlyTheEditedLineChanges) {
   edit::expect_a_mass_changes_one_line(file_of(kOp3));
   edit::expect_a_mass_changes_one_line(file_of(kDarwin));
+}
+
+TEST(ThirdParty, RobotsImportFromTheirUntouchedFiles) {
+  struct Known {
+    const char *uri, *left_knee, *right_sole;
+  };
+  for (const Known& each :
+       {Known{"model://op3/op3.urdf", "l_knee", "127 by 80 mm under r_ank_roll_link"},
+        Known{"model://darwin_op/darwin_op_robot.urdf", "LKnee", "104 by 66 mm under MP_ANKLE2_R"},
+        Known{"model://toddlerbot/toddlerbot.urdf", "left_knee", "under ank_roll_link_2"}}) {
+    const std::string file = file_of(each.uri);
+    const files::TemporaryDirectory folder;
+    const import::Imported robot = import::import_robot({file, folder.path().string(), "", ""});
+    EXPECT_EQ(robot.refusal, "") << each.uri;
+    const auto says = [&](const std::string& what, const std::string& value) {
+      return std::any_of(robot.findings.begin(), robot.findings.end(), [&](const auto& finding) {
+        return finding.what == what && finding.value.find(value) != std::string::npos;
+      });
+    };
+    EXPECT_TRUE(says("left_leg", each.left_knee)) << each.uri;
+    EXPECT_TRUE(says("right sole", each.right_sole)) << each.uri;
+    EXPECT_TRUE(says("ahead", "(1, 0, 0)")) << each.uri;
+  }
 }
 
 }  // namespace
