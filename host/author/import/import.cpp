@@ -43,15 +43,6 @@ std::string plain(const std::string& name) {
   return out.empty() ? "robot" : out;
 }
 
-/// Of the file, from the folder. libsdformat looks below /usr/share before it asks us, and finds a
-/// path there that climbs to the root: such a path goes by the folder's own name.
-std::string uri_of(const std::string& file, const std::string& folder) {
-  const fs::path from = fs::weakly_canonical(folder);
-  const fs::path way = fs::relative(fs::weakly_canonical(file), from);
-  if (!way.native().starts_with("..")) return way.string();
-  return (fs::path("..") / from.filename() / way).string();
-}
-
 class Importer {
  public:
   explicit Importer(const Wish& wish)
@@ -61,7 +52,8 @@ class Importer {
     body_ = find_body(s_, robot_);
     shorten_legs();
     out_.name = w_.name = plain(wish_.name.empty() ? s_.name : wish_.name);
-    w_.uri = uri_of(wish_.file, wish_.folder);
+    w_.uri =
+        fs::relative(fs::weakly_canonical(wish_.file), fs::weakly_canonical(wish_.folder)).string();
     choose_servos();
     choose_type();
     mend_inertias();

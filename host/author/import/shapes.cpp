@@ -59,8 +59,8 @@ void add_seen(std::vector<Vec3>& points, const Visual& visual, const Transform& 
   }
   if (visual.mesh.empty()) return;
   try {
-    for (const Vec3& corner : model::read_mesh_to_touch(visual.mesh, visual.size_m)->vertex_m)
-      points.push_back(pose * corner);
+    const auto mesh = model::read_mesh_to_touch(visual.mesh, visual.size_m);
+    for (const Vec3& corner : mesh->vertex_m) points.push_back(pose * corner);
   } catch (const std::runtime_error&) {  // as if it were missing: the page says so
   }
 }

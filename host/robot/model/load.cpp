@@ -72,10 +72,8 @@ void where_no_file_is(const std::function<void()>& work) {
 
 /// libsdformat's strictest reading. Settings are global, because an <include> ignores those of
 /// Load().
-sdf::Errors read(const XmlSource& source, const Text& text, const PreparedUrdfs& urdfs,
-                 sdf::Root& root) {
+sdf::Errors read(const XmlSource& source, const PreparedUrdfs& urdfs, sdf::Root& root) {
   const std::string path = source.path();
-  const std::string whole = std::filesystem::absolute(path).string();
   sdf::ParserConfig& config = sdf::ParserConfig::GlobalConfig();
   config.SetFindCallback([&](const std::string& uri) {
     const std::string found = source.included(uri);
@@ -85,7 +83,7 @@ sdf::Errors read(const XmlSource& source, const Text& text, const PreparedUrdfs&
   config.SetDeprecatedElementsPolicy(sdf::EnforcementPolicy::ERR);
   config.SetWarningsPolicy(sdf::EnforcementPolicy::ERR);
   sdf::Errors errors;
-  where_no_file_is([&] { errors = text ? root.LoadSdfString(*text) : root.Load(whole); });
+  where_no_file_is([&] { errors = root.LoadSdfString(source.text_with_names()); });
   // The copies are deleted soon.
   config.SetFindCallback([path](const std::string& uri) { return resolve_model_uri(uri, path); });
   return errors;
@@ -188,7 +186,7 @@ Entity load(const std::string& path, const std::string& bus, bool whole, const T
     for (MimicFact& mimic : urdf_mimics(urdf, facts)) facts.mimics.push_back(std::move(mimic));
   }
   sdf::Root root;
-  const sdf::Errors errors = read(source, text, urdfs, root);
+  const sdf::Errors errors = read(source, urdfs, root);
   if (!errors.empty()) fail(source, urdfs, errors.front());
   if (!root.Model()) model.fail("libsdformat finds no model here", "put one <model> below <sdf>");
   cross_check(source, facts, urdfs, *root.Model());

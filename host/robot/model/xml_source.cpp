@@ -1,10 +1,13 @@
 #include "host/robot/model/xml_source.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <set>
 #include <sstream>
 #include <string_view>
@@ -71,6 +74,11 @@ void check_joint_type(const std::string& path, const tinyxml2::XMLElement& joint
   }
   throw LoadError(path, joint.GetLineNum(), "there is no joint type '" + std::string(type) + "'",
                   "write revolute, or fixed");
+}
+
+/// Lines must stay. libsdformat looks for other paths in places that we do not choose.
+std::string name_of_include(const std::string& uri) {
+  return fmt::format("verp-include-{:016x}", std::hash<std::string>{}(uri));
 }
 
 /// Called before the code visits each child.
@@ -195,6 +203,7 @@ Vec3 XmlElement::vector(const char* attribute) const {
 
 XmlSource::XmlSource(const std::string& path, const std::optional<std::string>& text) {
   read(path, text);
+  text_ = text ? *text : files::read(path).value_or("");
 }
 
 void XmlSource::read(const std::string& path, const std::optional<std::string>& text) {
@@ -261,8 +270,24 @@ void XmlSource::include(const File& file, const tinyxml2::XMLElement& element) {
 }
 
 std::string XmlSource::included(const std::string& uri) const {
-  const auto found = included_.find(uri);
-  return found == included_.end() ? "" : found->second;
+  for (const auto& [each, file] : included_) {
+    if (each == uri || name_of_include(each) == uri) return file;
+  }
+  return "";
+}
+
+std::string XmlSource::text_with_names() const {
+  std::string text = text_;
+  for (std::size_t at = text.find("<uri>"); at != text.npos; at = text.find("<uri>", at + 1)) {
+    const std::size_t begin = at + 5, end = text.find("</uri>", begin);
+    if (end == text.npos) break;
+    tinyxml2::XMLDocument element;  // the text may be escaped
+    element.Parse(text.substr(at, end + 6 - at).c_str());
+    const char* const uri = element.RootElement() ? element.RootElement()->GetText() : nullptr;
+    if (uri != nullptr && included_.contains(uri))
+      text.replace(begin, end - begin, name_of_include(uri));
+  }
+  return text;
 }
 
 void XmlSource::inspect(const File& file, const tinyxml2::XMLElement& element) {

@@ -61,6 +61,9 @@ class XmlSource {
   XmlElement model() const;
   /// The file of an <include>, found from any working directory; empty: not found.
   std::string included(const std::string& uri) const;
+  /// The main file's text, or the given one. Each <uri> of an <include> has a name instead that no
+  /// file has, which included() knows.
+  std::string text_with_names() const;
   /// The <robot> elements of included URDF files.
   std::vector<XmlElement> urdfs() const;
 
@@ -87,6 +90,7 @@ class XmlSource {
   std::vector<std::string> open_;  ///< main file, then includes to the current one
   std::map<std::string, Place> names_;
   std::map<std::string, std::string> included_;  ///< by its <uri>
+  std::string text_;                             ///< of the main file
 };
 
 }  // namespace verp::model

@@ -170,21 +170,6 @@ TEST_F(ImportedFile, ForeignFileStaysAsItIs) {
   EXPECT_EQ(files::read(urdf_), Maker({}).urdf());
 }
 
-/// libsdformat looks below /usr/share first.
-TEST_F(ImportedFile, FolderMayBeAnywhere) {
-  const files::TemporaryDirectory other;
-  const fs::path out = other.path() / "in" / "out";
-  fs::create_directories(out);
-  std::ofstream(folder_.path() / "robot.urdf") << Maker({}).urdf();
-  const Imported robot =
-      import_robot({(folder_.path() / "robot.urdf").string(), out.string(), "", ""});
-  EXPECT_EQ(robot.refusal, "");
-  const auto uri = robot.sdf.find("<uri>") + 5;
-  const std::string way = robot.sdf.substr(uri, robot.sdf.find("</uri>") - uri);
-  EXPECT_TRUE(fs::exists(out / way));
-  EXPECT_FALSE(fs::exists("/usr/share/" + way)) << way;
-}
-
 TEST_F(ImportedFile, RobotMayLookAnyWayInItsFile) {
   for (const double yaw_rad : {1.5707963, -1.5707963, 3.1415927, 0.5}) {
     const Imported robot = import({.yaw_rad = yaw_rad});

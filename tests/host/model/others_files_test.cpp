@@ -397,6 +397,19 @@ Entity odd_robot_with(const std::string& part, const std::string& with) {
   return load_robot(file.path());
 }
 
+// libsdformat would read the unprepared file, and lose links without mass.
+TEST(OthersFiles, IncludeMayHaveAnyPath) {
+  const std::string folder = VERP_SOURCE_DIR "/tests/host/model/odd_robot/";
+  const std::string wrapper = read_text(folder + "robot.sdf");
+  std::string climbing = folder + "odd.urdf";
+  for (int i = 0; i < 12; ++i) climbing.insert(0, "/..");
+  for (const std::string& uri : {folder + "odd.urdf", climbing.substr(1)}) {
+    std::string text = wrapper;
+    const TemporaryFile file("robot.sdf", text.replace(text.find("odd.urdf"), 8, uri));
+    expect_same_robot(load_robot(file.path()), load_robot(folder + "robot.sdf"));
+  }
+}
+
 /// CAD exporters write zeros there.
 TEST(OthersFiles, AxisOfAFixedJointIsNotLookedAt) {
   const std::string parent = "<parent link=\"base_link\"/>";
