@@ -262,6 +262,19 @@ std::string core_of(const Trace& trace) {
   return "";
 }
 
+/// Robot and ticks are whole, whatever else is damaged.
+bool is_useful(const mcap::File& file) {
+  std::uint16_t id = 0;
+  return file.attachments.contains(kParamsAttachment) &&
+         file.find_channel(kTickTopic, id) != nullptr;
+}
+
+/// `verp trace recover` goes on behind a damaged chunk.
+bool has_use_behind_damage(const fs::path& path) {
+  mcap::Reader reader = open_mcap(path, mcap::Damage::kLeftOut);
+  return is_useful(reader.read([](const mcap::File&, const mcap::Message&) {}));
+}
+
 TraceFile::TraceFile(const fs::path& path, Read mode)
     : reader_(
           open_mcap(path, mode == Read::kSalvage ? mcap::Damage::kLeftOut : mcap::Damage::kEnds)) {
@@ -269,13 +282,14 @@ TraceFile::TraceFile(const fs::path& path, Read mode)
       reader_.read([&](const mcap::File& so_far, const mcap::Message& message) {
         ticks_ += so_far.channels.at(message.channel).topic == kTickTopic ? 1 : 0;
       });
-  std::uint16_t id = 0;
-  const bool salvage = !file.attachments.empty() && file.find_channel(kTickTopic, id) != nullptr;
+  const bool salvage = is_useful(file);
   if (file.flaw && (mode == Read::kStrict || !salvage)) {
+    const bool behind = !salvage && mode == Read::kStrict && has_use_behind_damage(path);
     throw TraceError(path, file.flaw->offset,
                      file.flaw->what + (salvage ? " (" + lost_text(file, ticks_) + ")" : ""),
-                     salvage ? "`verp trace recover` keeps those, or take an intact copy"
-                             : "take an intact copy or record the run again");
+                     salvage  ? "`verp trace recover` keeps those, or take an intact copy"
+                     : behind ? "`verp trace recover` keeps what is whole, or take an intact copy"
+                              : "take an intact copy or record the run again");
   }
   head_ = Head(path, file).load();
   if (file.flaw) {
