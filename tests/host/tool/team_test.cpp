@@ -1,6 +1,7 @@
 #include <signal.h>
 
 #include <chrono>
+#include <exception>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -24,6 +25,18 @@ class Team : public Program {
   void wait_for(const std::string& link) const {
     for (int i = 0; i < 1500 && !fs::exists(folder_ / link); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  /// The file is there a moment before the world listens.
+  static link::Link connect_to(const fs::path& socket) {
+    const link::Endpoint end = link::parse_endpoint("unix:" + socket.string());
+    for (int i = 0; i < 100; ++i) {
+      try {
+        return link::Link(end);
+      } catch (const std::exception&) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      }
+    }
+    return link::Link(end);
   }
   process::Child controller_now(const std::string& link,
                                 const std::vector<std::string>& more = {}) const {
@@ -198,7 +211,7 @@ TEST_F(Team, WhoSaysAnythingButAGreetingIsTold) {
        .output = {.file = folder_ / "world.err"},
        .folder = folder_});
   wait_for("a.sock");
-  link::Link client(link::parse_endpoint("unix:" + (folder_ / "a.sock").string()));
+  link::Link client = connect_to(folder_ / "a.sock");
   const std::string words = "GET / HTTP/1.1\r\n\r\n";
   client.write(reinterpret_cast<const std::uint8_t*>(words.data()), words.size(), 100'000);
   const auto said = [&] { return slurp(folder_ / "world.err"); };
