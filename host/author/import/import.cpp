@@ -24,13 +24,14 @@ using Sureness = Finding::Sureness;
 constexpr std::size_t kLegJointCount = 6;
 constexpr double kMostServo_rad = 3.14;  // a single turn, with room for the encoder's last counts
 constexpr double kGravity_m_s2 = 9.80665;
-// On one leg, hip at 0.81 of the leg, the knee's arm is 0.295 of the leg (stance.cpp). A walk needs
-// twice what standing does.
-// Of the whole robot: a link's radius of gyration, at most and usually. Of a sole: how far its
-// middle is ahead of the ankle, where that tells.
-constexpr double kMostGyration = 0.3, kUsualGyration = 0.05, kLeastReach = 0.05;
-constexpr double kLinkShare = 0.01;  // of the robot's mass, for a link without
-constexpr double kKneeArm = 0.295, kTorqueReserve = 2;
+// The knee's arm on one leg with the hip at 0.81 of the leg, over the leg's length (stance.cpp).
+constexpr double kKneeArm = 0.295;
+constexpr double kTorqueReserve = 2;  // walking over standing
+// Shares of the robot's size: a link's radius of gyration.
+constexpr double kMostGyration = 0.3, kUsualGyration = 0.05;
+// Share of the sole's length: its middle ahead of the ankle shows the direction.
+constexpr double kLeastReach = 0.05;
+constexpr double kLinkShare = 0.01;  // of the robot's mass: a link whose mass the file lacks
 
 /// Small letters, digits and _, as robots are named.
 std::string plain(const std::string& name) {
@@ -106,8 +107,8 @@ class Importer {
            std::find(followers_.begin(), followers_.end(), index) != followers_.end();
   }
 
-  /// Legs first, then arms and head, as many as the controller has room for. What follows a joint
-  /// that stays needs no servo.
+  /// Legs first, then arms and head, as many as the controller has room for. A joint that follows
+  /// another one needs no servo.
   void choose_servos() {
     std::vector<int> wanted;
     for (const auto* limbs : {&body_.legs, &body_.others}) {
@@ -208,16 +209,24 @@ class Importer {
       w_.servo_type = type.name;
     }
     if (w_.servo_type.empty()) {
-      w_.servo_type = "motor";
-      w_.own_type = fmt::format(
-          "<verp:servo_type name=\"motor\" like=\"xm540_w270\" stall_torque_n_m=\"{:.3g}\" "
-          "no_load_rev_min=\"60\"/>",
-          std::ceil(needed_n_m));
+      make_motor(std::ceil(needed_n_m));
+      return;
     }
     found(Sureness::kGuessed, "servos",
-          fmt::format("{}, the weakest known with {:.2g} N m, twice what a knee has to hold",
+          fmt::format("{}, the weakest known with {:.3g} N m, twice what a knee has to hold",
                       w_.servo_type, needed_n_m),
           "give the robot's own with --servos TYPE");
+  }
+
+  void make_motor(double torque_n_m) {
+    w_.servo_type = "motor";
+    w_.own_type = fmt::format(
+        "<verp:servo_type name=\"motor\" like=\"xm540_w270\" stall_torque_n_m=\"{:.3g}\" "
+        "no_load_rev_min=\"60\"/>",
+        torque_n_m);
+    found(Sureness::kGuessed, "servos",
+          fmt::format("a motor of {:.3g} N m, because no known servo holds this robot", torque_n_m),
+          "write the motor's own numbers into <verp:servo_type>");
   }
 
   Vec3 middle_of(const std::vector<const FoundLimb*>& limbs) const {
@@ -312,7 +321,7 @@ class Importer {
         "link {}: no body has its moments of inertia; those of a ball are taken", part.name));
   }
 
-  /// What a joint moves has a mass.
+  /// A joint must move some mass.
   void weigh(int moved, double size_m) {
     double mass_kg = 0;
     std::vector<int> piece = {moved};

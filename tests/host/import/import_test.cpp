@@ -14,7 +14,7 @@
 #include "host/robot/model/load.hpp"
 #include "host/robot/model/params.hpp"
 
-/// Robots of our own with the habits of CAD exporters. No name tells what a part is.
+/// Robots of our own with the habits of CAD exporters. Their names have no meaning.
 namespace verp::import {
 namespace {
 
@@ -260,6 +260,15 @@ TEST_F(ImportedFile, WhatAJointMovesHasAMassAndAGuessIsSaid) {
     EXPECT_TRUE(was_changed(robot, "link p4_5 has no mass")) << foot_kg;
     EXPECT_NEAR(model::total_mass(loaded(robot)), 1.2 + 2 * 0.2 + 10 * 0.1, 0.1);
   }
+}
+
+TEST_F(ImportedFile, ServosAreTheWeakestThatCarryTheRobot) {
+  const Imported robot = import({});
+  EXPECT_EQ(finding(robot, "servos").sureness, Finding::Sureness::kGuessed);
+  EXPECT_EQ(finding(robot, "servos").value.substr(0, 11), "xh430_w350,");
+  const Imported heavy = import({.foot_kg = 20});
+  EXPECT_EQ(finding(heavy, "servos").value.substr(0, 18), "a motor of 46 N m,");
+  EXPECT_EQ(loaded(heavy).joints[4].servo.stall_torque_n_m, 46);
 }
 
 /// The twin's lidars scan in one plane, and its force-torque sensors are in joints that move.
