@@ -61,7 +61,7 @@ struct InertiaFact {
   std::string link;  ///< "*": all
   double scale = 1;
   std::optional<Vec3> com_m;  ///< replaces the file's, link frame; never for "*"
-  /// Of a URDF's link, never for "*": the moments become those of a ball of this radius.
+  /// Only for a URDF's link: the radius of a ball whose moments replace the file's; the mass.
   std::optional<double> ball_m, mass_kg;
 };
 struct BoxFact {

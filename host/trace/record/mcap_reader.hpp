@@ -35,13 +35,13 @@ struct Flaw {
   bool in_chunk = false;   ///< the end of a chunk is missing
 };
 
-/// What a reader that goes on after damage left out.
+/// The records that a reader left out because they are damaged.
 struct LeftOut {
   std::uint64_t records = 0;   ///< chunks and attachments
   std::uint64_t bytes = 0;     ///< of them in the file
   std::uint64_t messages = 0;  ///< of channels that no whole record declares
 };
-/// What a reader does at a chunk or attachment whose content is damaged.
+/// The reader's choice at a damaged chunk or attachment.
 enum class Damage : std::uint8_t { kEnds, kLeftOut };
 
 /// All but the messages before the first flaw. Views are into `texts`.

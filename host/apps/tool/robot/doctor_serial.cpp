@@ -83,7 +83,7 @@ class SerialDoctor {
   std::set<int> ask_each(bus::Client& client) const;
   /// Bytes come when it is asked, sound or not.
   bool speaks(link::Link& link, int id) const;
-  /// Without a robot: ids of which a Ping to all tells nothing, because two servos share one.
+  /// Without a robot: ids that a Ping to all misses, because two servos share one.
   std::set<int> speaking(link::Link& link) const;
   void examine_servos(link::Link& link, std::set<int> ids);
   /// False: answers come damaged.

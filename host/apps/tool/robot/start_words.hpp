@@ -4,8 +4,7 @@
 
 namespace verp::tool {
 
-/// What the register `brown_out` of a controller says that needs a person, with the remedy; empty:
-/// nothing.
+/// The trouble that the register `brown_out` reports, with its remedy; empty: no trouble.
 std::string brown_out_complaint(std::uint8_t brown_out);
 
 }  // namespace verp::tool

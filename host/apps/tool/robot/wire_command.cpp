@@ -25,7 +25,7 @@ struct WireWords {
 constexpr int kTicksOfPeriod = 3;
 constexpr std::size_t kMostBytesShown = 14;
 
-/// What is shown of a run.
+/// The part of a run that is shown.
 struct WireView {
   std::vector<WirePacket> packets;
   std::vector<WireSpan> spans;

@@ -18,7 +18,7 @@ struct WirePacket {
   double us() const { return end_us - begin_us; }
 };
 
-/// What the twin's bus carries until tick `end_tick` has begun, in order of time. `silent`: no
+/// The packets on the twin's bus until tick `end_tick` has begun, in order of time. `silent`: no
 /// device answers, so the bring-up fails. Throws session::NotUp if it fails otherwise.
 std::vector<WirePacket> log_wire(const session::WalkPlan& plan, int end_tick, bool silent);
 
