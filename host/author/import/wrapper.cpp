@@ -5,30 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/os/files/markup_text.hpp"
+
 namespace verp::import {
 namespace {
 
-constexpr int kImuId = 120;
+using files::markup_text;
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
+constexpr int kImuId = 120;
 
 /// SDF's pose: metres, then turns about fixed x, y, z.
 std::string pose_text(const Transform& pose) {
@@ -52,8 +36,8 @@ class Writer {
          "<!-- Made by `verp import`. import.md beside it says what was read and what was guessed. "
          "-->");
     line(0, "<sdf version=\"1.9\" xmlns:verp=\"https://verp.dev/sdf/1\">");
-    line(1, fmt::format("<model name=\"{}\">", escaped(w_.name)));
-    line(2, fmt::format("<include merge=\"true\"><uri>{}</uri></include>", escaped(w_.uri)));
+    line(1, fmt::format("<model name=\"{}\">", markup_text(w_.name)));
+    line(2, fmt::format("<include merge=\"true\"><uri>{}</uri></include>", markup_text(w_.uri)));
     frames();
     limbs();
     left_out();
@@ -75,7 +59,7 @@ class Writer {
   void frame(const char* name, int on, const Transform& in_body) {
     const Transform pose = link(on).pose.inverse() * w_.body * in_body;
     line(2, fmt::format("<frame name=\"{}\" attached_to=\"{}\">{}</frame>", name,
-                        escaped(link(on).name), pose_text(pose)));
+                        markup_text(link(on).name), pose_text(pose)));
   }
 
   static Transform at(const Vec3& place) { return Transform(Eigen::Translation3d(place)); }
@@ -89,7 +73,7 @@ class Writer {
 
   void frames() {
     const Transform pose = link(b_.trunk).pose.inverse() * w_.body;
-    line(2, fmt::format("<verp:body link=\"{}\">{}</verp:body>", escaped(link(b_.trunk).name),
+    line(2, fmt::format("<verp:body link=\"{}\">{}</verp:body>", markup_text(link(b_.trunk).name),
                         pose_text(pose)));
     for (std::size_t side = 0; side < w_.soles.size(); ++side) {
       const Vec3 centre = w_.soles[side].box.center(), size = w_.soles[side].box.sizes();
@@ -105,13 +89,13 @@ class Writer {
 
   void limbs() {
     if (is_probe()) return;
-    const std::string base = escaped(link(b_.trunk).name);
+    const std::string base = markup_text(link(b_.trunk).name);
     const auto limb = [&](const std::string& name, const std::string& tip) {
       line(2, fmt::format("<verp:limb name=\"{}\" base=\"{}\" tip=\"{}\"/>", name, base, tip));
     };
     limb("left_leg", "verp_l_sole");
     limb("right_leg", "verp_r_sole");
-    for (const FoundLimb& each : b_.others) limb(each.name, escaped(link(each.tip).name));
+    for (const FoundLimb& each : b_.others) limb(each.name, markup_text(link(each.tip).name));
   }
 
   bool is_foot(const LinkPart& part) const {
@@ -130,8 +114,8 @@ class Writer {
   }
 
   void drop(const char* what, const std::string& name, const char* reason) {
-    line(2, fmt::format("<verp:drop what=\"{}\" name=\"{}\" reason=\"{}\"/>", what, escaped(name),
-                        reason));
+    line(2, fmt::format("<verp:drop what=\"{}\" name=\"{}\" reason=\"{}\"/>", what,
+                        markup_text(name), reason));
   }
 
   void left_out() {
@@ -148,21 +132,21 @@ class Writer {
       line(2,
            fmt::format("<verp:inertia link=\"{}\" scale=\"{:.4g}\" reason=\"no body of this size "
                        "has the file's moments\"/>",
-                       escaped(name), scale));
+                       markup_text(name), scale));
     }
     for (const Ball& ball : w_.balls) {
       const std::string mass =
           ball.mass_kg > 0 ? fmt::format(" mass_kg=\"{:.4g}\"", ball.mass_kg) : "";
       line(2,
            fmt::format("<verp:inertia link=\"{}\" ball_m=\"{:.4g}\"{} reason=\"{}\"/>",
-                       escaped(ball.link), ball.radius_m, mass,
+                       markup_text(ball.link), ball.radius_m, mass,
                        mass.empty() ? "no body has the file's moments" : "the file has no mass"));
     }
     for (const std::string& joint : w_.dropped_mimics)
       drop("mimic", joint, "the joint that it follows is fixed, or it is");
     for (const int each : w_.fixed) {
       line(2, fmt::format("<verp:fix joint=\"{}\" reason=\"walking does not need it\"/>",
-                          escaped(bone(each).name)));
+                          markup_text(bone(each).name)));
     }
     for (const std::string& sensor : s_.sensors_to_drop)
       drop("sensor", sensor, "the twin has no such sensor, and walking does not need it");
@@ -176,7 +160,7 @@ class Writer {
     for (const ServoRow& row : w_.servos) {
       line(3, fmt::format("<verp:servo joint=\"{}\" id=\"{}\" type=\"{}\" lower_rad=\"{:.6g}\" "
                           "upper_rad=\"{:.6g}\"/>",
-                          escaped(bone(row.bone).name), ++id, w_.servo_type, row.lower_rad,
+                          markup_text(bone(row.bone).name), ++id, w_.servo_type, row.lower_rad,
                           row.upper_rad));
     }
     line(2, "</verp:bus>");
@@ -186,7 +170,7 @@ class Writer {
 
   std::string imu_link() const {
     const int imu = imu_of(s_, b_);
-    return escaped(link(imu < 0 ? b_.trunk : imu).name);
+    return markup_text(link(imu < 0 ? b_.trunk : imu).name);
   }
 
   void poses() {
@@ -194,7 +178,7 @@ class Writer {
     for (const char* const pose : {"stand", "sit"}) {
       line(2, fmt::format("<verp:pose name=\"{}\">", pose));
       for (const auto& [joint, rad] : w_.stand)
-        line(3, fmt::format("<verp:joint name=\"{}\" rad=\"{:.6g}\"/>", escaped(joint), rad));
+        line(3, fmt::format("<verp:joint name=\"{}\" rad=\"{:.6g}\"/>", markup_text(joint), rad));
       line(2, "</verp:pose>");
     }
   }

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "host/os/files/markup_text.hpp"
 #include "host/os/files/temporary_directory.hpp"
 #include "host/study/report/files.hpp"
 #include "host/study/report/gnuplot.hpp"
@@ -51,26 +52,7 @@ std::string style() {
 }  // namespace
 
 std::string escape(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
+  return files::markup_text(text);
 }
 
 std::string document(const std::string& title, const std::string& verdict, bool good,

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "host/os/files/markup_text.hpp"
+
 namespace verp::tool {
 namespace {
 
@@ -45,7 +47,8 @@ class WirePicture {
   double begin_of_time() const { return packets_.front().begin_us; }
 
   void text(double at_x, double at_y, const std::string& words, const std::string& how = "") {
-    svg_ += fmt::format("<text x='{:.1f}' y='{:.1f}' {}>{}</text>\n", at_x, at_y, how, words);
+    svg_ += fmt::format("<text x='{:.1f}' y='{:.1f}' {}>{}</text>\n", at_x, at_y, how,
+                        files::markup_text(words));
   }
   void block(double from_us, double to_us, double y, double height, const char* fill,
              const char* edge) {
