@@ -80,6 +80,15 @@ bool LinkTree::is_urdf_link(const std::string& name) const {
   return place && place->file != source_.path();
 }
 
+bool LinkTree::is_of_urdf(const std::string& link) const {
+  const auto urdfs = source_.urdfs();
+  return std::any_of(urdfs.begin(), urdfs.end(), [&](const XmlElement& urdf) {
+    const auto links = urdf.children("link");
+    return std::any_of(links.begin(), links.end(),
+                       [&](const XmlElement& each) { return each.text("name", "") == link; });
+  });
+}
+
 double LinkTree::inertia_scale(const std::string& link) const {
   double scale = 1;
   for (const InertiaFact& fact : facts_.inertias) {
@@ -366,6 +375,10 @@ void LinkTree::add_boxes() {
 void LinkTree::check_inertias() const {
   for (const InertiaFact& fact : facts_.inertias) {
     if (fact.link != "*") locate(fact.link, fact.at);
+    if (fact.ball_m && !is_of_urdf(fact.link)) {
+      fact.at.fail("<verp:inertia> ball_m: link '" + fact.link + "' is in no URDF",
+                   "correct its <inertial>");
+    }
   }
   Eigen::AlignedBox3d extent(Vec3::Zero());
   for (const Vec3& origin : origin_) extent.extend(origin);

@@ -55,6 +55,7 @@ class LinkTree {
   }
   void read_links();
   bool is_urdf_link(const std::string& name) const;
+  bool is_of_urdf(const std::string& link) const;
   double inertia_scale(const std::string& link) const;
   std::optional<Vec3> corrected_com(const std::string& link) const;
   void read_joints();

@@ -149,7 +149,10 @@ std::string short_name(const std::string& name) {
   if (name.size() < kNameLength) return name;
   std::uint32_t hash = 2166136261U;  // FNV-1a, www.isthe.com/chongo/tech/comp/fnv
   for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
-  return fmt::format("{}_{:04x}", name.substr(0, kNameLength - 6), hash >> 16);
+  std::size_t length = kNameLength - 6;
+  while (length > 0 && (static_cast<unsigned char>(name[length]) & 0xC0) == 0x80)
+    --length;  // UTF-8
+  return fmt::format("{}_{:04x}", name.substr(0, length), hash >> 16);
 }
 
 double servo_stiffness_n_m_rad(const Servo& servo) {

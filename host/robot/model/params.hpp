@@ -8,8 +8,8 @@
 
 namespace verp::model {
 
-/// A name as the controller knows it: the same up to 23 characters; of a longer one the first 18
-/// and a hash of all.
+/// A name as the controller knows it: the same up to 23 characters; of a longer one the
+/// first 18 bytes, less those of a character that they cut, and a hash of all.
 std::string short_name(const std::string& name);
 
 /// Controller's constants: single precision, fixed capacity, defaults filled in. Throws LoadError

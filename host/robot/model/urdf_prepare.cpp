@@ -101,6 +101,12 @@ void keep_first_materials(XMLElement& robot) {
   }
 }
 
+XMLElement* link_named(XMLElement& robot, const std::string& name) {
+  auto* link = robot.FirstChildElement("link");
+  while (link != nullptr && name_of(*link) != name) link = link->NextSiblingElement("link");
+  return link;
+}
+
 std::string end_of(const XMLElement& joint, const char* end) {
   const XMLElement* const element = joint.FirstChildElement(end);
   const char* const link = element ? element->Attribute("link") : nullptr;
@@ -137,22 +143,26 @@ PreparedUrdfs::~PreparedUrdfs() {
   }
 }
 
-/// A link without mass that stands for the world. A robot is on no stand: its joint goes, too.
+/// A root without mass that carries one joint stands for the world. A robot is on no stand: both
+/// go.
 void PreparedUrdfs::untie(XMLElement& robot) {
+  std::map<std::string, int> joints_at;  // of a link
+  for (auto* joint = robot.FirstChildElement("joint"); joint != nullptr;
+       joint = joint->NextSiblingElement("joint")) {
+    for (const char* const end : {"parent", "child"}) ++joints_at[end_of(*joint, end)];
+  }
   for (auto* joint = robot.FirstChildElement("joint"); joint != nullptr;
        joint = joint->NextSiblingElement("joint")) {
     const char* const given = joint->Attribute("type");
     const std::string type = given ? given : "", parent = end_of(*joint, "parent");
     if (type != "floating" && type != "planar" && (type != "fixed" || parent != "world")) continue;
-    for (auto* link = robot.FirstChildElement("link"); link != nullptr;
-         link = link->NextSiblingElement("link")) {
-      if (name_of(*link) != parent || has_mass(*link)) continue;
-      notes_.push_back("joint '" + name_of(*joint) + "' ties the robot to '" + parent +
-                       "': left out");
-      robot.DeleteChild(link);
-      robot.DeleteChild(joint);
-      return;
-    }
+    XMLElement* const link = link_named(robot, parent);
+    if (link == nullptr || has_mass(*link) || joints_at[parent] != 1) continue;
+    notes_.push_back("joint '" + name_of(*joint) + "' ties the robot to '" + parent +
+                     "': left out");
+    robot.DeleteChild(link);
+    robot.DeleteChild(joint);
+    return;
   }
 }
 

@@ -36,7 +36,7 @@ class PreparedUrdfs {
   /// Its line numbers mean nothing to users.
   bool is_copy(const std::string& path) const;
   const UrdfNames& names() const { return names_; }
-  /// What is left out, one line each.
+  /// One line for each part that is left out.
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:

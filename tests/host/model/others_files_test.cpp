@@ -410,6 +410,20 @@ TEST(OthersFiles, IncludeMayHaveAnyPath) {
   }
 }
 
+TEST(OthersFiles, ShortNamesCutNoCharacterInTwo) {
+  std::string name = "a";
+  for (int i = 0; i < 12; ++i) name += "\xC3\xB6";
+  EXPECT_EQ(short_name(name).substr(0, 18), name.substr(0, 17) + "_");
+  EXPECT_EQ(short_name(name).size(), 22U);
+}
+
+TEST(OthersFiles, BallsAreOnlyForAUrdf) {
+  std::string text = read_text(robot_file("generic21"));
+  text.insert(text.find("</model>"),
+              "<verp:inertia link=\"trunk\" ball_m=\"0.05\" reason=\"a guess\"/>\n");
+  expect_sdf_refused(text, "<verp:inertia", "is in no URDF");
+}
+
 /// CAD exporters write zeros there.
 TEST(OthersFiles, AxisOfAFixedJointIsNotLookedAt) {
   const std::string parent = "<parent link=\"base_link\"/>";
