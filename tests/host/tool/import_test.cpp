@@ -35,6 +35,7 @@ TEST_F(Import, WrongFilesAndPlacesAreRefused) {
   expect_refused("import here/robot.sdf -o other", "this is SDF");
   expect_refused("import odd.urdf -o odd.urdf/below", "cannot be made");
   expect_refused("import odd.urdf -o other --servos nonesuch", "no servo type 'nonesuch'");
+  expect_refused("import nothing.urdf -o other/below", "cannot read this file");
   EXPECT_FALSE(fs::exists(folder_ / "other"));
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/exit_status.hpp"
@@ -33,6 +34,21 @@ void refuse_existing(const fs::path& folder) {
   throw cli::ToolError(cli::kBadInput, fmt::format("{}: is there already; remove it, or choose "
                                                    "another folder with -o",
                                                    (folder / "robot.sdf").string()));
+}
+
+/// Those that were missing, the innermost first.
+std::vector<fs::path> make_folders(const fs::path& folder) {
+  std::vector<fs::path> missing;
+  std::error_code error;
+  for (fs::path at = fs::absolute(folder, error); !fs::exists(at, error) && at.has_relative_path();
+       at = at.parent_path()) {
+    missing.push_back(at);
+  }
+  fs::create_directories(folder, error);
+  if (!error) return missing;
+  throw cli::ToolError(cli::kBadInput,
+                       fmt::format("{}: cannot be made ({}); choose another place with -o",
+                                   folder.string(), error.message()));
 }
 
 cli::Json json_of(const import::Imported& robot, const std::string& sdf) {
@@ -71,18 +87,12 @@ int import_file(const ImportWords& words) {
   if (wish.folder.empty()) wish.folder = fs::path(wish.file).stem().string() + "_verp";
   const fs::path folder = wish.folder, sdf = folder / "robot.sdf";
   refuse_existing(folder);
-  const bool made = fs::create_directories(folder, error);
-  if (error) {
-    throw cli::ToolError(cli::kBadInput,
-                         fmt::format("{}: cannot be made ({}); choose another place "
-                                     "with -o",
-                                     folder.string(), error.message()));
-  }
+  const std::vector<fs::path> made = make_folders(folder);
   import::Imported robot;
   try {
     robot = import::import_robot(wish);
   } catch (...) {
-    if (made) fs::remove(folder, error);
+    for (const fs::path& each : made) fs::remove(each, error);
     throw;
   }
   write_beside(sdf, robot.sdf);
