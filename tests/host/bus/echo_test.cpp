@@ -1,6 +1,5 @@
 #include <cstring>
 
-#include "common/protocol/feetech_table.hpp"
 #include "tests/host/bus/app_fixture.hpp"
 
 // A transceiver that feeds the master's own bytes back, in both protocols.
@@ -11,13 +10,7 @@ constexpr int kJoints = 21;
 constexpr int kTicks = 50;
 
 Params params_of(BusProtocol protocol) {
-  Params params = bus_params(kJoints);
-  params.bus_protocol = protocol;
-  if (protocol != BusProtocol::kFeetech) return params;
-  params.baud = 1'000'000;
-  params.servo[0].model_number = feetech::kModelSts3215;
-  for (int j = 0; j < kJoints; ++j) params.joint[j].velocity_limit_rad_s = 6;
-  return params;
+  return protocol == BusProtocol::kFeetech ? feetech_params(kJoints) : bus_params(kJoints);
 }
 
 struct EchoRun {

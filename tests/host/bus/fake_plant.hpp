@@ -4,6 +4,7 @@
 
 #include "common/model/params.hpp"
 #include "common/protocol/control_table.hpp"
+#include "common/protocol/feetech_table.hpp"
 #include "host/twin/sim/plant.hpp"
 
 namespace verp::test {
@@ -72,6 +73,18 @@ inline Params bus_params(int joints, bool fast = true) {
   params.imu.device_id = kImuId;
   params.feet.device_id[0] = kLeftFootId;
   params.feet.device_id[1] = kRightFootId;
+  return params;
+}
+
+inline Params feetech_params(int joints) {
+  Params params = bus_params(joints);
+  params.bus_protocol = BusProtocol::kFeetech;
+  params.baud = 1'000'000;
+  params.servo[0] = {.model_number = feetech::kModelSts3215,
+                     .position_p_gain = 97,
+                     .position_i_gain = 3,
+                     .position_d_gain = 32};
+  for (int j = 0; j < joints; ++j) params.joint[j].velocity_limit_rad_s = 6;
   return params;
 }
 

@@ -13,18 +13,6 @@ namespace {
 
 namespace mem = feetech::address;
 
-Params feetech_params(int joints) {
-  Params params = bus_params(joints);
-  params.bus_protocol = BusProtocol::kFeetech;
-  params.baud = 1'000'000;
-  params.servo[0] = {.model_number = feetech::kModelSts3215,
-                     .position_p_gain = 97,
-                     .position_i_gain = 3,
-                     .position_d_gain = 32};
-  for (int j = 0; j < joints; ++j) params.joint[j].velocity_limit_rad_s = 6;
-  return params;
-}
-
 class FeetechLoop : public ::testing::Test {
  protected:
   static constexpr int kJoints = 21;
