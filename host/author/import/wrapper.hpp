@@ -35,7 +35,7 @@ struct Wrapper {
   std::vector<std::pair<std::string, double>> stand;  ///< joints that cannot stand at zero
 };
 
-/// The link of an IMU that the trunk carries; -1: the file has none.
+/// The link of an IMU that the trunk carries; -1 if the file names no such link.
 int imu_of(const Skeleton& skeleton, const Body& body);
 
 /// Without soles: a text that loads as a part of a robot, to measure its shapes.

@@ -87,7 +87,8 @@ class VirtualBus final : public hal::FrameBus {
 
   std::uint64_t bytes_on_wire() const { return bytes_on_wire_; }
   /// A passive listener, called for what the master or the devices put on the line; begin and end
-  /// of the bytes are known then, and may lie ahead. An answer may be told before its request.
+  /// of the bytes are known then, and may lie ahead. The call for an
+  /// answer may come before that for its request.
   using Listener = std::function<void(bool master, std::span<const std::uint8_t> bytes,
                                       std::uint64_t begin_ns, std::uint64_t end_ns)>;
   void set_listener(Listener listener) { listener_ = std::move(listener); }

@@ -86,7 +86,7 @@ class DriveApplication {
   double share(const sim::ServoMeasurement& measured) const;
   void hold(std::int32_t count);
   void come_home();
-  /// Of the encoder: where 6064h is 0.
+  /// The encoder's position at which 6064h is 0.
   std::int64_t zero_count() const { return std::int64_t{home_count_} + objects_.home_offset; }
   void apply();
   std::int32_t goal_count();

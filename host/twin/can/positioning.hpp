@@ -4,7 +4,7 @@
 
 #include "host/twin/can/profile_objects.hpp"
 
-/// What CiA 402 says of controlword and statusword in modes 1 and 6. Positions are the
+/// CiA 402's controlword and statusword in modes 1 and 6. Positions are the
 /// application's (6064h), in increments.
 namespace verp::can {
 

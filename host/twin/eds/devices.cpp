@@ -58,7 +58,7 @@ std::vector<cia402::ObjectRow> profile_of_a_drive() {
   return rows;
 }
 
-/// Of an object with members; null: it has none.
+/// The name of an object with members; null for any other object.
 const char* name_of(std::uint16_t index) {
   switch (index) {
     case cia402::object::kMinPosition.index:
