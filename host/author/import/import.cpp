@@ -11,9 +11,9 @@
 #include <numbers>
 
 #include "common/model/params.hpp"
+#include "host/author/import/servos.hpp"
 #include "host/robot/model/find.hpp"
 #include "host/robot/model/load.hpp"
-#include "host/robot/model/servo_types.hpp"
 
 namespace verp::import {
 namespace {
@@ -56,7 +56,7 @@ class Importer {
     w_.uri =
         fs::relative(fs::weakly_canonical(wish_.file), fs::weakly_canonical(wish_.folder)).string();
     choose_servos();
-    choose_type();
+    choose_types();
     mend_inertias();
     place_body();
     measure();
@@ -155,7 +155,7 @@ class Importer {
 
   ServoRow row_of(int index) {
     const Bone& each = bone(index);
-    ServoRow row{index, each.lower_rad, each.upper_rad};
+    ServoRow row{index, each.lower_rad, each.upper_rad, ""};
     const bool stops = each.lower_rad < each.upper_rad && !each.has_no_stops;
     if (!stops) row.lower_rad = -kMostServo_rad, row.upper_rad = kMostServo_rad;
     row.lower_rad = std::clamp(row.lower_rad, -kMostServo_rad, kMostServo_rad - 0.1);
@@ -184,49 +184,16 @@ class Importer {
     return sum;
   }
 
-  void take_type(const std::string& name) {
-    const model::ServoType* const type = model::find_servo_type(model::servo_types(), name);
-    if (type == nullptr) {
-      throw model::LoadError("--servos", 0, "there is no servo type '" + name + "'",
-                             "choose one of: " + model::names_of(model::servo_types()));
-    }
-    w_.servo_type = name;
-    w_.protocol = model::protocol_name(type->protocol);
-    found(Sureness::kRead, "servos", name);
-  }
-
-  void choose_type() {
+  void choose_types() {
     const double needed_n_m = kTorqueReserve * kKneeArm * s_.mass_kg() * kGravity_m_s2 * leg_m();
-    if (!wish_.servo_type.empty()) {
-      take_type(wish_.servo_type);
-      return;
-    }
-    double best = INFINITY;
-    for (const model::ServoType& type : model::servo_types()) {
-      if (type.protocol != BusProtocol::kDynamixel2 || type.stall_torque_n_m < needed_n_m) continue;
-      if (type.stall_torque_n_m >= best) continue;
-      best = type.stall_torque_n_m;
-      w_.servo_type = type.name;
-    }
-    if (w_.servo_type.empty()) {
-      make_motor(std::ceil(needed_n_m));
-      return;
-    }
-    found(Sureness::kGuessed, "servos",
-          fmt::format("{}, the weakest known with {:.3g} N m, twice what a knee has to hold",
-                      w_.servo_type, needed_n_m),
-          "give the robot's own with --servos TYPE");
-  }
-
-  void make_motor(double torque_n_m) {
-    w_.servo_type = "motor";
-    w_.own_type = fmt::format(
-        "<verp:servo_type name=\"motor\" like=\"xm540_w270\" stall_torque_n_m=\"{:.3g}\" "
-        "no_load_rev_min=\"60\"/>",
-        torque_n_m);
-    found(Sureness::kGuessed, "servos",
-          fmt::format("a motor of {:.3g} N m, because no known servo holds this robot", torque_n_m),
-          "write the motor's own numbers into <verp:servo_type>");
+    std::vector<ServoJoint> joints;
+    for (const ServoRow& row : w_.servos)
+      joints.push_back({bone(row.bone).name, bone(row.bone).drive});
+    ServoChoice choice = choose_servo_types(joints, wish_.servo_type, needed_n_m);
+    w_.protocol = choice.protocol;
+    w_.own_types = std::move(choice.own_types);
+    for (std::size_t i = 0; i < joints.size(); ++i) w_.servos[i].type = choice.types[i];
+    for (Finding& each : choice.findings) out_.findings.push_back(std::move(each));
   }
 
   Vec3 middle_of(const std::vector<const FoundLimb*>& limbs) const {

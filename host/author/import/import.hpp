@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "host/author/import/finding.hpp"
 #include "host/author/import/wrapper.hpp"
 #include "host/robot/model/load_error.hpp"
 
@@ -12,12 +13,6 @@ struct Wish {
   std::string file, folder;  ///< the foreign file; where robot.sdf will be
   std::string name;          ///< of the robot; empty: the file's
   std::string servo_type;    ///< empty: the weakest that carries the robot
-};
-
-/// One line of import.md's table.
-struct Finding {
-  enum class Sureness { kRead, kMeasured, kGuessed } sureness = Sureness::kRead;
-  std::string what, value, check;  ///< `check`: what a person should look at; may be empty
 };
 
 struct Imported {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "host/author/import/servos.hpp"
 #include "host/robot/model/entity.hpp"
 #include "host/robot/model/xml_source.hpp"
 
@@ -23,6 +24,7 @@ struct Bone {
   double lower_rad = 0, upper_rad = 0;  ///< lower > upper: not given
   bool has_no_stops = false;            ///< a continuous joint
   std::string follows;                  ///< the joint that it mimics; empty: none
+  std::optional<Drive> drive;           ///< its motor, where the file says it
 };
 
 struct LinkPart {

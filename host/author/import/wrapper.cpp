@@ -154,13 +154,13 @@ class Writer {
   }
 
   void bus() {
-    if (!w_.own_type.empty()) line(2, w_.own_type);
+    for (const std::string& type : w_.own_types) line(2, type);
     line(2, fmt::format("<verp:bus protocol=\"{}\">", w_.protocol));
     int id = 0;
     for (const ServoRow& row : w_.servos) {
       line(3, fmt::format("<verp:servo joint=\"{}\" id=\"{}\" type=\"{}\" lower_rad=\"{:.6g}\" "
                           "upper_rad=\"{:.6g}\"/>",
-                          markup_text(bone(row.bone).name), ++id, w_.servo_type, row.lower_rad,
+                          markup_text(bone(row.bone).name), ++id, row.type, row.lower_rad,
                           row.upper_rad));
     }
     line(2, "</verp:bus>");

@@ -12,6 +12,7 @@ namespace verp::import {
 struct ServoRow {
   int bone = -1;
   double lower_rad = 0, upper_rad = 0;
+  std::string type;
 };
 
 /// In place of a link's moments, and of its mass if that is given.
@@ -22,10 +23,10 @@ struct Ball {
 
 struct Wrapper {
   std::string name, uri;  ///< of the model; of the wrapped file, from the wrapper's folder
-  std::string servo_type, protocol = "dynamixel2";
-  std::string own_type;          ///< a <verp:servo_type> element; empty: none
-  std::vector<ServoRow> servos;  ///< joints that stay, ids from 1
-  std::vector<int> fixed;        ///< bones that turn or slide in the file
+  std::string protocol = "dynamixel2";
+  std::vector<std::string> own_types;  ///< <verp:servo_type> elements
+  std::vector<ServoRow> servos;        ///< joints that stay, ids from 1
+  std::vector<int> fixed;              ///< bones that turn or slide in the file
   std::vector<std::string> dropped_mimics;
   std::vector<std::pair<std::string, double>> inertia_scales;  ///< by link; "*": all
   std::vector<Ball> balls;
