@@ -27,6 +27,7 @@ struct Habits {
   double sole_ahead_m = 0.01;    ///< middle of the sole, from the ankle
   double moments_times = 1;      ///< a unit beside kg m2
   bool feet_are_meshes = false;  ///< which nobody has
+  bool has_wide_ankles = false;  ///< a block on each sole, wider than that
   bool has_no_stops = false;     ///< continuous joints
   bool has_right_leg = true;
   std::string in_names = "";
@@ -70,8 +71,17 @@ class Maker {
                                     : "<box size=\"0.1 0.06 0.01\"/>";
       link(below, foot ? h_.foot_kg : 0.1, foot ? shape : "",
            {foot ? h_.sole_ahead_m : 0.0, 0, foot ? -0.025 : 0.0});
+      if (foot && h_.has_wide_ankles) add_block(text_);
       above = below;
     }
+  }
+
+  /// Its lower face is 1 cm above that of the sole.
+  static void add_block(std::string& link) {
+    const std::string block =
+        "<collision><origin xyz=\"0 0 -0.005\"/><geometry><box size=\"0.04 0.1 0.03\"/></geometry>"
+        "</collision>";
+    link.insert(link.rfind("</link>"), block);
   }
 
   void joint(const std::string& above, const std::string& below, const std::string& type,
@@ -192,12 +202,14 @@ TEST_F(ImportedFile, WhereNothingTellsXIsAheadAndThisIsAGuess) {
 }
 
 TEST_F(ImportedFile, SolesAreTheLowestFacesOfTheFeet) {
-  const model::Entity robot = loaded(import({}));
-  const model::Limb& leg = *model::find_limb(robot, "left_leg");
-  EXPECT_NEAR(leg.sole_max_m.x() - leg.sole_min_m.x(), 0.1, 1e-4);
-  EXPECT_NEAR(leg.sole_max_m.y() - leg.sole_min_m.y(), 0.06, 1e-4);
-  EXPECT_NEAR(leg.tip.translation().x(), 0.01, 1e-6);
-  EXPECT_NEAR(leg.tip.translation().z(), -0.03, 1e-6);
+  for (const bool wide : {false, true}) {
+    const model::Entity robot = loaded(import({.has_wide_ankles = wide}));
+    const model::Limb& leg = *model::find_limb(robot, "left_leg");
+    EXPECT_NEAR(leg.sole_max_m.x() - leg.sole_min_m.x(), 0.1, 1e-4);
+    EXPECT_NEAR(leg.sole_max_m.y() - leg.sole_min_m.y(), 0.06, 1e-4);
+    EXPECT_NEAR(leg.tip.translation().x(), 0.01, 1e-6);
+    EXPECT_NEAR(leg.tip.translation().z(), -0.03, 1e-6);
+  }
 }
 
 TEST_F(ImportedFile, FeetWhoseMeshesAreMissingAreGuessedAndSaid) {
