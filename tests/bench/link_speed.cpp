@@ -1,5 +1,9 @@
 #include "tests/bench/link_speed.hpp"
 
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
 #include <chrono>
 #include <cstring>
 #include <vector>
@@ -74,7 +78,56 @@ class Echo {
   bool quit_ = false;
 };
 
+/// Sends back each frame until the pipe ends.
+[[noreturn]] void answer_frames(int from, int to) {
+  std::array<std::uint8_t, kAnswerBytes> frame;
+  while (read(from, frame.data(), frame.size()) == static_cast<ssize_t>(frame.size()) &&
+         write(to, frame.data(), frame.size()) == static_cast<ssize_t>(frame.size())) {
+  }
+  _exit(0);
+}
+
+std::array<int, 2> open_pipe() {
+  std::array<int, 2> ends{};
+  if (pipe(ends.data()) != 0) throw BoardError("can't make a pipe");
+  return ends;
+}
+
 }  // namespace
+
+OneCore::OneCore() {
+  sched_getaffinity(0, sizeof before_, &before_);
+  cpu_set_t one;
+  CPU_ZERO(&one);
+  CPU_SET(sched_getcpu(), &one);
+  sched_setaffinity(0, sizeof one, &one);
+}
+
+OneCore::~OneCore() {
+  sched_setaffinity(0, sizeof before_, &before_);
+}
+
+double measure_pipes(std::uint32_t round_trips) {
+  const auto there = open_pipe(), back = open_pipe();
+  const pid_t child = fork();
+  if (child < 0) throw BoardError("can't start a second process");
+  if (child == 0) {
+    close(there[1]);
+    answer_frames(there[0], back[1]);
+  }
+  std::array<std::uint8_t, kAnswerBytes> frame{};
+  const auto start = std::chrono::steady_clock::now();
+  bool whole = true;
+  for (std::uint32_t i = 0; i < round_trips && whole; ++i) {
+    whole = write(there[1], frame.data(), frame.size()) == static_cast<ssize_t>(frame.size()) &&
+            read(back[0], frame.data(), frame.size()) == static_cast<ssize_t>(frame.size());
+  }
+  const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start;
+  for (const int end : {there[0], there[1], back[0], back[1]}) close(end);
+  waitpid(child, nullptr, 0);
+  if (!whole) throw BoardError("a pipe lost a frame");
+  return round_trips / used.count();
+}
 
 LinkSpeed measure_link(const std::string& board, const Params& params, std::uint32_t ticks,
                        bool with_step) {

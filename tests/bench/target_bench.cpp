@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -57,19 +58,22 @@ void show_profile(const std::string& board, const verp::Params& params,
 }
 
 bool bench_link(const std::string& board, const verp::Params& params) {
+  const verp::board::OneCore one_core;
   verp::board::LinkSpeed alone;
+  double pipes = 0;
   for (int attempt = 0; attempt < kLinkAttempts; ++attempt) {
     const auto speed = verp::board::measure_link(board, params, kLinkTicks, false);
     if (speed.ticks_per_s > alone.ticks_per_s) alone = speed;
+    pipes = std::max(pipes, verp::board::measure_pipes(2 * kLinkTicks));
   }
   const auto with_step = verp::board::measure_link(board, params, kLinkTicks / 4, true);
   fmt::print(
-      R"({{"board": "{}", "link_ticks_per_s": {:.0f}, "link_round_trips_per_s": {:.0f}, "link_ticks_per_s_with_step": {:.0f}}})"
+      R"({{"board": "{}", "link_ticks_per_s": {:.0f}, "link_round_trips_per_s": {:.0f}, "pipe_round_trips_per_s": {:.0f}, "link_ticks_per_s_with_step": {:.0f}}})"
       "\n",
-      board, alone.ticks_per_s, alone.round_trips_per_s, with_step.ticks_per_s);
+      board, alone.ticks_per_s, alone.round_trips_per_s, pipes, with_step.ticks_per_s);
   return board != verp::board::kPromisedBoard ||
-         keeps("ticks a second of the link alone", alone.ticks_per_s,
-               verp::board::kLeastLinkTicksPerS, 1e9);
+         keeps("percent of two processes' round trips over the link",
+               100 * alone.round_trips_per_s / pipes, verp::board::kLeastLinkPercent, 1e9);
 }
 
 enum class Task { kBench, kCheck, kProfile };

@@ -11,6 +11,8 @@ inline constexpr double kMostInstructionsDigest = 5000;  ///< part of those abov
 inline constexpr double kMostStackBytes = 4096;          ///< by static analysis
 inline constexpr double kMostStateBytes = 3072;          ///< hashed every tick
 inline constexpr double kLeastLinkTicksPerS = 5000;      ///< without controller and physics
+/// Of the round trips of two PC processes over pipes in the same run, so that a slow PC passes.
+inline constexpr double kLeastLinkPercent = 25;
 /// Any board with CAN, robot on vcan0, no physics.
 inline constexpr double kLeastCanTicksPerS = 150;
 
