@@ -1,7 +1,7 @@
 #include "common/balance/estimator.hpp"
 
 #include "common/math/convert.hpp"
-#include "common/model/counts.hpp"
+#include "common/model/leg.hpp"
 
 namespace verp::balance {
 namespace {
@@ -40,14 +40,10 @@ Leg look(const Params& params, const LegParams& leg, const Inputs& inputs, Vec3&
          float& mass_kg) {
   Leg seen;
   float angle_rad[kLegJoints];
-  for (int k = 0; k < kLegJoints; ++k) {
-    const std::uint8_t j = leg.joint[k];
-    seen.fresh = seen.fresh && (inputs.fresh >> j & 1U) != 0;
-    angle_rad[k] = model::angle_of(params.joint[j], inputs.position_count[j]);
-  }
+  seen.fresh = model::measure_leg(params, leg, inputs, angle_rad);
   const kinematics::LegChain chain = kinematics::leg_chain(params, leg, Pose{}, angle_rad);
   for (int k = 0; k < kLegJoints; ++k) {
-    const JointParams& joint = params.joint[leg.joint[k]];
+    const JointParams& joint = model::joint_of(params, leg, k);
     moment_kg_m += joint.mass_kg * math::apply(chain.link[k], math::to_vec(joint.com_link_m));
     mass_kg += joint.mass_kg;
   }

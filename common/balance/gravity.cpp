@@ -1,5 +1,7 @@
 #include "common/balance/gravity.hpp"
 
+#include "common/model/leg.hpp"
+
 namespace verp::balance {
 
 Vec3 ground_point(const LegParams& leg, const gait::FootPose& foot, gait::Xy zmp_m) {
@@ -18,7 +20,7 @@ LegMotion follow(const Params& params, int side, const float* leg_rad, DriveStat
     float& last_rad = state.angle_rad[side * kLegJoints + k];
     float& last_rad_s = state.rate_rad_s[side * kLegJoints + k];
     const float rate = (leg_rad[k] - last_rad) / period_s;
-    const JointParams& joint = params.joint[params.leg[side].joint[k]];
+    const JointParams& joint = model::joint_of(params, params.leg[side], k);
     if (math::abs(rate) <= joint.velocity_limit_rad_s) {
       motion.rate_rad_s[k] = rate;
       motion.accel_rad_s2[k] = (rate - last_rad_s) / period_s;
@@ -51,10 +53,10 @@ void add_sag(const Params& params, const BalanceTuning& tuning, const LegParams&
              float* leg_rad) {
   Vec3 force_n = load.push_n;
   Vec3 moment_nm = math::cross(load.ground_m, load.push_n);
-  const float hip_m = chain.link[0].position_m.z();
+  const float hip_m = chain.link[model::has(leg, 0) ? 0 : 1].position_m.z();
   const float leg_m = math::max(hip_m - chain.link[kLegJoints - 1].position_m.z(), 1e-3F);
   for (int k = kLegJoints - 1; k >= 0; --k) {
-    const JointParams& joint = params.joint[leg.joint[k]];
+    const JointParams& joint = model::joint_of(params, leg, k);
     const Pose& link = chain.link[k];
     const Vec3 com_m = math::apply(link, math::to_vec(joint.com_link_m));
     const float down = math::clamp((hip_m - com_m.z()) / leg_m, 0.0F, 1.0F);

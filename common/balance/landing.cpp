@@ -1,6 +1,6 @@
 #include "common/balance/landing.hpp"
 
-#include "common/model/counts.hpp"
+#include "common/model/leg.hpp"
 
 namespace verp::balance {
 namespace {
@@ -13,11 +13,7 @@ constexpr float kSettling = 0.15F;  // share of a step until a landed leg rests
 bool sole_in_body(const Params& params, const Inputs& inputs, int side, Vec3& sole_m) {
   const LegParams& leg = params.leg[side];
   float angle_rad[kLegJoints];
-  for (int k = 0; k < kLegJoints; ++k) {
-    const std::uint8_t j = leg.joint[k];
-    if ((inputs.fresh >> j & 1U) == 0) return false;
-    angle_rad[k] = model::angle_of(params.joint[j], inputs.position_count[j]);
-  }
+  if (!model::measure_leg(params, leg, inputs, angle_rad)) return false;
   const kinematics::LegChain chain = kinematics::leg_chain(params, leg, Pose{}, angle_rad);
   sole_m = kinematics::sole_pose(leg, chain).position_m;
   return true;

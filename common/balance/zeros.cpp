@@ -1,6 +1,6 @@
 #include "common/balance/zeros.hpp"
 
-#include "common/model/counts.hpp"
+#include "common/model/leg.hpp"
 
 namespace verp::balance {
 namespace {
@@ -23,12 +23,12 @@ void learn_zero(const Params& params, const LegParams& leg, const kinematics::Le
                 const AttitudeOut& attitude, float planned_pitch_rad, LegZero& zero) {
   // Each joint's error turns the sole about its axis.
   gait::Xy turn_rad;
+  float seen_rad[kLegJoints];
+  if (!model::measure_leg(params, leg, inputs, seen_rad)) return;
   for (int k = 0; k < kLegJoints; ++k) {
-    const std::uint8_t j = leg.joint[k];
-    if ((inputs.fresh >> j & 1U) == 0) return;
-    const JointParams& joint = params.joint[j];
-    const float off_rad = model::angle_of(joint, inputs.position_count[j]) - leg_rad[k];
-    const Vec3 axis = kinematics::joint_axis(joint, chain.link[k].rotation);
+    const float off_rad = seen_rad[k] - leg_rad[k];
+    const Vec3 axis =
+        kinematics::joint_axis(model::joint_of(params, leg, k), chain.link[k].rotation);
     turn_rad = turn_rad + off_rad * gait::Xy{axis.x(), axis.y()};
   }
   const gait::Xy sole_rad = gait::turned(turn_rad, -foot.on.yaw_rad);

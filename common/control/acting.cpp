@@ -4,6 +4,7 @@
 #include "common/kinematics/forward.hpp"
 #include "common/math/convert.hpp"
 #include "common/model/coupling.hpp"
+#include "common/model/leg.hpp"
 #include "common/model/tree.hpp"
 
 namespace verp::control {
@@ -66,7 +67,7 @@ Legs legs_of(const Params& params, const float* angle_rad) {
   for (int side = 0; side < kFeet; ++side) {
     const LegParams& leg = params.leg[side];
     float leg_rad[kLegJoints];
-    for (int k = 0; k < kLegJoints; ++k) leg_rad[k] = angle_rad[leg.joint[k]];
+    model::read_leg(leg, angle_rad, leg_rad);
     legs.chain[side] = kinematics::leg_chain(params, leg, Pose{}, leg_rad);
     const Pose sole = kinematics::sole_pose(leg, legs.chain[side]);
     legs.up[side] = sole.rotation.col(2);
@@ -107,8 +108,9 @@ balance::FeedbackOut keep_up(const BalanceTuning& tuning, const Vec3& up,
     const float most_m = 0.5F * (leg.sole_left_m + leg.sole_right_m);
     const float far_m = math::sqrt(off_m.squaredNorm());
     const Vec3 ground_m = legs.sole_m[side] + (far_m > most_m ? most_m / far_m : 1.0F) * off_m;
-    float leg_rad[kLegJoints];
-    for (int k = 0; k < kLegJoints; ++k) leg_rad[k] = goal_rad[leg.joint[k]];
+    float plain_rad[kLegJoints], leg_rad[kLegJoints];
+    model::read_leg(leg, goal_rad, plain_rad);
+    model::read_leg(leg, goal_rad, leg_rad);
     if (tuning.balance.gravity_enable > 0.5F) {
       const float weight_kg = played.carry[side] * model::total_mass(params);
       balance::add_sag(params, tuning.balance, leg, legs.chain[side],
@@ -119,9 +121,9 @@ balance::FeedbackOut keep_up(const BalanceTuning& tuning, const Vec3& up,
     }
     balance::add(leg, state.feedback.leg[side], leg_rad);
     for (int k = 0; k < kLegJoints; ++k) {
-      float& goal = goal_rad[leg.joint[k]];
-      goal += played.balance * (leg_rad[k] - goal);
+      leg_rad[k] = plain_rad[k] + played.balance * (leg_rad[k] - plain_rad[k]);
     }
+    model::write_leg(leg, leg_rad, goal_rad);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "common/kinematics/forward.hpp"
 #include "common/kinematics/leg_ik.hpp"
+#include "common/model/leg.hpp"
 #include "common/record/digest.hpp"
 
 namespace verp::control {
@@ -33,7 +34,7 @@ void solve(const Params& params, int foot, const float* angle_rad, GoldenVector&
   const LegParams& leg = params.leg[foot];
   if (leg.solver == LegSolver::kNone) return;
   float leg_rad[kLegJoints];
-  for (int k = 0; k < kLegJoints; ++k) leg_rad[k] = angle_rad[leg.joint[k]];
+  model::read_leg(leg, angle_rad, leg_rad);
   const Pose sole = sole_pose(leg, leg_chain(params, leg, Pose{}, leg_rad));
   vector.sole_m[foot] = math::to_xyz(sole.position_m);
   const LegAngles solved = solve_leg(params, leg, sole, leg_rad);

@@ -5,6 +5,7 @@
 #include "common/gait/coupled_hips.hpp"
 #include "common/math/convert.hpp"
 #include "common/model/coupling.hpp"
+#include "common/model/leg.hpp"
 #include "common/model/tree.hpp"
 
 namespace verp::control {
@@ -68,10 +69,9 @@ struct Before {
 Before angles_before(const Params& params, const State& state) {
   Before before;
   for (int side = 0; side < kFeet; ++side) {
-    for (int k = 0; k < kLegJoints; ++k) {
-      before.leg_rad[side][k] = state.gait.queued == 0
-                                    ? state.gait.preview.leg_rad[side * kLegJoints + k]
-                                    : state.limit.goal_rad[params.leg[side].joint[k]];
+    model::read_leg(params.leg[side], state.limit.goal_rad, before.leg_rad[side]);
+    for (int k = 0; k < kLegJoints && state.gait.queued == 0; ++k) {
+      before.leg_rad[side][k] = state.gait.preview.leg_rad[side * kLegJoints + k];
     }
   }
   return before;
@@ -138,9 +138,9 @@ Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
     if (leg.solver == LegSolver::kNone) continue;
     kinematics::LegAngles angles = leg_angles(params, state, aimed, side, before.leg_rad[side]);
     wanted.leg_limited = wanted.leg_limited || angles.flags != 0;
-    for (int k = 0; k < kLegJoints; ++k) wanted.plain_rad[leg.joint[k]] = angles.angle_rad[k];
+    model::write_leg(leg, angles.angle_rad, wanted.plain_rad);
     correct_leg(params, state, inputs, attitude, plan, mass_kg, side, angles);
-    for (int k = 0; k < kLegJoints; ++k) wanted.angle_rad[leg.joint[k]] = angles.angle_rad[k];
+    model::write_leg(leg, angles.angle_rad, wanted.angle_rad);
   }
   model::share_corrections(params, wanted.plain_rad, wanted.angle_rad);
   return wanted;

@@ -8,6 +8,7 @@ int coupled_hip(const Params& params) {
   if (params.followers == 0 || params.leg[kLeft].solver == LegSolver::kNone) return kBoth;
   for (const std::uint8_t side : {kLeft, kRight}) {
     const int own = params.leg[side].joint[0], other = params.leg[1 - side].joint[0];
+    if (own == kNoJoint || other == kNoJoint) continue;
     if (own >= params.servo_count() && model::driver_of(params, own) == other) return side;
   }
   return kBoth;

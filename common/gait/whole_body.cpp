@@ -2,17 +2,16 @@
 
 #include <bit>
 
+#include "common/model/leg.hpp"
 #include "common/record/digest.hpp"
 
 namespace verp::gait {
 namespace {
 
 std::uint32_t leg_joints(const Params& params) {
-  std::uint32_t joints = 0;
-  for (const LegParams& leg : params.leg) {
-    for (const std::uint8_t joint : leg.joint) joints |= std::uint32_t{1} << joint;
-  }
-  return params.leg[kLeft].solver == LegSolver::kNone ? 0 : joints;
+  return params.leg[kLeft].solver == LegSolver::kNone
+             ? 0
+             : model::joints_of(params.leg[kLeft]) | model::joints_of(params.leg[kRight]);
 }
 
 }  // namespace
@@ -76,13 +75,13 @@ Pose sole_in_body(const Posture& posture, int side) {
 
 float point_mass_kg(const Params& params, const Lump& lump, int point) {
   if (point == 0) return lump.mass_kg;
-  const int leg = (point - 1) / kLegJoints;
-  return params.joint[params.leg[leg].joint[(point - 1) % kLegJoints]].mass_kg;
+  const LegParams& leg = params.leg[(point - 1) / kLegJoints];
+  return model::joint_of(params, leg, (point - 1) % kLegJoints).mass_kg;
 }
 
 void stand_legs(const Params& params, float* leg_rad) {
   for (const LegParams& leg : params.leg) {
-    for (const std::uint8_t joint : leg.joint) *leg_rad++ = params.joint[joint].stand_rad;
+    for (int k = 0; k < kLegJoints; ++k) *leg_rad++ = model::joint_of(params, leg, k).stand_rad;
   }
 }
 
@@ -100,12 +99,12 @@ Masses weigh(const Params& params, const Lump& lump, const Posture& posture, flo
     masses.leg_flags |= solved.flags;
     const bool lost = (solved.flags & kinematics::kNotConverged) != 0;
     for (int k = 0; k < kLegJoints; ++k) {
-      angle_rad[k] = lost ? params.joint[leg.joint[k]].stand_rad : solved.angle_rad[k];
+      angle_rad[k] = lost ? model::joint_of(params, leg, k).stand_rad : solved.angle_rad[k];
     }
     const kinematics::LegChain chain =
         kinematics::leg_chain(params, leg, posture.body, solved.turn);
     for (int k = 0; k < kLegJoints; ++k, ++point_m) {
-      const JointParams& joint = params.joint[leg.joint[k]];
+      const JointParams& joint = model::joint_of(params, leg, k);
       *point_m = math::apply(chain.link[k], math::to_vec(joint.com_link_m));
       moment_kg_m += joint.mass_kg * *point_m;
       mass_kg += joint.mass_kg;

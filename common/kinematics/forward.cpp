@@ -1,6 +1,7 @@
 #include "common/kinematics/forward.hpp"
 
 #include "common/math/elementary.hpp"
+#include "common/model/leg.hpp"
 
 namespace verp::kinematics {
 namespace {
@@ -129,7 +130,7 @@ LegChain leg_chain(const Params& params, const LegParams& leg, const Pose& body,
   LegChain legs;
   const Pose* parent = &body;
   for (int k = 0; k < kLegJoints; ++k) {
-    chain(*parent, params.joint[leg.joint[k]], turn[k], legs.link[k]);
+    chain(*parent, model::joint_of(params, leg, k), turn[k], legs.link[k]);
     parent = &legs.link[k];
   }
   return legs;
@@ -154,7 +155,7 @@ Mat6 leg_jacobian(const Params& params, const LegParams& leg, const LegChain& ch
                   const Vec3& sole_m) {
   Mat6 jacobian;
   for (int k = 0; k < kLegJoints; ++k) {
-    const Vec3 axis = joint_axis(params.joint[leg.joint[k]], chain.link[k].rotation);
+    const Vec3 axis = joint_axis(model::joint_of(params, leg, k), chain.link[k].rotation);
     jacobian.col(k) << math::cross(axis, sole_m - chain.link[k].position_m), axis;
   }
   return jacobian;

@@ -1,4 +1,5 @@
 #include "common/kinematics/leg_ik.hpp"
+#include "common/model/leg.hpp"
 
 namespace verp::kinematics {
 namespace {
@@ -19,9 +20,21 @@ struct Residual {
   }
 };
 
-Residual residual_of(const Pose& wanted, const Pose& reached) {
-  return {wanted.position_m - reached.position_m,
-          math::rotation_vector(wanted.rotation * reached.rotation.transpose())};
+// Without hip yaw the sole turns about its vertical as the leg gives it, without ankle roll about
+// its length, as if the ground were the joint: that part of the error is free.
+struct Free {
+  std::uint8_t slot, axis;
+};
+constexpr Free kFree[] = {{0, 2}, {kLegJoints - 1, 0}};
+
+Residual residual_of(const LegParams& leg, const Pose& wanted, const Pose& reached) {
+  Vec3 turn = math::rotation_vector(wanted.rotation * reached.rotation.transpose());
+  for (const Free& free : kFree) {
+    const Vec3 from = reached.rotation.col(free.axis), to = wanted.rotation.col(free.axis);
+    if (!model::has(leg, free.slot) && from.dot(to) > 0.0F) turn = math::cross(from, to);
+  }
+  if (!model::has(leg, 0)) turn -= turn.dot(wanted.rotation.col(2)) * wanted.rotation.col(2);
+  return {wanted.position_m - reached.position_m, turn};
 }
 
 // J^T J + damping and J^T e with scaled angular rows. Written out, because Eigen may use a blocked
@@ -56,7 +69,7 @@ LegAngles solve_leg_newton(const Params& params, const LegParams& leg, const Pos
                            const float* previous_rad) {
   LegAngles result;
   for (int k = 0; k < kLegJoints; ++k) {
-    const JointParams& joint = params.joint[leg.joint[k]];
+    const JointParams& joint = model::joint_of(params, leg, k);
     result.angle_rad[k] = math::clamp(previous_rad[k], joint.lower_rad, joint.upper_rad);
     result.turn[k] = math::sincos(result.angle_rad[k]);
   }
@@ -67,15 +80,19 @@ LegAngles solve_leg_newton(const Params& params, const LegParams& leg, const Pos
   for (int i = 0; i <= kIterations; ++i) {
     const LegChain legs = leg_chain(params, leg, Pose{}, result.turn);
     const Pose reached = sole_pose(leg, legs);
-    const Residual residual = residual_of(sole, reached);
+    const Residual residual = residual_of(leg, sole, reached);
     if (residual.small()) return result;
     Vec6 step_rad;
-    if (i == kIterations ||
-        !newton_step(leg_jacobian(params, leg, legs, reached.position_m), residual, step_rad)) {
-      break;
+    if (i == kIterations) break;
+    Mat6 jacobian = leg_jacobian(params, leg, legs, reached.position_m);
+    for (const Free& free : kFree) {
+      if (!model::has(leg, free.slot))
+        jacobian.col(free.slot).tail<3>() = sole.rotation.col(free.axis);
     }
+    if (!newton_step(jacobian, residual, step_rad)) break;
     result.flags = 0;
     for (int k = 0; k < kLegJoints; ++k) {
+      if (!model::has(leg, k)) continue;
       const JointParams& joint = params.joint[leg.joint[k]];
       const float wanted_rad =
           result.angle_rad[k] + math::clamp(step_rad(k), -kMaxStepRad, kMaxStepRad);

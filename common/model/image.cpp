@@ -10,9 +10,12 @@ constexpr std::size_t kHeaderSize = sizeof(ImageHeader);
 // The gait reads the joints of a leg that has no solver, too. 0 is their default.
 bool well_formed_leg(const Params& params, const LegParams& leg) {
   if (leg.solver > LegSolver::kNewton) return false;
-  for (const std::uint8_t joint : leg.joint) {
+  for (int k = 0; k < kLegJoints; ++k) {
+    const std::uint8_t joint = leg.joint[k];
     const bool unset = leg.solver == LegSolver::kNone && joint == 0;
-    if (joint >= params.joint_count && !unset) return false;
+    const bool end = k == 0 || k == kLegJoints - 1;
+    const bool empty = leg.solver == LegSolver::kNewton && joint == kNoJoint && end;
+    if (joint >= params.joint_count && !unset && !empty) return false;
   }
   return true;
 }
@@ -98,8 +101,10 @@ bool is_well_formed(const Params& params) {
        {params.head_pan, params.head_tilt, params.arm[0], params.arm[1]}) {
     if (joint != 0xFF && joint >= params.servo_count()) return false;
   }
-  return well_formed_bus(params) && well_formed_leg(params, params.leg[0]) &&
-         well_formed_leg(params, params.leg[1]);
+  for (const LegParams& leg : params.leg) {
+    if (!well_formed_leg(params, leg)) return false;
+  }
+  return well_formed_bus(params);
 }
 
 }  // namespace verp

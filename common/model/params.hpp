@@ -15,6 +15,7 @@ namespace verp {
 
 inline constexpr int kMaxNodes = kMaxJoints + 1;  ///< node 0 is the body; joint j moves node j + 1
 inline constexpr int kLegJoints = 6;
+inline constexpr std::uint8_t kNoJoint = 0xFF;  ///< an empty slot of a leg (model/leg.hpp)
 inline constexpr int kNameLength = 24;
 
 /// A rotation about a named axis costs 12 operations, others 45.
@@ -55,13 +56,14 @@ VERP_PACKED(JointParams);
 
 enum class LegSolver : std::uint8_t { kNone = 0, kClosedForm = 1, kNewton = 2 };
 
-/// One six-joint leg. Closed form: canonical angles yaw(z) roll(x) pitch(y) knee(y) ankle pitch(y)
-/// ankle roll(x), all zero when the leg hangs straight down; joint angle = direction * (canonical -
-/// offset). The foot frame is the last link's, origin at the ankle centre. The closed form needs
-/// feet that stand flat at zero; Newton does not.
+/// One leg of six slots: yaw(z) roll(x) pitch(y) knee(y) ankle pitch(y) ankle roll(x). Closed form:
+/// these canonical angles are all zero when the leg hangs straight down; joint angle = direction *
+/// (canonical - offset). The foot frame is the last link's, origin at the ankle centre. The closed
+/// form needs six joints, and feet that stand flat at zero. Newton does not: its first and last
+/// slot may be empty, and its axes may be others.
 struct LegParams {
   LegSolver solver = LegSolver::kNone;
-  std::uint8_t joint[kLegJoints] = {};  ///< from hip to ankle
+  std::uint8_t joint[kLegJoints] = {};  ///< from hip to ankle, or kNoJoint
   std::uint8_t reserved = 0;
   float direction[kLegJoints] = {};  ///< +1 or -1
   float offset_rad[kLegJoints] = {};
