@@ -9,6 +9,7 @@
 #include "common/control/step.hpp"
 #include "common/kinematics/leg_ik.hpp"
 #include "common/model/counts.hpp"
+#include "common/model/leg.hpp"
 #include "host/apps/libverp/core_plan.hpp"
 #include "host/apps/libverp/failure.hpp"
 #include "host/apps/libverp/handles.hpp"
@@ -209,8 +210,8 @@ int verp_core_leg_ik(verp_core core, uint32_t side, const float* sole, const flo
     const verp::LegParams& leg = leg_of(*used, side);
     float start_rad[verp::kLegJoints];
     for (int k = 0; k < verp::kLegJoints; ++k) {
-      start_rad[k] =
-          before_rad != nullptr ? before_rad[k] : used->params.joint[leg.joint[k]].stand_rad;
+      start_rad[k] = before_rad != nullptr ? before_rad[k]
+                                           : verp::model::joint_of(used->params, leg, k).stand_rad;
     }
     const auto solved = verp::kinematics::solve_leg(used->params, leg, pose_from(sole), start_rad);
     std::copy_n(solved.angle_rad, verp::kLegJoints, angle_rad);

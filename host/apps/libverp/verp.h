@@ -445,7 +445,7 @@ int verp_core_com(verp_core core, const float* angle_rad, uint32_t joints, float
  * converged. */
 int verp_core_leg_ik(verp_core core, uint32_t side, const float* sole, const float* before_rad,
                      float* angle_rad, uint32_t* flags);
-/* Joint indices of those six angles. */
+/* Joint indices of those six angles; 255: the leg has no such joint, and its angle is 0. */
 int verp_core_leg_joints(verp_core core, uint32_t side, uint32_t* joint);
 
 /* One tick of a planned walk. Walk frame: the body's axes at the start, z up, the floor at 0; it

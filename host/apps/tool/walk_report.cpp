@@ -223,7 +223,9 @@ report::Run to_report(const WalkPlan& plan, const WalkOptions& options,
   for (std::size_t side = 0; side < 2; ++side) {
     const LegParams& leg = plan.params.leg[side];
     if (leg.solver == LegSolver::kNone) continue;
-    for (const std::uint8_t joint : leg.joint) run.leg_joints[side].push_back(joint);
+    for (const std::uint8_t joint : leg.joint) {
+      if (joint != kNoJoint) run.leg_joints[side].push_back(joint);
+    }
   }
   const StickFigure figure(plan.entity, plan.params);
   run.limbs = figure.limbs();

@@ -11,6 +11,7 @@
 #include "common/action/player.hpp"
 #include "common/kinematics/forward.hpp"
 #include "common/math/linear.hpp"
+#include "common/model/leg.hpp"
 #include "common/model/tree.hpp"
 #include "host/robot/model/self_collision.hpp"
 
@@ -70,7 +71,7 @@ std::array<Vec3, 4> corners(const LegParams& leg) {
 Pose Support::sole(const PlayerOut& now, int side) const {
   const LegParams& leg = params_.leg[side];
   float leg_rad[kLegJoints];
-  for (int k = 0; k < kLegJoints; ++k) leg_rad[k] = now.angle_rad[leg.joint[k]];
+  model::read_leg(leg, now.angle_rad, leg_rad);
   return kinematics::sole_pose(leg, kinematics::leg_chain(params_, leg, Pose{}, leg_rad));
 }
 
@@ -123,7 +124,7 @@ Torques Support::torques(const PlayerOut& now) const {
     }
     for (int foot = 0; foot < kFeet; ++foot) {
       const LegParams& leg = params_.leg[foot];
-      if (leg.solver == LegSolver::kNone || (beyond >> leg.joint[kLegJoints - 1] & 1U) == 0) {
+      if (leg.solver == LegSolver::kNone || (beyond >> model::last_joint(leg) & 1U) == 0) {
         continue;
       }
       // The ground pushes below the centre of mass if the foot carries alone, else at the sole's

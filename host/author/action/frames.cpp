@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/model/coupling.hpp"
+#include "common/model/leg.hpp"
 #include "common/model/tree.hpp"
 
 namespace verp::action {
@@ -137,7 +138,7 @@ std::uint32_t leg_joints(const Params& params) {
   std::uint32_t joints = 0;
   for (const LegParams& leg : params.leg) {
     if (leg.solver == LegSolver::kNone) continue;
-    for (const std::uint8_t joint : leg.joint) joints |= 1U << joint;
+    joints |= model::joints_of(leg);
   }
   return joints;
 }

@@ -4,6 +4,7 @@
 
 #include "common/gait/gait.hpp"
 #include "common/kinematics/leg_ik.hpp"
+#include "common/model/leg.hpp"
 
 namespace verp::action {
 namespace {
@@ -57,14 +58,15 @@ std::string Poser::solve(const Pose& body, const Pose* sole, Angles& angle_rad) 
   for (int side = 0; side < kFeet; ++side) {
     const LegParams& leg = params_.leg[side];
     float previous_rad[kLegJoints];
-    for (int k = 0; k < kLegJoints; ++k) previous_rad[k] = angle_rad[leg.joint[k]];
+    model::read_leg(leg, angle_rad.data(), previous_rad);
     const kinematics::LegAngles solved =
         kinematics::solve_leg(params_, leg, math::inverse(body) * sole[side], previous_rad);
-    for (int k = 0; k < kLegJoints; ++k) angle_rad[leg.joint[k]] = solved.angle_rad[k];
+    model::write_leg(leg, solved.angle_rad, angle_rad.data());
     if ((solved.flags & kinematics::kOutOfReach) != 0) {
       return fmt::format("the {} leg does not reach there", kSides[side]);
     }
     for (int k = 0; k < kLegJoints && solved.flags != 0; ++k) {
+      if (!model::has(leg, k)) continue;
       const JointParams& joint = params_.joint[leg.joint[k]];
       if (solved.angle_rad[k] > joint.lower_rad && solved.angle_rad[k] < joint.upper_rad) continue;
       return fmt::format("the {} leg does not come there: joint '{}' is at its limit", kSides[side],

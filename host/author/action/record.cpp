@@ -7,6 +7,7 @@
 #include "common/gait/gait.hpp"
 #include "common/kinematics/leg_ik.hpp"
 #include "common/model/counts.hpp"
+#include "common/model/leg.hpp"
 
 namespace verp::action {
 namespace {
@@ -26,10 +27,11 @@ void add_planned(const Params& params, const State& state, FrameText& frame) {
   for (int side = 0; side < kFeet; ++side) {
     const LegParams& leg = params.leg[side];
     float previous_rad[kLegJoints];
-    for (int k = 0; k < kLegJoints; ++k) previous_rad[k] = state.limit.goal_rad[leg.joint[k]];
+    model::read_leg(leg, state.limit.goal_rad, previous_rad);
     const kinematics::LegAngles legs =
         kinematics::solve_leg(params, leg, gait::sole_in_body(posture, side), previous_rad);
     for (int k = 0; k < kLegJoints; ++k) {
+      if (!model::has(leg, k)) continue;
       frame.goals.push_back(
           {params.joint[leg.joint[k]].name, false, static_cast<double>(legs.angle_rad[k]), 0});
     }

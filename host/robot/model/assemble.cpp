@@ -234,11 +234,12 @@ class Assembler {
   }
 
   void check_leg(const LimbFact& fact, Limb& limb, int foot) const {
-    if (limb.joints.size() != 6) {
+    if (!slots_of(e_, limb)) {
       fact.at.fail(
           fact.name + " has " + std::to_string(limb.joints.size()) +
-              " joints: a foot with all six freedoms needs 6",
-          "start the limb at the trunk and end it at the sole; legs of 5 joints are not supported");
+              " joints: a leg needs hip yaw, roll and pitch, knee, ankle pitch and roll",
+          "start the limb at the trunk and end it at the sole; only hip yaw and ankle roll may be "
+          "missing");
     }
     if (limb.tip.linear()(2, 2) < 0.7) {
       fact.at.fail("the z axis of '" + fact.tip + "' does not point up at the zero pose",

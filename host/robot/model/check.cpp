@@ -83,6 +83,23 @@ double stall_friction_n_m(const Servo& servo) {
   return g.f_base_n_m + g.f_strib_n_m + servo.stall_torque_n_m * (g.l_base + g.l_strib);
 }
 
+/// What follows for the user from joints that the legs lack.
+std::string lacks_text(const Limb& limb, const LegGeometry& g) {
+  const char* const count = limb.joints.size() == 4 ? "four" : "five";
+  std::string text;
+  if (g.joint[0] < 0) {
+    text += fmt::format("  legs of {} joints: no hip yaw, so it walks straight and cannot turn\n",
+                        count);
+  }
+  if (g.joint[5] < 0) {
+    text += fmt::format(
+        "  legs of {} joints: no ankle roll, so each sole rolls with its leg; hip "
+        "roll and steps balance it sideways\n",
+        count);
+  }
+  return text;
+}
+
 bool is_leg(const Limb& limb) {
   return limb.name == "left_leg" || limb.name == "right_leg";
 }
@@ -181,6 +198,10 @@ nlohmann::ordered_json limb_json(const Entity& entity, const Limb& limb) {
     out["joints"].push_back(entity.joints[static_cast<std::size_t>(j)].name);
   if (!is_leg(limb)) return out;
   const LegGeometry g = classify_leg(entity, limb);
+  out["lacks"] = nlohmann::ordered_json::array();
+  for (const auto& [slot, name] : {std::pair{0U, "hip yaw"}, {5U, "ankle roll"}}) {
+    if (g.joint[slot] < 0) out["lacks"].push_back(name);
+  }
   out["solver"] = g.closed_form ? "closed_form" : "newton";
   out["reason"] = g.reason;
   out["residual_mm"] = 1000 * g.residual_m;
@@ -249,6 +270,8 @@ std::string describe(const Entity& entity) {
   for (const Limb& limb : entity.limbs) {
     if (is_leg(limb)) text += leg_text(limb, classify_leg(entity, limb));
   }
+  const Limb* const leg = find_limb(entity, "left_leg");
+  if (leg) text += lacks_text(*leg, classify_leg(entity, *leg));
   text += joint_rows(entity);
   for (const std::string& line : describe_couplings(entity)) text += line + "\n";
   text += servo_type_rows(entity);

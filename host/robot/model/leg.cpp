@@ -16,6 +16,11 @@ double distance(const Line& line, const Vec3& point) {
   return (d - d.dot(line.axis) * line.axis).norm();
 }
 
+/// The line's point that is nearest to `point`.
+Vec3 foot_of(const Line& line, const Vec3& point) {
+  return line.point + line.axis.dot(point - line.point) * line.axis;
+}
+
 /// The point with the least squares of the distances to the lines.
 Vec3 meeting_point(const std::vector<Line>& lines) {
   Mat3 sum = Mat3::Zero();
@@ -90,14 +95,39 @@ std::vector<Vec3> node_origins(const Entity& entity) {
   return origins;
 }
 
+std::optional<std::array<int, 6>> slots_of(const Entity& entity, const Limb& leg) {
+  constexpr double kMostly = 0.7;
+  const std::vector<int>& joints = leg.joints;
+  const auto axis = [&](int j) { return entity.joints[static_cast<std::size_t>(j)].axis; };
+  std::array<int, 6> slots;
+  slots.fill(-1);
+  if (joints.size() == slots.size()) {
+    std::copy(joints.begin(), joints.end(), slots.begin());
+    return slots;
+  }
+  const bool yaws = std::any_of(joints.begin(), joints.end(),
+                                [&](int j) { return std::abs(axis(j).z()) > kMostly; });
+  const bool rolls = std::abs(axis(joints.back()).x()) > kMostly;
+  const std::size_t wanted = 4 + (yaws ? 1 : 0) + (rolls ? 1 : 0);
+  if (joints.size() != wanted || wanted == slots.size()) return std::nullopt;
+  std::copy(joints.begin(), joints.end(), slots.begin() + (yaws ? 0 : 1));
+  return slots;
+}
+
 LegGeometry classify_leg(const Entity& entity, const Limb& leg) {
   LegGeometry g;
+  g.joint = *slots_of(entity, leg);
   const std::vector<Vec3> origins = node_origins(entity);
   const std::array<Vec3, 6> wanted = {Vec3::UnitZ(), Vec3::UnitX(), Vec3::UnitY(),
                                       Vec3::UnitY(), Vec3::UnitY(), Vec3::UnitX()};
   std::array<Line, 6> line;
   for (std::size_t k = 0; k < 6; ++k) {
-    const auto j = static_cast<std::size_t>(leg.joints[k]);
+    if (g.joint[k] < 0) {
+      g.direction[k] = 1;
+      g.reason = k == 0 ? "it has no hip yaw" : "it has no ankle roll";
+      continue;
+    }
+    const auto j = static_cast<std::size_t>(g.joint[k]);
     line[k] = {origins[j + 1], entity.joints[j].axis};
     const double along = line[k].axis.dot(wanted[k]);
     g.direction[k] = along < 0 ? -1 : 1;
@@ -106,10 +136,11 @@ LegGeometry classify_leg(const Entity& entity, const Limb& leg) {
                  std::string(1, "zxyyyx"[k]) + " axis";
     }
   }
-  const std::vector<Line> hip = {line[0], line[1], line[2]};
-  const std::vector<Line> ankle = {line[4], line[5]};
+  const std::vector<Line> hip(line.begin() + (g.joint[0] < 0 ? 1 : 0), line.begin() + 3);
+  const std::vector<Line> ankle(line.begin() + 4, line.end() - (g.joint[5] < 0 ? 1 : 0));
   g.hip_m = meeting_point(hip);
-  g.ankle_m = meeting_point(ankle);
+  // Along a single axis, the ankle's centre is beside the hip.
+  g.ankle_m = ankle.size() > 1 ? meeting_point(ankle) : foot_of(ankle[0], g.hip_m);
   g.residual_m = std::max({largest_distance(hip, g.hip_m), largest_distance(ankle, g.ankle_m),
                            std::abs(g.hip_m.y() - g.ankle_m.y())});
   if (g.reason.empty() && g.residual_m > kAxesMeet) g.reason = "the hip or ankle axes do not meet";

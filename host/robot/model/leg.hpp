@@ -1,14 +1,17 @@
 #pragma once
+#include <array>
+#include <optional>
 #include <string>
 
 #include "host/robot/model/entity.hpp"
 
 namespace verp::model {
 
-/// Solver of a six-joint leg. Closed form needs yaw, roll, pitch, pitch, pitch, roll along the
+/// Joints and solver of a leg. Closed form needs yaw, roll, pitch, pitch, pitch, roll along the
 /// body's axes at the zero pose; hip axes and ankle axes each meet in a point, without lateral
 /// offset between the points. Other legs use Newton.
 struct LegGeometry {
+  std::array<int, 6> joint{};  ///< by LegParams' slots; -1: the leg has none there
   bool closed_form = false;
   std::string reason;  ///< reason against closed form; empty: closed form
   double residual_m =
@@ -26,7 +29,10 @@ inline constexpr double kAxesMeet = 0.0005;
 /// nullptr: no such limb.
 const Limb* find_limb(const Entity& entity, const std::string& name);
 
-/// `leg` has six joints (the loader checks).
+/// nullopt: the leg lacks another joint than hip yaw and ankle roll, or has too many.
+std::optional<std::array<int, 6>> slots_of(const Entity& entity, const Limb& leg);
+
+/// `leg` has slots (the loader checks).
 LegGeometry classify_leg(const Entity& entity, const Limb& leg);
 
 /// Origins of the nodes' frames, in the body frame at the zero pose.

@@ -105,7 +105,7 @@ LegParams leg_params(const Entity& entity, const Limb& limb) {
   LegParams leg;
   leg.solver = g.closed_form ? LegSolver::kClosedForm : LegSolver::kNewton;
   for (std::size_t k = 0; k < kLegJoints; ++k) {
-    leg.joint[k] = static_cast<std::uint8_t>(limb.joints[k]);
+    leg.joint[k] = static_cast<std::uint8_t>(g.joint[k]);  // -1: kNoJoint
     leg.direction[k] = static_cast<float>(g.direction[k]);
     leg.offset_rad[k] = static_cast<float>(g.offset_rad[k]);
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/kinematics/leg_ik.hpp"
+#include "common/model/leg.hpp"
 #include "common/model/tuning_ranges.hpp"
 #include "host/robot/model/leg.hpp"
 #include "host/robot/model/load_error.hpp"
@@ -83,7 +84,7 @@ class Settler {
     check_sides();
     check_lengths();
     fill_gait();
-    fill_pose("stand", hip_height());
+    fill_stand();
     fill_pose("sit", 0.45 * leg_m_);
     check_pose();
     check_stand();
@@ -151,9 +152,22 @@ class Settler {
 
   double half_stance() const {
     const Limb& leg = *leg_[0];
-    const double hip_m = classify_leg(e_, leg).hip_m.y();
-    const double beside_m = hip_m + leg.tip.translation().y() - kFeetInside * leg_m_;
+    const LegGeometry g = classify_leg(e_, leg);
+    const double foot_m = node_origins(e_)[static_cast<std::size_t>(leg.joints.back()) + 1].y();
+    // Without ankle roll, a sole is level only where it is at the zero pose.
+    const double ankle_m = g.joint[5] < 0 ? foot_m : g.hip_m.y() - kFeetInside * leg_m_;
+    const double beside_m = ankle_m + leg.tip.translation().y();
     return std::max(beside_m, kSolesApart_m / 2 - leg.sole_min_m.y());
+  }
+
+  bool lacks(std::size_t slot) const { return classify_leg(e_, *leg_[0]).joint[slot] < 0; }
+
+  /// From the sole's middle to near its inner edge. There the body sways least, so that soles which
+  /// roll with their legs stay flat.
+  double inward_m() const {
+    const Limb& leg = *leg_[0];
+    const double half_m = (leg.sole_max_m.y() - leg.sole_min_m.y()) / 2;
+    return std::max(half_m - static_cast<double>(GaitTuning{}.support_margin_m), 0.0);
   }
 
   void fill_gait() {
@@ -166,6 +180,8 @@ class Settler {
     }
     put("gait.hip_height_m", hip_height(), poses_leg("stand") ? "standing pose" : "legs");
     put("gait.half_stance_m", half_stance(), "hips and soles");
+    if (lacks(0)) put("gait.max_turn_rad", 0, "legs without hip yaw");
+    if (lacks(5)) put("gait.zmp_y_m", -inward_m(), "legs without ankle roll");
     for (const auto& [name, value] : {std::pair{"gait.lift_m", usual.gait.lift_m},
                                       {"gait.touchdown_m", usual.gait.touchdown_m}}) {
       put(name, longer * static_cast<double>(value), "legs");
@@ -218,7 +234,8 @@ class Settler {
         solved = kinematics::solve_leg(params, leg, sole, start_rad);
         std::copy_n(solved.angle_rad, kLegJoints, start_rad);
       }
-      if (solved.flags != 0 || !bends_forward(params, side, solved.angle_rad)) continue;
+      if (solved.flags != 0 || bends_forward(params, side, solved.angle_rad) != knees_ahead_)
+        continue;
       std::copy_n(solved.angle_rad, kLegJoints, angle_rad);
       return true;
     }
@@ -231,12 +248,29 @@ class Settler {
     const double stand_m = hip_height();
     for (int step = 0; step <= 20; ++step) {
       if (put_pose(pose, height_m + step * (stand_m - height_m) / 20)) {
-        e_.defaults.push_back(fmt::format("the legs of pose {}, from their lengths", pose));
+        e_.defaults.push_back(fmt::format("the legs of pose {}, from their lengths{}", pose,
+                                          knees_ahead_ ? "" : "; their knees bend back"));
         return;
       }
       if (height_m == stand_m) break;
     }
     refuse_height(stand_m);
+  }
+
+  /// Knees ahead, as a person's, unless the limits allow only a bird's.
+  void fill_stand() {
+    const double height_m = hip_height();
+    if (poses_leg("stand")) {
+      float angle_rad[kLegJoints];
+      const Params params = make_params(e_);
+      for (int k = 0; k < kLegJoints; ++k)
+        angle_rad[k] = joint_of(params, params.leg[0], k).stand_rad;
+      knees_ahead_ = bends_forward(params, 0, angle_rad);
+      return;
+    }
+    knees_ahead_ = put_pose("stand", height_m);
+    if (!knees_ahead_ && !put_pose("stand", height_m)) knees_ahead_ = true;  // refused below
+    fill_pose("stand", height_m);
   }
 
   bool put_pose(const std::string& pose, double height_m) {
@@ -247,6 +281,7 @@ class Settler {
     }
     for (const int side : {0, 1}) {
       for (int k = 0; k < kLegJoints; ++k) {
+        if (!has(params.leg[side], k)) continue;
         Joint& joint = e_.joints[params.leg[side].joint[k]];
         (pose == "stand" ? joint.stand_rad : joint.sit_rad) =
             static_cast<double>(angle_rad[side][k]);
@@ -296,7 +331,7 @@ class Settler {
   void check_knees() const {
     for (const int side : {0, 1}) {
       const Limb& leg = *leg_[static_cast<std::size_t>(side)];
-      const Joint& knee = e_.joints[static_cast<std::size_t>(leg.joints[3])];
+      const Joint& knee = e_.joints[static_cast<std::size_t>(classify_leg(e_, leg).joint[3])];
       const Stand stand = stand_of(e_, leg);
       if (stand.knee_n_m <= knee.servo.stall_torque_n_m) continue;
       for (const ServoFact& servo : f_.bus().servos) {
@@ -314,6 +349,7 @@ class Settler {
   Entity& e_;
   std::array<const Limb*, 2> leg_{};
   double leg_m_ = 0;
+  bool knees_ahead_ = true;
 };
 
 }  // namespace
@@ -323,7 +359,7 @@ bool can_stand(const Params& params) {
   for (const int side : {0, 1}) {
     const LegParams& leg = params.leg[side];
     float angle_rad[kLegJoints];
-    for (int k = 0; k < kLegJoints; ++k) angle_rad[k] = params.joint[leg.joint[k]].stand_rad;
+    for (int k = 0; k < kLegJoints; ++k) angle_rad[k] = joint_of(params, leg, k).stand_rad;
     const auto solved =
         kinematics::solve_leg(params, leg, sole_at(params, side, height_m), angle_rad);
     if ((solved.flags & ~kinematics::kJointLimited) != 0) return false;
@@ -338,7 +374,8 @@ void settle_stance(const Facts& facts, Entity& entity) {
 Stand stand_of(const Entity& entity, const Limb& leg) {
   const std::vector<Transform> links = standing_links(entity, leg);
   const LegGeometry g = classify_leg(entity, leg);
-  const Vec3 ankle = links[4].translation(), knee = links[3].translation();
+  const std::size_t first = g.joint[0] < 0 ? 1 : 0;
+  const Vec3 ankle = links[4 - first].translation(), knee = links[3 - first].translation();
   Stand stand;
   stand.hip_height_m = g.hip_m.z() - ankle.z();
   // On one leg the weight acts at worst halfway from ankle to hip.

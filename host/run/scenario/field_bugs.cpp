@@ -25,6 +25,11 @@ JointParams& knee(Params& params, int foot = 0) {
 model::Joint& knee(WalkPlan& plan) {
   return plan.entity.joints[plan.params.leg[0].joint[kKnee]];
 }
+std::uint8_t ankle_roll(const Params& params) {
+  const std::uint8_t joint = params.leg[0].joint[kAnkleRoll];
+  if (joint == kNoJoint) throw ScenarioError("fault", "the robot has no ankle roll");
+  return joint;
+}
 model::ImuSensor& imu(WalkPlan& plan) {
   if (!plan.entity.imu) throw ScenarioError("fault", "the robot has no IMU");
   return *plan.entity.imu;
@@ -146,8 +151,9 @@ const FieldBug kBugs[] = {
      by("bus: the left leg's servos are silent",
         [](WalkPlan& p) {
           std::vector<std::uint8_t> ids;
-          for (const std::uint8_t j : p.params.leg[0].joint)
-            ids.push_back(p.params.joint[j].servo_id);
+          for (const std::uint8_t j : p.params.leg[0].joint) {
+            if (j != kNoJoint) ids.push_back(p.params.joint[j].servo_id);
+          }
           unplug(p, ids);
         })},
     {"usb_unplugged", kBus, "The USB adapter disconnects during the walk", "NUbots/NUbots#17",
@@ -220,8 +226,8 @@ const FieldBug kBugs[] = {
      by("robot: the left ankle's servos have each other's id",
         [](WalkPlan& p) {
           rewire(p, [](Params& d) {
-            const std::uint8_t* leg = d.leg[0].joint;
-            std::swap(d.joint[leg[kAnklePitch]].servo_id, d.joint[leg[kAnkleRoll]].servo_id);
+            std::swap(d.joint[d.leg[0].joint[kAnklePitch]].servo_id,
+                      d.joint[ankle_roll(d)].servo_id);
           });
         })},
     {"horn_15_degrees", kServo, "A horn was mounted teeth off", "mike4192/spotMicro#8", kTable,
@@ -231,9 +237,7 @@ const FieldBug kBugs[] = {
     {"horn_7_degrees", kServo, "A horn was mounted one tooth off", "mike4192/spotMicro#43", kNobody,
      "the servo's own angle is right, and the soles yield: it walks on, a little askew",
      by("robot: an ankle roll's zero is 7 degrees off",
-        [](WalkPlan& p) {
-          p.entity.joints[p.params.leg[0].joint[kAnkleRoll]].servo.offset_count += 80;
-        })},
+        [](WalkPlan& p) { p.entity.joints[ankle_roll(p.params)].servo.offset_count += 80; })},
     // IMU
     {"imu_5_degrees", kImu, "The IMU is askew on its bracket", "NASA-JSC-Robotics/valkyrie#37",
      kTwin, "askew",

@@ -3,6 +3,7 @@
 #include <sstream>
 #include <utility>
 
+#include "common/model/leg.hpp"
 #include "host/os/files/whole.hpp"
 #include "host/robot/model/load.hpp"
 #include "host/robot/model/params.hpp"
@@ -14,7 +15,7 @@ namespace {
 
 std::string filled(std::string text, const model::Entity& entity) {
   const Params params = model::make_params(entity);
-  const int knee = params.leg[0].joint[3], foot = params.leg[0].joint[5] + 1;
+  const int knee = params.leg[0].joint[3], foot = verp::model::last_joint(params.leg[0]) + 1;
   const auto node = [&](int index) { return entity.nodes[static_cast<std::size_t>(index)].name; };
   const std::pair<std::string, std::string> all[] = {{"{trunk}", node(0)},
                                                      {"{knee}", params.joint[knee].name},

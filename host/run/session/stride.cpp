@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/gait/gait.hpp"
+#include "common/model/leg.hpp"
 
 namespace verp::session {
 namespace {
@@ -48,6 +49,7 @@ class Plan {
       const auto solved =
           kinematics::solve_leg(params_, leg, gait::sole_in_body(out.posture, side), last_rad);
       for (int k = 0; k < kLegJoints; ++k) {
+        if (!model::has(leg, k)) continue;
         const JointParams& joint = params_.joint[leg.joint[k]];
         const double speed_rad_s =
             std::abs(static_cast<double>(solved.angle_rad[k] - last_rad[k])) / period_s();

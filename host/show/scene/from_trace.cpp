@@ -39,7 +39,9 @@ void add_leg(Entity& entity, const LegParams& leg, const char* name) {
   if (leg.solver == LegSolver::kNone) return;
   model::Limb limb;
   limb.name = name;
-  for (const std::uint8_t joint : leg.joint) limb.joints.push_back(joint);
+  for (const std::uint8_t joint : leg.joint) {
+    if (joint != kNoJoint) limb.joints.push_back(joint);
+  }
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
       limb.tip.linear()(row, column) = static_cast<double>(leg.sole_foot[3 * row + column]);

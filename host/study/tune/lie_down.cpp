@@ -40,7 +40,7 @@ class Writer {
       slower_ = std::sqrt((g.thigh_m + g.shank_m) / kTheirLeg_m);
       for (const std::size_t k : {2U, 3U, 4U}) {  // hip, knee, ankle
         const int sign = k == 3 ? g.direction[k] : -g.direction[k];
-        turns_.push_back({leg.joints[k], k - 1, sign, -g.direction[k] * g.offset_rad[k]});
+        turns_.push_back({g.joint[k], k - 1, sign, -g.direction[k] * g.offset_rad[k]});
       }
     }
     add_arms();

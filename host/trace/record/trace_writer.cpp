@@ -7,6 +7,7 @@
 #include <cstring>
 #include <string>
 
+#include "common/model/leg.hpp"
 #include "common/model/params.hpp"
 #include "host/trace/record/fields.hpp"
 #include "host/trace/record/ros_sensors.hpp"
@@ -60,7 +61,7 @@ std::string link(const Params& params, int node) {
     if (params.joint[j].parent == node) out += stick(params.joint[j].origin_parent_m);
   }
   for (const LegParams& leg : params.leg) {
-    if (leg.solver != LegSolver::kNone && leg.joint[kLegJoints - 1] == node - 1)
+    if (leg.solver != LegSolver::kNone && model::last_joint(leg) == node - 1)
       out += stick(leg.sole_foot_m);
   }
   return out + "</link>\n";

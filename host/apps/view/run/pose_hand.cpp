@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/model/leg.hpp"
 #include "host/show/scene/build.hpp"
 #include "host/twin/sim/body.hpp"
 
@@ -28,6 +29,12 @@ void PoseHand::stand() {
   link_reach_.clear();
 }
 
+void PoseHand::read_leg(const LegParams& leg, float* leg_rad) const {
+  for (int i = 0; i < kLegJoints; ++i) {
+    leg_rad[i] = verp::model::has(leg, i) ? static_cast<float>(joint_rad_[leg.joint[i]]) : 0.0F;
+  }
+}
+
 bool PoseHand::has_leg(int side) const {
   return params_.leg[side].solver != LegSolver::kNone;
 }
@@ -35,9 +42,7 @@ bool PoseHand::has_leg(int side) const {
 kinematics::LegChain PoseHand::chain(int side) const {
   const LegParams& leg = params_.leg[side];
   float angle_rad[kLegJoints];
-  for (int i = 0; i < kLegJoints; ++i) {
-    angle_rad[i] = static_cast<float>(joint_rad_[leg.joint[i]]);
-  }
+  read_leg(leg, angle_rad);
   return kinematics::leg_chain(params_, leg, math::Pose(), angle_rad);
 }
 
@@ -51,12 +56,11 @@ void PoseHand::move_foot(int side, const scene::Vec3& sole_body_m) {
   math::Pose wanted = kinematics::sole_pose(leg, chain(side));
   wanted.position_m = sole_body_m.cast<float>();
   float previous_rad[kLegJoints];
-  for (int i = 0; i < kLegJoints; ++i) {
-    previous_rad[i] = static_cast<float>(joint_rad_[leg.joint[i]]);
-  }
+  read_leg(leg, previous_rad);
   const kinematics::LegAngles found = kinematics::solve_leg(params_, leg, wanted, previous_rad);
   flags_[static_cast<std::size_t>(side)] = found.flags;
   for (int i = 0; i < kLegJoints; ++i) {
+    if (!verp::model::has(leg, i)) continue;
     set_joint(leg.joint[i], static_cast<double>(found.angle_rad[i]));
   }
 }
@@ -137,7 +141,7 @@ int PoseHand::foot_of(int node) const {
     const LegParams& leg = params_.leg[side];
     if (!has_leg(side)) continue;
     for (int i = kLegJoints - 2; i < kLegJoints; ++i) {
-      if (node == leg.joint[i] + 1) return side;
+      if (verp::model::has(leg, i) && node == leg.joint[i] + 1) return side;
     }
   }
   return -1;

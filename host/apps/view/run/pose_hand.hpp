@@ -39,6 +39,7 @@ class PoseHand {
   static constexpr double kAir_m = 0.1;  ///< lowest sole above the floor
 
  private:
+  void read_leg(const LegParams& leg, float* leg_rad) const;
   kinematics::LegChain chain(int side) const;
   /// Joints between the body and that link that have their own motors.
   std::vector<std::size_t> joints_to(int node) const;

@@ -127,7 +127,7 @@ class Core(Handle):
         return com_m
 
     def leg_joints(self, side: int) -> list[int]:
-        """The joints of a leg, hip to ankle, as they count in joint_names."""
+        """The joints of a leg, hip to ankle, as they count in joint_names; 255: it has no such joint."""
         joint = ffi.new(f"uint32_t[{lib.VERP_LEG_JOINTS}]")
         calls.core_leg_joints(self._core, side, joint)
         return list(joint)
