@@ -91,14 +91,23 @@ class Importer {
   /// Joints beyond the sixth, such as toes, are fixed.
   void shorten_legs() {
     for (FoundLimb& leg : body_.legs) {
-      if (leg.bones.size() < kLegJointCount) {
-        robot_.fail(fmt::format("its legs have {} joints, from '{}' to '{}'", leg.bones.size(),
-                                link(body_.trunk).name, link(leg.tip).name),
-                    "VERP walks on legs of six joints");
-      }
-      leg.bones.resize(kLegJointCount);
+      if (leg.bones.size() > kLegJointCount) leg.bones.resize(kLegJointCount);
       leg.tip = bone(leg.bones.back()).child;
+      if (joints_of_leg(s_, body_, leg).complete) continue;
+      robot_.fail(
+          fmt::format("its legs have {} joints, from '{}' to '{}', and lack others than hip yaw "
+                      "and ankle roll",
+                      leg.bones.size(), link(body_.trunk).name, link(leg.tip).name),
+          "VERP walks on legs of hip yaw, roll and pitch, knee, ankle pitch and roll: only the "
+          "first and the last may be missing");
     }
+  }
+
+  std::string lacks() const {
+    const LegJoints joints = joints_of_leg(s_, body_, body_.legs.front());
+    return joints.yaws    ? joints.rolls ? "" : "no ankle roll"
+           : joints.rolls ? "no hip yaw"
+                          : "no hip yaw and no ankle roll";
   }
 
   bool keeps(int index) const {
@@ -177,7 +186,8 @@ class Importer {
   double leg_m() const {
     const FoundLimb& leg = body_.legs.front();
     double sum = 0;
-    for (std::size_t i = 2; i + 2 < leg.bones.size(); ++i) {
+    const std::size_t first = joints_of_leg(s_, body_, leg).hip_pitch;
+    for (std::size_t i = first; i < first + 2; ++i) {
       sum += (bone(leg.bones[i + 1]).pose.translation() - bone(leg.bones[i]).pose.translation())
                  .norm();
     }
@@ -353,6 +363,10 @@ class Importer {
           body_.sure_of_forward ? "" : "does the robot look that way?");
     for (const auto* limbs : {&body_.legs, &body_.others}) {
       for (const FoundLimb& limb : *limbs) found(Sureness::kMeasured, limb.name, joints_of(limb));
+    }
+    if (!lacks().empty()) {
+      found(Sureness::kMeasured, "legs", "of fewer than six joints: " + lacks(),
+            "is the missing joint fixed in the file?");
     }
     for (std::size_t side = 0; side < w_.soles.size(); ++side) {
       const Sole& sole = w_.soles[side];

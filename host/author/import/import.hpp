@@ -22,7 +22,8 @@ struct Imported {
   std::string refusal;                ///< why the twin does not load it; empty: it loads
 };
 
-/// Throws LoadError where the file cannot be understood, or has no two legs of six joints.
+/// Throws LoadError where the file cannot be understood, or has no two legs of six joints, or of
+/// these without hip yaw or ankle roll.
 Imported import_robot(const Wish& wish);
 
 /// import.md.

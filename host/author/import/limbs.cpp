@@ -54,7 +54,7 @@ class Finder {
     }
     if (foot >= 0) return foot;
     at_.fail("no leg is found: no chain of four or more turning joints",
-             "legs need four joints or more; VERP walks on two legs of six");
+             "legs need four joints or more; VERP walks on two legs of four to six");
   }
 
   double height(int tip) const { return link(tip).pose.translation().z(); }
@@ -218,6 +218,22 @@ void Body::turn_round() {
     }
   }
   std::swap(legs[0], legs[1]);
+}
+
+LegJoints joints_of_leg(const Skeleton& skeleton, const Body& body, const FoundLimb& leg) {
+  constexpr double kMostly = 0.7;
+  const auto along = [&](int bone, const Vec3& axis) {
+    return std::abs(skeleton.bones[static_cast<std::size_t>(bone)].axis.dot(axis)) > kMostly;
+  };
+  LegJoints joints{true, true, leg.bones.size() == 6};
+  if (joints.complete) return joints;
+  joints.yaws = std::any_of(leg.bones.begin(), leg.bones.end(),
+                            [&](int each) { return along(each, Vec3::UnitZ()); });
+  joints.rolls = along(leg.bones.back(), body.forward);
+  const std::size_t count = 4U + (joints.yaws ? 1 : 0) + (joints.rolls ? 1 : 0);
+  joints.complete = leg.bones.size() == count && count < 6;
+  joints.hip_pitch = joints.yaws ? 2 : 1;
+  return joints;
 }
 
 Body find_body(const Skeleton& skeleton, const model::XmlElement& at) {

@@ -28,4 +28,12 @@ struct Body {
 /// Throws LoadError where no two legs are found.
 Body find_body(const Skeleton& skeleton, const model::XmlElement& at);
 
+/// Joints of a leg by axes, as model::slots_of() takes them.
+struct LegJoints {
+  bool yaws = false, rolls = false;  ///< at the hip; at the ankle
+  bool complete = false;             ///< all the others, and no more
+  std::size_t hip_pitch = 2;         ///< its bone's index
+};
+LegJoints joints_of_leg(const Skeleton& skeleton, const Body& body, const FoundLimb& leg);
+
 }  // namespace verp::import

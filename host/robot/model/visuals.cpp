@@ -48,7 +48,9 @@ void read_material(const sdf::Material& material, const PictureFiles& files, Vis
 
 std::string PictureFiles::find(const std::string& uri) const {
   const std::size_t scheme = uri.find("://");
-  const std::string path = scheme == uri.npos ? uri : uri.substr(scheme + 3);
+  std::string path = scheme == uri.npos ? uri : uri.substr(scheme + 3);
+  // onshape-to-robot writes package:///foot.stl, which libsdformat calls model:///foot.stl.
+  if (scheme != uri.npos && !uri.starts_with("file:")) path.erase(0, path.find_first_not_of('/'));
   for (const std::string& file : from_) {
     if (const std::string found = resolve_model_uri(uri, file); !found.empty()) return found;
     std::error_code error;

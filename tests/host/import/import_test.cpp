@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 
+#include "common/model/image.hpp"
 #include "host/os/files/temporary_directory.hpp"
 #include "host/os/files/whole.hpp"
 #include "host/robot/model/leg.hpp"
@@ -21,12 +22,14 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Habits {
-  double yaw_rad = 0;            ///< of the whole robot in its file
-  int leg_joints = 6;            ///< 7: with toes
+  double yaw_rad = 0;  ///< of the whole robot in its file
+  int leg_joints = 6;  ///< 5: without ankle roll; 7: with toes
+  bool has_hip_yaw = true;
   double knee_lower_rad = 0;     ///< to 2.4
   double sole_ahead_m = 0.01;    ///< middle of the sole, from the ankle
   double moments_times = 1;      ///< a unit beside kg m2
   bool feet_are_meshes = false;  ///< which nobody has
+  std::string meshes = "package://nowhere";
   bool has_wide_ankles = false;  ///< a block on each sole, wider than that
   bool has_no_stops = false;     ///< continuous joints
   bool has_right_leg = true;
@@ -63,11 +66,12 @@ class Maker {
     std::string above = "p1";
     for (int k = 0; k < h_.leg_joints; ++k) {
       const std::string below = fmt::format("{}_{}", side > 0 ? "p4" : "p5", k);
-      joint(above, below, "revolute", places[k], axes[k], 0, k == 3 ? h_.knee_lower_rad : -1.6,
+      const char* const type = k > 0 || h_.has_hip_yaw ? "revolute" : "fixed";
+      joint(above, below, type, places[k], axes[k], 0, k == 3 ? h_.knee_lower_rad : -1.6,
             k == 3 ? 2.4 : 1.6);
       const bool foot = k == std::min(h_.leg_joints, 6) - 1;
       const std::string shape = h_.feet_are_meshes
-                                    ? "<mesh filename=\"package://nowhere/foot.stl\"/>"
+                                    ? "<mesh filename=\"" + h_.meshes + "/foot.stl\"/>"
                                     : "<box size=\"0.1 0.06 0.01\"/>";
       link(below, foot ? h_.foot_kg : 0.1, foot ? shape : "",
            {foot ? h_.sole_ahead_m : 0.0, 0, foot ? -0.025 : 0.0});
@@ -232,6 +236,34 @@ TEST_F(ImportedFile, ToesAreFixedAndSaid) {
   EXPECT_EQ(model::find_limb(loaded(robot), "left_leg")->joints.size(), 6U);
 }
 
+TEST_F(ImportedFile, MeshesOfNoPackageLieBesideTheFile) {
+  std::ofstream(folder_.path() / "foot.stl")
+      << "solid foot\nfacet normal 0 0 -1\nouter loop\nvertex -0.04 -0.03 -0.01\n"
+         "vertex 0.06 -0.03 -0.01\nvertex 0.06 0.03 -0.01\nendloop\nendfacet\nendsolid foot\n";
+  const Imported robot = import({.feet_are_meshes = true, .meshes = "package://"});
+  EXPECT_EQ(finding(robot, "left sole").value, "100 by 60 mm under p4_5");
+}
+
+TEST_F(ImportedFile, LegsWithoutHipYawOrAnkleRollAreTakenAndSaid) {
+  const std::tuple<Habits, std::size_t, std::string> all[] = {
+      {{.leg_joints = 5}, 5, "no ankle roll"},
+      {{.yaw_rad = 1.5708, .leg_joints = 5}, 5, "no ankle roll"},
+      {{.has_hip_yaw = false}, 5, "no hip yaw"},
+      {{.leg_joints = 5, .has_hip_yaw = false}, 4, "no hip yaw and no ankle roll"}};
+  for (const auto& [habits, joints, lacks] : all) {
+    const Imported robot = import(habits);
+    EXPECT_EQ(finding(robot, "legs").value, "of fewer than six joints: " + lacks);
+    EXPECT_EQ(finding(robot, "left sole").sureness, Finding::Sureness::kMeasured);
+    const model::Entity entity = loaded(robot);
+    const Params params = model::make_params(entity);
+    EXPECT_TRUE(is_well_formed(params));
+    for (const char* leg : {"left_leg", "right_leg"})
+      EXPECT_EQ(model::find_limb(entity, leg)->joints.size(), joints) << lacks;
+    EXPECT_NEAR(params.leg[0].thigh_m, 0.093F, 1e-4F) << lacks;
+    EXPECT_NEAR(params.leg[0].shank_m, 0.093F, 1e-4F) << lacks;
+  }
+}
+
 TEST_F(ImportedFile, MomentsInAnotherUnitBecomeThoseOfTheSameRobot) {
   const model::Entity robot = loaded(import({}));
   for (const double times : {1e3, 1e6}) {
@@ -304,10 +336,12 @@ TEST_F(ImportedFile, ImuOutsideTheTrunkIsNotTheRobots) {
   expect_a_biped(loaded(robot));
 }
 
-TEST_F(ImportedFile, WhatHasNoTwoLegsOfSixJointsIsRefused) {
-  for (const auto& [habits, said] : {std::pair{Habits{.leg_joints = 5}, "its legs have 5 joints"},
-                                     {Habits{.leg_joints = 3}, "no leg is found"},
-                                     {Habits{.has_right_leg = false}, "only one leg is found"}}) {
+TEST_F(ImportedFile, WhatHasNoTwoLegsToWalkOnIsRefused) {
+  for (const auto& [habits, said] :
+       {std::pair{Habits{.leg_joints = 4, .has_hip_yaw = false}, "no leg is found"},
+        {Habits{.leg_joints = 4}, "its legs have 4 joints"},
+        {Habits{.leg_joints = 3}, "no leg is found"},
+        {Habits{.has_right_leg = false}, "only one leg is found"}}) {
     try {
       import(habits);
       ADD_FAILURE() << said;
