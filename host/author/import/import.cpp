@@ -14,6 +14,7 @@
 #include "host/author/import/servos.hpp"
 #include "host/robot/model/find.hpp"
 #include "host/robot/model/load.hpp"
+#include "host/robot/model/supply.hpp"
 
 namespace verp::import {
 namespace {
@@ -26,7 +27,6 @@ constexpr double kMostServo_rad = 3.14;  // a single turn, with room for the enc
 constexpr double kGravity_m_s2 = 9.80665;
 // The knee's arm on one leg with the hip at 0.81 of the leg, over the leg's length (stance.cpp).
 constexpr double kKneeArm = 0.295;
-constexpr double kTorqueReserve = 2;  // walking over standing
 // Shares of the robot's size: a link's radius of gyration.
 constexpr double kMostGyration = 0.3, kUsualGyration = 0.05;
 // Share of the sole's length: its middle ahead of the ankle shows the direction.
@@ -57,6 +57,7 @@ class Importer {
         fs::relative(fs::weakly_canonical(wish_.file), fs::weakly_canonical(wish_.folder)).string();
     choose_servos();
     choose_types();
+    choose_friction();
     mend_inertias();
     place_body();
     measure();
@@ -65,7 +66,7 @@ class Importer {
     say_what_was_found();
     out_.sdf = text_of(w_, s_, body_);
     try {
-      model::load_robot_text(place(), out_.sdf);
+      name_estimates(model::load_robot_text(place(), out_.sdf));
     } catch (const model::LoadError& error) {
       out_.refusal = error.what();
     }
@@ -198,12 +199,38 @@ class Importer {
     const double needed_n_m = kTorqueReserve * kKneeArm * s_.mass_kg() * kGravity_m_s2 * leg_m();
     std::vector<ServoJoint> joints;
     for (const ServoRow& row : w_.servos)
-      joints.push_back({bone(row.bone).name, bone(row.bone).drive});
+      joints.push_back({bone(row.bone).name, bone(row.bone).drive, bone(row.bone).limit});
     ServoChoice choice = choose_servo_types(joints, wish_.servo_type, needed_n_m);
     w_.protocol = choice.protocol;
     w_.own_types = std::move(choice.own_types);
     for (std::size_t i = 0; i < joints.size(); ++i) w_.servos[i].type = choice.types[i];
     for (Finding& each : choice.findings) out_.findings.push_back(std::move(each));
+  }
+
+  /// The friction of servos is measured or scaled; many files have any number, for simulators that
+  /// need one.
+  void choose_friction() {
+    w_.drops_friction = std::any_of(w_.servos.begin(), w_.servos.end(), [&](const ServoRow& row) {
+      return bone(row.bone).has_friction;
+    });
+    if (!w_.drops_friction) return;
+    found(Sureness::kGuessed, "friction", "that of the servos, not the file's <dynamics>",
+          "<verp:friction from=\"file\"/> takes the file's, \"both\" their sum");
+  }
+
+  void name_estimates(const model::Entity& robot) {
+    std::map<std::string, std::string> estimates;
+    for (const model::Joint& joint : robot.joints) {
+      if (!joint.servo.estimated.empty()) estimates[joint.servo.type] = joint.servo.estimated;
+    }
+    for (const auto& [type, what] : estimates) {
+      found(Sureness::kGuessed, type, what + ": scaled by torque and speed",
+            "write its own numbers into <verp:servo_type>");
+    }
+    found(Sureness::kGuessed, "supply",
+          fmt::format("{:.4g} V, {:.2g} ohm", model::supply_volts(robot),
+                      model::supply_resistance_ohm(robot)),
+          "write the battery's into <verp:supply volts resistance_ohm>");
   }
 
   Vec3 middle_of(const std::vector<const FoundLimb*>& limbs) const {

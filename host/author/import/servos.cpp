@@ -20,6 +20,40 @@ constexpr double kUsual_rev_min = 60;  // where a file has no speed
 // A servo on the bus reports its current in 2.69 mA, 16 bits: up to 88 A.
 constexpr double kMostStall_a = 60;
 
+// The torque of a joint's drive is a limit of its current, up to about half of the motor's no-load
+// speed: 0.45 to 0.77 in the published curves of Unitree's actuators.
+constexpr double kStallOverPeak = 2;
+// A limit is no placeholder if it suits the robot's need and a motor's speed.
+constexpr double kMostTimesNeed = 10;
+constexpr double kLeastSpeed_rad_s = 0.5, kMostSpeed_rad_s = 40;
+
+bool is_motor(const Drive& limit, double needed_n_m) {
+  return limit.stall_torque_n_m > 0 && limit.stall_torque_n_m <= kMostTimesNeed * needed_n_m &&
+         limit.no_load_rad_s >= kLeastSpeed_rad_s && limit.no_load_rad_s <= kMostSpeed_rad_s;
+}
+
+double strongest_known_n_m() {
+  double most = 0;
+  for (const model::ServoType& type : model::servo_types())
+    most = std::max(most, type.stall_torque_n_m);
+  return most;
+}
+
+/// True: limits became drives.
+bool take_limits(std::vector<ServoJoint>& joints, double needed_n_m, double standing_n_m) {
+  double most_n_m = 0;
+  for (const ServoJoint& joint : joints) {
+    if (joint.drive) return false;
+    if (is_motor(joint.limit, needed_n_m))
+      most_n_m = std::max(most_n_m, joint.limit.stall_torque_n_m);
+  }
+  if (most_n_m <= strongest_known_n_m() || most_n_m < standing_n_m) return false;
+  for (ServoJoint& joint : joints) {
+    if (is_motor(joint.limit, needed_n_m)) joint.drive = joint.limit;
+  }
+  return true;
+}
+
 /// Of the joints without a drive.
 const model::ServoType* weakest_with(double torque_n_m) {
   const model::ServoType* best = nullptr;
@@ -32,8 +66,10 @@ const model::ServoType* weakest_with(double torque_n_m) {
 
 class Chooser {
  public:
-  Chooser(const std::vector<ServoJoint>& joints, double needed_n_m)
-      : joints_(joints), needed_n_m_(needed_n_m) {}
+  Chooser(std::vector<ServoJoint> joints, double needed_n_m)
+      : joints_(std::move(joints)),
+        needed_n_m_(needed_n_m),
+        are_limits_(take_limits(joints_, needed_n_m, needed_n_m / kTorqueReserve)) {}
 
   ServoChoice choose() {
     const bool all_drive = std::all_of(joints_.begin(), joints_.end(), has_drive);
@@ -77,8 +113,9 @@ class Chooser {
     if (known != nullptr) return;
     double most_w = all_drive ? 0 : std::ceil(needed_n_m_) * kUsual_rev_min / kRevMin;
     for (const ServoJoint& joint : joints_) {
-      if (has_drive(joint))
-        most_w = std::max(most_w, joint.drive->stall_torque_n_m * rev_min(*joint.drive) / kRevMin);
+      if (!has_drive(joint)) continue;
+      most_w = std::max(
+          most_w, kStallOverPeak * joint.drive->stall_torque_n_m * rev_min(*joint.drive) / kRevMin);
     }
     while (supply_v_ < 48 && most_w / supply_v_ > kMostStall_a) supply_v_ *= 2;
   }
@@ -111,8 +148,9 @@ class Chooser {
 
   /// Friction of a file is Coulomb and viscous: no part of the load.
   static std::string numbers_of(const Drive& drive) {
-    std::string out = fmt::format(" stall_torque_n_m=\"{:.4g}\" no_load_rev_min=\"{:.4g}\"",
-                                  drive.stall_torque_n_m, rev_min(drive));
+    std::string out = fmt::format(
+        " stall_torque_n_m=\"{:.4g}\" peak_torque_n_m=\"{:.4g}\" no_load_rev_min=\"{:.4g}\"",
+        kStallOverPeak * drive.stall_torque_n_m, drive.stall_torque_n_m, rev_min(drive));
     if (drive.armature_kg_m2 > 0)
       out += fmt::format(" armature_kg_m2=\"{:.4g}\"", drive.armature_kg_m2);
     if (drive.friction_n_m > 0 || drive.damping_n_m_s > 0) {
@@ -149,14 +187,20 @@ class Chooser {
             ? fmt::format("; the file's gain of {:.4g} N m/rad is not taken, VERP's fits the robot",
                           drive.kp_n_m_rad)
             : "";
+    const std::string guess =
+        guessed.empty() ? "" : fmt::format("its {}: a guess", fmt::join(guessed, ", "));
     found(Sureness::kRead,
-          fmt::format("{} of {:.4g} N m for {}{}", group.name, drive.stall_torque_n_m,
+          fmt::format("{} of {:.4g} N m{} for {}{}", group.name, drive.stall_torque_n_m,
+                      are_limits_ ? fmt::format(" and {:.3g} rad/s, its joints' <limit>,",
+                                                drive.no_load_rad_s)
+                                  : "",
                       fmt::join(group.joints, ", "), kp),
-          guessed.empty() ? "" : fmt::format("its {} is a guess", fmt::join(guessed, ", ")));
+          are_limits_ ? "is this the motor? " + guess : guess);
   }
 
-  const std::vector<ServoJoint>& joints_;
+  std::vector<ServoJoint> joints_;
   double needed_n_m_;
+  bool are_limits_;
   double supply_v_ = 12;
   std::string usual_;
   std::vector<Group> groups_;

@@ -10,7 +10,7 @@ namespace verp::import {
 
 /// What a file says of one joint's motor, seen from the joint. 0: it does not say.
 struct Drive {
-  double stall_torque_n_m = 0;  ///< without it the joint has no drive
+  double stall_torque_n_m = 0;  ///< the most it gives; without it the joint has no drive
   double no_load_rad_s = 0;
   double armature_kg_m2 = 0;
   double friction_n_m = 0, damping_n_m_s = 0;
@@ -20,6 +20,7 @@ struct Drive {
 struct ServoJoint {
   std::string name;
   std::optional<Drive> drive = {};
+  Drive limit = {};  ///< URDF's <limit effort velocity>: in many files a placeholder
 };
 
 struct ServoChoice {
@@ -29,9 +30,12 @@ struct ServoChoice {
   std::vector<Finding> findings;
 };
 
+constexpr double kTorqueReserve = 2;  ///< walking over standing: `needed_n_m` has it
+
 /// `wished` (--servos) is for all joints. Else joints with equal drives share a type `motor_1`,
 /// ...; the others get the weakest known type with `needed_n_m`, or a `motor` of that torque.
-/// Throws LoadError if there is no type `wished`.
+/// Limits are drives if no joint has one and they are those of motors stronger than all known
+/// servos. Throws LoadError if there is no type `wished`.
 ServoChoice choose_servo_types(const std::vector<ServoJoint>& joints, const std::string& wished,
                                double needed_n_m);
 

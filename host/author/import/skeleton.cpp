@@ -79,6 +79,10 @@ void read_limits(const XmlElement& joint, Bone& bone) {
   bone.has_no_stops = joint.text("type", "") == "continuous";
   const auto limit = first(joint, "limit");
   bone.lower_rad = 1;  // not given
+  if (const auto dynamics = first(joint, "dynamics"))
+    bone.has_friction = dynamics->number("friction", 0) > 0 || dynamics->number("damping", 0) > 0;
+  if (limit) bone.limit.stall_torque_n_m = limit->number("effort", 0);
+  if (limit) bone.limit.no_load_rad_s = limit->number("velocity", 0);
   if (!limit || bone.has_no_stops) return;
   bone.lower_rad = limit->number("lower", 0);
   bone.upper_rad = limit->number("upper", 0);

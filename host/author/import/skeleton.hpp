@@ -25,6 +25,8 @@ struct Bone {
   bool has_no_stops = false;            ///< a continuous joint
   std::string follows;                  ///< the joint that it mimics; empty: none
   std::optional<Drive> drive;           ///< its motor, where the file says it
+  Drive limit;                          ///< URDF's <limit effort velocity>
+  bool has_friction = false;            ///< or damping, of the joint
 };
 
 struct LinkPart {

@@ -155,6 +155,7 @@ class Writer {
 
   void bus() {
     for (const std::string& type : w_.own_types) line(2, type);
+    if (w_.drops_friction) line(2, "<verp:friction from=\"servo\"/>");
     line(2, fmt::format("<verp:bus protocol=\"{}\">", w_.protocol));
     int id = 0;
     for (const ServoRow& row : w_.servos) {

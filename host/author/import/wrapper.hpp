@@ -25,6 +25,7 @@ struct Wrapper {
   std::string name, uri;  ///< of the model; of the wrapped file, from the wrapper's folder
   std::string protocol = "dynamixel2";
   std::vector<std::string> own_types;  ///< <verp:servo_type> elements
+  bool drops_friction = false;         ///< of the file's joints
   std::vector<ServoRow> servos;        ///< joints that stay, ids from 1
   std::vector<int> fixed;              ///< bones that turn or slide in the file
   std::vector<std::string> dropped_mimics;

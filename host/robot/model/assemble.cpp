@@ -1,5 +1,7 @@
 #include "host/robot/model/assemble.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,16 +11,22 @@
 #include "common/model/tuning_ranges.hpp"
 #include "host/robot/model/assemble_sensors.hpp"
 #include "host/robot/model/couplings.hpp"
+#include "host/robot/model/joint_friction.hpp"
 #include "host/robot/model/leg.hpp"
 #include "host/robot/model/link_tree.hpp"
 #include "host/robot/model/params.hpp"
 #include "host/robot/model/sdf_parts.hpp"
 #include "host/robot/model/self_collision.hpp"
 #include "host/robot/model/stance.hpp"
+#include "host/robot/model/supply.hpp"
 #include "host/robot/model/visuals.hpp"
 
 namespace verp::model {
 namespace {
+
+// The controller stops below 0.8 of what the servos are made for (safety.voltage_low_v); they
+// report an error from 1.33 on (host/twin/sim/plant.hpp).
+constexpr double kLeastSupply = 0.8, kMostSupply = 1.33;
 
 class Assembler {
  public:
@@ -51,6 +59,8 @@ class Assembler {
     read_tuning();
     gather_leg_frames(e_);
     fit_gains();
+    choose_supply();
+    choose_friction(facts_, e_);
     settle_stance(facts_, e_);
     pose_followers(facts_, e_);
     check_poses();
@@ -160,6 +170,19 @@ class Assembler {
       e_.defaults.push_back("p_gain " + std::to_string(gain) + " of " + type +
                             ", from its mass and legs");
     }
+  }
+
+  void choose_supply() {
+    if (!facts_.supply) return;
+    e_.supply = facts_.supply->supply;
+    const double nominal_v = e_.joints.empty() ? supply_volts(e_) : e_.joints[0].servo.nominal_v;
+    const double share = supply_volts(e_) / nominal_v;
+    if (share >= kLeastSupply && share <= kMostSupply) return;
+    facts_.supply->at.fail(
+        fmt::format("<verp:supply> volts is {:.3g} times what the servos are made for, {:.4g} V",
+                    share, nominal_v),
+        fmt::format("choose from {} to {} times, or give the servo type its own nominal_v",
+                    kLeastSupply, kMostSupply));
   }
 
   void check_limits(Joint& joint, const ServoFact& fact) const {

@@ -34,6 +34,7 @@ Servo servo_of(const ServoType& type) {
   Servo s;
   s.type = type.name;
   s.stall_torque_n_m = type.stall_torque_n_m;
+  s.peak_torque_n_m = type.peak_torque_n_m;
   s.no_load_speed_rad_s = type.no_load_rev_min * 2 * std::numbers::pi / 60;
   s.stall_current_a = type.stall_current_a;
   s.nominal_v = type.nominal_v;
@@ -46,6 +47,9 @@ Servo servo_of(const ServoType& type) {
   s.armature_band = type.armature_band;
   s.friction_band = type.friction_band;
   s.source = type.source;
+  s.estimated = type.estimated;
+  s.heat_capacity_j_k = type.heat_capacity_j_k;
+  s.heat_resistance_k_w = type.heat_resistance_k_w;
   s.model_number = type.model_number;
   s.fast_sync_read = type.fast_sync_read;
   s.p_gain_unit = type.p_gain_unit;

@@ -14,6 +14,7 @@
 #include "host/robot/model/params.hpp"
 #include "host/robot/model/servo_types.hpp"
 #include "host/robot/model/stance.hpp"
+#include "host/robot/model/supply.hpp"
 
 namespace verp::model {
 namespace {
@@ -119,7 +120,7 @@ std::string joint_rows(const Entity& entity) {
         "{:>7.3f}\n",
         joint.name, joint.servo.id, joint.servo.direction, joint.servo.type, axis,
         joint.lower_rad * kDegrees, joint.upper_rad * kDegrees, joint.velocity_limit_rad_s,
-        joint.servo.stall_torque_n_m, servo_stiffness_n_m_rad(joint.servo),
+        joint.servo.most_torque_n_m(), servo_stiffness_n_m_rad(joint.servo),
         entity.nodes[j + 1].mass_kg);
   }
   return text;
@@ -138,6 +139,10 @@ std::string servo_type_rows(const Entity& entity) {
         "servo {}: rotor {:.4f} kg m2 at the joint{}, friction at stall {:.2f} N m{}; {}\n", name,
         servo->gearbox.armature_kg_m2, band(servo->armature_band), stall_friction_n_m(*servo),
         band(servo->friction_band), servo->source);
+    text += fmt::format("  heat: {:.3g} J/K, {:.3g} K/W to the air\n", servo->heat_capacity_j_k,
+                        servo->heat_resistance_k_w);
+    if (!servo->estimated.empty())
+      text += fmt::format("  estimated, not in the file: {}\n", servo->estimated);
     const std::uint16_t fitting = fitting_p_gain(entity, *servo);
     if (fitting == 0) continue;
     text += fmt::format(
@@ -236,6 +241,7 @@ nlohmann::ordered_json joint_json(const Entity& entity, std::size_t j) {
             {"offset_count", servo.offset_count},
             {"backlash_rad", servo.backlash_rad},
             {"stall_torque_n_m", servo.stall_torque_n_m},
+            {"peak_torque_n_m", servo.most_torque_n_m()},
             {"no_load_speed_rad_s", servo.no_load_speed_rad_s},
             {"stiffness_n_m_rad", servo_stiffness_n_m_rad(servo)},
             {"p_gain", servo.p_gain},
@@ -244,6 +250,9 @@ nlohmann::ordered_json joint_json(const Entity& entity, std::size_t j) {
             {"armature_band", servo.armature_band},
             {"stall_friction_n_m", stall_friction_n_m(servo)},
             {"friction_band", servo.friction_band},
+            {"heat_capacity_j_k", servo.heat_capacity_j_k},
+            {"heat_resistance_k_w", servo.heat_resistance_k_w},
+            {"estimated", servo.estimated},
             {"source", servo.source}}}};
 }
 
@@ -275,6 +284,7 @@ std::string describe(const Entity& entity) {
   text += joint_rows(entity);
   for (const std::string& line : describe_couplings(entity)) text += line + "\n";
   text += servo_type_rows(entity);
+  text += supply_text(entity) + "\n";
   text += sensor_rows(entity);
   text += bus_text(entity, params);
   text += fmt::format("params: {} bytes, CRC-32 {:08x}\n", sizeof params, params_crc(params));
@@ -323,6 +333,9 @@ std::string describe_json(const Entity& entity) {
                 {"bytes_per_tick", load.bytes},
                 {"bits_per_tick", load.bits},
                 {"share", load.share}};
+  out["supply"] = {{"volts", supply_volts(entity)},
+                   {"resistance_ohm", supply_resistance_ohm(entity)},
+                   {"estimated", !entity.supply.resistance_ohm}};
   out["params"] = {{"bytes", sizeof params}, {"crc32", fmt::format("{:08x}", params_crc(params))}};
   out["defaults"] = entity.defaults;
   out["notes"] = entity.notes;

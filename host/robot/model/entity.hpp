@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -74,6 +75,7 @@ struct Servo {
   int offset_count = 2048;
   double backlash_rad = 0;
   double stall_torque_n_m = 0;
+  double peak_torque_n_m = 0;  ///< of the drive's current limit; 0: it has none below stall
   double no_load_speed_rad_s = 0;
   double stall_current_a = 0;
   double nominal_v = 12;  ///< supply of the values above
@@ -86,13 +88,20 @@ struct Servo {
   /// True values lie within these shares of the ones above: 0.5 means half to one and a half times.
   /// 0: identified on a bench.
   double armature_band = 0, friction_band = 0;
-  std::string source;              ///< of armature and friction, one line
+  std::string source;     ///< of armature and friction, one line
+  std::string estimated;  ///< numbers that nobody gave, one line; empty: none beyond source
+  double heat_capacity_j_k = 74, heat_resistance_k_w = 13;  ///< housing; housing to air
   std::uint16_t model_number = 0;  ///< Params' ServoProfile gives its meaning
   bool fast_sync_read = false;
   std::uint16_t p_gain = 0, i_gain = 0, d_gain = 0;  ///< written at arming
   double p_gain_unit = 128;  ///< P gain of one 885th of full duty for each count of error
   int most_gain = 16383;     ///< of its registers
   std::uint16_t profile_ms = 0;
+
+  /// The most that it holds.
+  double most_torque_n_m() const {
+    return peak_torque_n_m > 0 ? std::min(peak_torque_n_m, stall_torque_n_m) : stall_torque_n_m;
+  }
 };
 
 /// joint[j] moves node[j + 1]. Followers are last, as in Params.
@@ -212,6 +221,14 @@ struct NoCollide {
   std::string reason;       ///< one line for people
 };
 
+/// What the file says of the battery and its cables; supply.hpp has the rest.
+struct Supply {
+  std::optional<double> volts, resistance_ohm;  ///< unloaded
+};
+
+/// Whose friction a joint has: the servo type's, its own in the file, or their sum.
+enum class FrictionFrom { kServo, kFile, kBoth };
+
 /// Share of the servos' torque for standing up, percent.
 inline constexpr std::uint8_t kRiseTorquePercent = 60;
 
@@ -223,6 +240,7 @@ struct Entity {
   std::vector<Limb> limbs;
   std::optional<ImuSensor> imu;
   FootSensor feet;
+  Supply supply;
   std::vector<NoCollide> no_collide;
   std::vector<OtherSensor> sensors;
   std::vector<LaserSensor> lasers;  ///< as the next three, also among the sensors

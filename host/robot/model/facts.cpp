@@ -120,14 +120,15 @@ class FactReader {
   using Reader = void (FactReader::*)(const XmlElement&);
   static const std::map<std::string, Reader>& readers() {
     static const std::map<std::string, Reader> kReaders = {
-        {"verp:body", &FactReader::body},     {"verp:limb", &FactReader::limb},
-        {"verp:bus", &FactReader::bus},       {"verp:imu", &FactReader::imu},
-        {"verp:feet", &FactReader::feet},     {"verp:pose", &FactReader::pose},
-        {"verp:tuning", &FactReader::tuning}, {"verp:inertia", &FactReader::inertia},
-        {"verp:box", &FactReader::box},       {"verp:drop", &FactReader::drop},
-        {"verp:fix", &FactReader::fix},       {"verp:no_collide", &FactReader::no_collide},
-        {"verp:mimic", &FactReader::mimic},   {"verp:latency", &FactReader::latency},
-        {"verp:truth", &FactReader::truth},
+        {"verp:body", &FactReader::body},         {"verp:limb", &FactReader::limb},
+        {"verp:bus", &FactReader::bus},           {"verp:imu", &FactReader::imu},
+        {"verp:feet", &FactReader::feet},         {"verp:pose", &FactReader::pose},
+        {"verp:tuning", &FactReader::tuning},     {"verp:inertia", &FactReader::inertia},
+        {"verp:box", &FactReader::box},           {"verp:drop", &FactReader::drop},
+        {"verp:fix", &FactReader::fix},           {"verp:no_collide", &FactReader::no_collide},
+        {"verp:mimic", &FactReader::mimic},       {"verp:latency", &FactReader::latency},
+        {"verp:truth", &FactReader::truth},       {"verp:supply", &FactReader::supply},
+        {"verp:friction", &FactReader::friction},
     };
     return kReaders;
   }
@@ -168,6 +169,27 @@ class FactReader {
         FeetFact{e,
                  {{e.integer("left_id", 1, kHighestId), e.integer("right_id", 1, kHighestId)},
                   e.number_within("newton_per_count", 1e-6, 10, " N, like 0.01")}});
+  }
+  void supply(const XmlElement& e) {
+    once(e, f_.supply);
+    e.allow({"volts", "resistance_ohm"});
+    SupplyFact fact{e, {}};
+    if (e.has("volts")) fact.supply.volts = e.number_within("volts", 0.1, 1000, " V, like 12");
+    if (e.has("resistance_ohm"))
+      fact.supply.resistance_ohm = e.number_within("resistance_ohm", 0, 100, " ohm, like 0.1");
+    f_.supply.emplace(fact);
+  }
+  void friction(const XmlElement& e) {
+    once(e, f_.friction);
+    e.allow({"from"});
+    const std::string from = e.text("from");
+    if (from != "servo" && from != "file" && from != "both") {
+      e.fail("<verp:friction> from='" + from + "' is unknown",
+             "write servo (the servo type's), file (the joint's <dynamics>) or both (their sum)");
+    }
+    f_.friction = from == "servo"  ? FrictionFrom::kServo
+                  : from == "file" ? FrictionFrom::kFile
+                                   : FrictionFrom::kBoth;
   }
   void pose(const XmlElement& e) {
     e.allow({"name"}, {"verp:joint"});

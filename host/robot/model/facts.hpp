@@ -46,6 +46,10 @@ struct FeetFact {
   XmlElement at;
   FootSensor feet;
 };
+struct SupplyFact {
+  XmlElement at;
+  Supply supply;
+};
 struct PoseFact {
   XmlElement at;
   std::string pose, joint;
@@ -114,6 +118,8 @@ struct Facts {
   std::size_t used = 0;        ///< index of the bus in use
   std::optional<ImuFact> imu;
   std::optional<FeetFact> feet;
+  std::optional<SupplyFact> supply;
+  std::optional<FrictionFrom> friction;
   std::vector<LatencyFact> latencies;
   std::vector<TruthFact> truths;
   std::vector<PoseFact> poses;

@@ -1,9 +1,11 @@
 #include "host/robot/model/servo_type_facts.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <initializer_list>
+#include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "common/protocol/servo_models.hpp"
@@ -18,22 +20,9 @@ constexpr double kMostTorque_n_m = 1e4;
 constexpr double kMostArmature_kg_m2 = 100;
 constexpr double kMostLoad = 0.99;  // share lost to friction: at 1 the gears would lock
 constexpr double kMostSpeed_rev_min = 1e5;
-
-/// Missing ones come from the type it is like.
-class Reader {
- public:
-  Reader(const XmlElement& e, const ServoType* like) : e_(e), like_(like) {}
-
-  double number(const char* attribute, double low, double high, const char* unit,
-                double of_like) const {
-    if (like_ != nullptr) return e_.number_within(attribute, low, high, unit, of_like);
-    return e_.number_within(attribute, low, high, unit);
-  }
-
- private:
-  const XmlElement& e_;
-  const ServoType* like_;
-};
+constexpr double kLeastGear = 1, kMostGear = 1e4;
+constexpr double kEstimateBand = 0.5;             // as that of the shipped types that are scaled
+constexpr const char* kUsualType = "xm430_w210";  // of estimates for a type that is like none
 
 void read_motor(const XmlElement& e, ServoType& type) {
   const bool constants = e.has("kt_n_m_a") || e.has("resistance_ohm");
@@ -60,14 +49,54 @@ void read_motor(const XmlElement& e, ServoType& type) {
       e.number_within("stall_current_a", 1e-6, 1e4, " A, like 2.3", type.stall_current_a);
 }
 
+bool gives_friction(const XmlElement& e) {
+  constexpr const char* kNames[] = {"f_base_n_m", "f_strib_n_m", "f_visc_n_m_s", "l_base",
+                                    "l_strib",    "w_s_rad_s",   "alpha"};
+  return std::any_of(std::begin(kNames), std::end(kNames),
+                     [&](const char* name) { return e.has(name); });
+}
+
+std::string not_given(const XmlElement& e, const ServoType& type) {
+  std::vector<std::string> parts;
+  if (!e.has("gear_ratio")) parts.push_back(fmt::format("gear ratio {:.3g}", type.gear_ratio));
+  if (!e.has("armature_kg_m2")) parts.push_back("rotor");
+  if (!gives_friction(e)) parts.push_back("friction");
+  if (!e.has("heat_capacity_j_k")) parts.push_back("heat capacity");
+  if (!e.has("heat_resistance_k_w")) parts.push_back("heat resistance");
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// Rotor, gears and housing from those of another type, for what the file does not give. Rotors
+/// have an inertia in proportion to their torque (servo_types.cpp) and about equal rim speeds: a
+/// larger one turns slower, by the cube root of the torque. Friction is a share of the torque. A
+/// motor's mass, which stores heat, grows with the torque; heat leaves through its surface.
+void estimate(const XmlElement& e, const ServoType* like, ServoType& type) {
+  const ServoType& base = like ? *like : *find_servo_type(servo_types(), kUsualType);
+  const double stronger = type.stall_torque_n_m / base.stall_torque_n_m;
+  const double faster = type.no_load_rev_min / base.no_load_rev_min;
+  const double gear = base.gear_ratio / (faster * std::cbrt(stronger));
+  type.gear_ratio = e.number_within("gear_ratio", kLeastGear, kMostGear, ", like 212.6",
+                                    std::clamp(gear, kLeastGear, kMostGear));
+  const double geared = type.gear_ratio / base.gear_ratio;
+  if (like && stronger == 1 && faster == 1 && geared == 1) return;
+  type.peak_torque_n_m = base.peak_torque_n_m * stronger;
+  type.gearbox = base.gearbox;
+  type.gearbox.armature_kg_m2 *= stronger * geared;
+  type.gearbox.f_base_n_m *= stronger;
+  type.gearbox.f_strib_n_m *= stronger;
+  type.gearbox.f_visc_n_m_s *= stronger / faster;
+  type.heat_capacity_j_k = base.heat_capacity_j_k * stronger;
+  type.heat_resistance_k_w = base.heat_resistance_k_w / std::cbrt(stronger * stronger);
+  type.armature_band = std::max(base.armature_band, kEstimateBand);
+  type.friction_band = std::max(base.friction_band, kEstimateBand);
+  type.source = "scaled by torque and gear from " + base.name;
+  type.estimated = not_given(e, type);
+}
+
 // Own numbers have no band; inherited ones keep theirs.
 void read_bands(const XmlElement& e, ServoType& type) {
-  const auto given = [&](std::initializer_list<const char*> names) {
-    return std::any_of(names.begin(), names.end(), [&](const char* name) { return e.has(name); });
-  };
-  const bool own_armature = given({"armature_kg_m2"});
-  const bool own_friction = given(
-      {"f_base_n_m", "f_strib_n_m", "f_visc_n_m_s", "l_base", "l_strib", "w_s_rad_s", "alpha"});
+  const bool own_armature = e.has("armature_kg_m2");
+  const bool own_friction = gives_friction(e);
   const auto band = [&](const char* name, bool own, double& value) {
     value =
         e.number_within(name, 0, 0.99, ": 0.5 is half to one and a half times", own ? 0.0 : value);
@@ -81,25 +110,27 @@ void read_bands(const XmlElement& e, ServoType& type) {
   type.source += own_armature ? "; friction " + before : "; rotor " + before;
 }
 
-void read_gearbox(const XmlElement& e, const Reader& read, ServoType& type) {
+void read_gearbox(const XmlElement& e, ServoType& type) {
   Gearbox& g = type.gearbox;
-  const auto friction = [&](const char* name, double& value, const char* unit) {
-    value = read.number(name, 0, kMostTorque_n_m, unit, value);
-  };
-  g.armature_kg_m2 = read.number("armature_kg_m2", 0, kMostArmature_kg_m2,
-                                 " kg m2 at the joint, like 0.011", g.armature_kg_m2);
-  friction("f_base_n_m", g.f_base_n_m, " N m, like 0.06");
-  friction("f_strib_n_m", g.f_strib_n_m, " N m, like 0.02");
-  friction("f_visc_n_m_s", g.f_visc_n_m_s, " N m s/rad, like 0.015");
-  g.l_base = read.number("l_base", 0, kMostLoad, ", a part of the load", g.l_base);
-  g.l_strib = read.number("l_strib", 0, kMostLoad, ", a part of the load", g.l_strib);
+  const auto read = [&](const char* name, double low, double high, const char* unit,
+                        double& value) { value = e.number_within(name, low, high, unit, value); };
+  read("peak_torque_n_m", 1e-6, kMostTorque_n_m, " N m, like 45", type.peak_torque_n_m);
+  read("armature_kg_m2", 0, kMostArmature_kg_m2, " kg m2 at the joint, like 0.011",
+       g.armature_kg_m2);
+  read("f_base_n_m", 0, kMostTorque_n_m, " N m, like 0.06", g.f_base_n_m);
+  read("f_strib_n_m", 0, kMostTorque_n_m, " N m, like 0.02", g.f_strib_n_m);
+  read("f_visc_n_m_s", 0, kMostTorque_n_m, " N m s/rad, like 0.015", g.f_visc_n_m_s);
+  read("l_base", 0, kMostLoad, ", a part of the load", g.l_base);
+  read("l_strib", 0, kMostLoad, ", a part of the load", g.l_strib);
   if (g.l_base + g.l_strib > kMostLoad) {
     e.fail(fmt::format("l_base and l_strib take {:.3g} of a load between them, and lock the gears",
                        g.l_base + g.l_strib),
            fmt::format("choose them so that their sum is at most {}", kMostLoad));
   }
-  g.w_s_rad_s = read.number("w_s_rad_s", 1e-3, 1e3, " rad/s, like 1.5", g.w_s_rad_s);
-  g.alpha = read.number("alpha", 0.1, 20, ", like 1.3", g.alpha);
+  read("w_s_rad_s", 1e-3, 1e3, " rad/s, like 1.5", g.w_s_rad_s);
+  read("alpha", 0.1, 20, ", like 1.3", g.alpha);
+  read("heat_capacity_j_k", 0.1, 1e6, " J/K, like 74", type.heat_capacity_j_k);
+  read("heat_resistance_k_w", 1e-3, 1e4, " K/W, like 13", type.heat_resistance_k_w);
   read_bands(e, type);
 }
 
@@ -140,6 +171,10 @@ ServoType read_type(const XmlElement& e, const std::vector<ServoType>& known) {
            "nominal_v",
            "kt_n_m_a",
            "resistance_ohm",
+           "peak_torque_n_m",
+           "gear_ratio",
+           "heat_capacity_j_k",
+           "heat_resistance_k_w",
            "stall_torque_n_m",
            "no_load_rev_min",
            "stall_current_a",
@@ -172,7 +207,6 @@ ServoType read_type(const XmlElement& e, const std::vector<ServoType>& known) {
       e.fail("no servo type '" + e.text("like") + "'", "choose one of: " + names_of(known));
   }
   ServoType type = like ? *like : ServoType{};
-  const Reader read(e, like);
   type.name = name;
   type.title = e.text("title", name);
   if (!like || e.has("protocol")) set_protocol(read_protocol(e), type);
@@ -198,7 +232,8 @@ ServoType read_type(const XmlElement& e, const std::vector<ServoType>& known) {
   type.fast_sync_read = e.integer("fast_sync_read", 0, 1, type.fast_sync_read ? 1 : 0) == 1;
   type.default_p_gain =
       static_cast<std::uint16_t>(e.integer("p_gain", 1, type.most_gain, type.default_p_gain));
-  read_gearbox(e, read, type);
+  estimate(e, like, type);
+  read_gearbox(e, type);
   check_model(e, type);
   return type;
 }

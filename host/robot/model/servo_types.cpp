@@ -29,7 +29,9 @@ ServoType dynamixel(const char* name, const char* title, std::uint16_t model_num
 }
 
 // The paper's table "identified parameters", seen from the joint.
-ServoType identified(ServoType type, double kt_n_m_a, double resistance_ohm, const Gearbox& gears) {
+ServoType identified(ServoType type, double gear_ratio, double kt_n_m_a, double resistance_ohm,
+                     const Gearbox& gears) {
+  type.gear_ratio = gear_ratio;
   type.stall_current_a = type.nominal_v / resistance_ohm;
   type.stall_torque_n_m = kt_n_m_a * type.stall_current_a;
   type.no_load_rev_min = type.nominal_v / kt_n_m_a * 60 / (2 * std::numbers::pi);
@@ -50,6 +52,7 @@ ServoType identified(ServoType type, double kt_n_m_a, double resistance_ohm, con
 // The band: half of each.
 ServoType scaled(ServoType type, double gear_ratio, double stall_torque_n_m, double no_load_rev_min,
                  double stall_current_a) {
+  type.gear_ratio = gear_ratio;
   type.stall_torque_n_m = stall_torque_n_m;
   type.no_load_rev_min = no_load_rev_min;
   type.stall_current_a = stall_current_a;
@@ -95,7 +98,7 @@ ServoType sts3215() {
   type.p_gain_unit = 1 / (885 * double{feetech::kDutyPerCount});
   type.most_gain = feetech::kMostGain;
   type.loop_delay_us = 384;
-  type = identified(std::move(type), 1.2116, 2.6762,
+  type = identified(std::move(type), 345, 1.2116, 2.6762,
                     {.armature_kg_m2 = 0.0284, .f_base_n_m = 0.05239, .f_visc_n_m_s = 0.05909});
   type.source = "identified: Rhoban/bam, STS3215 7.4 V, M1";
   return type;
@@ -103,7 +106,7 @@ ServoType sts3215() {
 
 // The XL-330 is the M288 at 5 V.
 ServoType xl330() {
-  return identified(dynamixel("xl330", "XL330-M288-T", 1200), 0.386, 3.40,
+  return identified(dynamixel("xl330", "XL330-M288-T", 1200), 288.35, 0.386, 3.40,
                     {.armature_kg_m2 = 0.00190,
                      .f_base_n_m = 0.0088,
                      .f_strib_n_m = 0,
@@ -139,7 +142,7 @@ const std::vector<ServoType>& servo_types() {
         scaled(dynamixel("xc330_t181", "XC330-T181-T", 1210), 180.62, 0.76, 104, 0.80),
         scaled(dynamixel("xc330_t288", "XC330-T288-T", 1220), 288.35, 0.92, 65, 0.80),
         scaled(dynamixel("mx28", "MX-28(2.0)", 30), 193, 2.5, 55, 1.4),
-        identified(dynamixel("mx64", "MX-64(2.0)", 311), 1.663, 3.16,
+        identified(dynamixel("mx64", "MX-64(2.0)", 311), 200, 1.663, 3.16,
                    {.armature_kg_m2 = 0.01096,
                     .f_base_n_m = 0.0616,
                     .f_strib_n_m = 0.0239,
@@ -148,7 +151,7 @@ const std::vector<ServoType>& servo_types() {
                     .w_s_rad_s = 1.52,
                     .alpha = 1.33,
                     .f_visc_n_m_s = 0.0148}),
-        identified(dynamixel("mx106", "MX-106(2.0)", 321), 2.231, 2.37,
+        identified(dynamixel("mx106", "MX-106(2.0)", 321), 225, 2.231, 2.37,
                    {.armature_kg_m2 = 0.02457,
                     .f_base_n_m = 0,
                     .f_strib_n_m = 0.1049,

@@ -16,6 +16,7 @@ struct ServoType {
   BusProtocol protocol = BusProtocol::kDynamixel2;
   std::uint16_t model_number = 0;  ///< control table address 0; CiA 402 product code
   double stall_torque_n_m = 0;     ///< of the motor's line, nominal_v, without friction
+  double peak_torque_n_m = 0;      ///< as in Servo
   double no_load_rev_min = 0;
   double stall_current_a = 0;
   double nominal_v = 12;
@@ -27,9 +28,14 @@ struct ServoType {
   std::uint16_t default_d_gain = 0;
   double p_gain_unit = 128;  ///< as in Servo
   int most_gain = 16383;
+  double gear_ratio = 1;
   Gearbox gearbox;
+  /// Housing of an XM430: 82 g (e-Manual) of mostly aluminium, 0.9 kJ/(kg K); 77 cm2 of surface
+  /// (28.5 x 46.5 x 34 mm) in still air at 10 W/(m2 K). An estimate: it sets only how fast a servo
+  /// warms.
+  double heat_capacity_j_k = 74, heat_resistance_k_w = 13;
   double armature_band = 0, friction_band = 0;  ///< as in Servo
-  std::string source;
+  std::string source, estimated;                ///< as in Servo
 };
 
 template <class Type>

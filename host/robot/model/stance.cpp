@@ -333,13 +333,13 @@ class Settler {
       const Limb& leg = *leg_[static_cast<std::size_t>(side)];
       const Joint& knee = e_.joints[static_cast<std::size_t>(classify_leg(e_, leg).joint[3])];
       const Stand stand = stand_of(e_, leg);
-      if (stand.knee_n_m <= knee.servo.stall_torque_n_m) continue;
+      if (stand.knee_n_m <= knee.servo.most_torque_n_m()) continue;
       for (const ServoFact& servo : f_.bus().servos) {
         if (servo.joint != knee.name) continue;
         servo.at.fail(
             fmt::format("joint '{}' has to hold {:.1f} N m when the robot ({:.3g} kg) "
                         "stands on one leg, and its servo stalls at {:.1f}",
-                        knee.name, stand.knee_n_m, total_mass(e_), knee.servo.stall_torque_n_m),
+                        knee.name, stand.knee_n_m, total_mass(e_), knee.servo.most_torque_n_m()),
             "choose a stronger servo, a straighter stand, or correct the masses");
       }
     }

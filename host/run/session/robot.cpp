@@ -147,6 +147,7 @@ void Robot::see() {
   }
   const sim::Observation seen = sim::observe(twin_);
   if (culprit_.empty()) culprit_ = culprit(seen.truth);
+  strain_.see(twin_, outputs_.faults);
   meter_.tick(seen, outputs_, sim::planned_zmp_world_m(state_.tuning, state_.gait, seen.truth));
   estimate_meter_.tick(state_, outputs_, seen.truth, world_.options().up.normalized());
   if (result_.ticks == 0) {
@@ -390,7 +391,10 @@ std::string Robot::failure_of_walk() const {
   const auto known = twin_.fallen() ? std::uint32_t{safety::kFaultFall} : 0U;
   const std::string faults = fault_names(result_.faults & kStopping & ~known);
   if (!faults.empty() && !why.starts_with(kByFault)) why += "; fault: " + faults;
-  if (!culprit_.empty()) why += " (" + culprit_ + ")";
+  const std::string numbers = strain_.text(plan_.params, result_.faults);
+  const char* const both = culprit_.empty() || numbers.empty() ? "" : "; ";
+  if (!culprit_.empty() || !numbers.empty())
+    why += fmt::format(" ({}{}{})", culprit_, both, numbers);
   if (10 * late_ticks_ < result_.ticks) return why;
   return why +
          fmt::format("; its controller was late in {} of {} ticks", late_ticks_, result_.ticks);
@@ -405,7 +409,13 @@ std::string Robot::why_it_failed() const {
   if (result_.metrics.fallen) {
     const std::string failed = hooks_.order ? "" : walker_->failed();
     const char* const of = plan_.stands ? "" : " of gait";
-    return failed.empty() ? fmt::format("fell after {:.2f} s{}", walked_s(), of) : failed;
+    const std::string fell = fmt::format("fell after {:.2f} s{}", walked_s(), of);
+    const std::uint32_t others = result_.faults & kStopping & ~std::uint32_t{safety::kFaultFall};
+    if (strain_.came_before_fall(others)) {
+      return kByFault + fault_names(others) + ", and " +
+             (walked_s() > 0 ? fell : std::string("fell before it walked"));
+    }
+    return failed.empty() ? fell : failed;
   }
   const std::string faults = fault_names(result_.faults & kStopping);
   if (!faults.empty()) return kByFault + faults;

@@ -11,6 +11,7 @@
 #include "host/run/session/fall_story.hpp"
 #include "host/run/session/fall_verdict.hpp"
 #include "host/run/session/plan.hpp"
+#include "host/run/session/strain.hpp"
 #include "host/run/session/suspicions.hpp"
 #include "host/run/session/walk_operator.hpp"
 #include "host/twin/bus/virtual_bus.hpp"
@@ -128,6 +129,7 @@ class Robot {
   FallStory story_;
   Suspicions suspicions_;
   std::string culprit_;  ///< of the first fault
+  Strain strain_;
   std::uint64_t late_ticks_ = 0;
   bool taken_ = false;                                    ///< take() was called, but see() not yet
   std::uint64_t bits_before_ = 0, bare_bits_before_ = 0;  ///< at the first tick

@@ -1,8 +1,11 @@
 #include "host/run/session/walk_operator.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "common/gait/footsteps.hpp"
+#include "host/run/session/fault_names.hpp"
 
 namespace verp::session {
 namespace {
@@ -110,7 +113,7 @@ void WalkOperator::observe(const State& state, const Outputs& outputs) {
   }
   // Steps after a push do not count as the walk.
   if (!gait_seen_ && command_.request != Request::kWalk && stood_s_ < kSettle_s) {
-    wait_for_stand(state, standing);
+    wait_for_stand(state, outputs, standing);
   } else if (stands_) {
     watch_stand(standing);
   } else {
@@ -126,12 +129,17 @@ bool WalkOperator::knows_gyro(float still_s) const {
   return !learns || still_s >= balance::kBestKnown_s || standing_s_ > kPatience_s;
 }
 
-void WalkOperator::wait_for_stand(const State& state, bool standing) {
+void WalkOperator::wait_for_stand(const State& state, const Outputs& outputs, bool standing) {
   waited_s_ += period_s_;
   standing_s_ = standing ? standing_s_ + period_s_ : 0;
   stood_s_ = standing && knows_gyro(state.attitude.still_s) ? stood_s_ + period_s_ : 0;
-  if (waited_s_ > kStandUp_s)
-    failed_ = stands_ ? "the robot did not stand" : "the robot did not start to walk", done_ = true;
+  if (waited_s_ > kStandUp_s) {
+    failed_ = stands_ ? "the robot did not stand: " : "the robot did not start to walk: ";
+    failed_ += standing ? "it is not still enough to learn its gyro's bias"
+                        : fmt::format("after {:g} s it is {}, not standing", kStandUp_s,
+                                      safety::kModeNames[outputs.mode % safety::kModes]);
+    done_ = true;
+  }
   if (stood_s_ < kSettle_s) return;
   changed_ = true;
   const std::uint8_t sequence = command_.sequence;
@@ -161,8 +169,12 @@ void WalkOperator::watch_walk(const State& state, const Outputs& outputs, bool s
   if (idle_s_ > kIdle_s) failed_ = "the robot stopped walking by itself", done_ = true;
   if (stopping_) stopping_s_ += period_s_;
   if (stopping_ && !gait && standing) done_ = true;
-  if (!gait_seen_ && waited_s_ > kStandUp_s)
-    failed_ = "the robot did not start to walk", done_ = true;
+  if (!gait_seen_ && waited_s_ > kStandUp_s) {
+    const std::string notes = fault_names(outputs.faults);
+    failed_ = "the robot did not start to walk: no gait began" +
+              (notes.empty() ? std::string() : ", and its controller noted: " + notes);
+    done_ = true;
+  }
   if (stopping_s_ > lead_s_ + kOverrun_s) failed_ = "the gait did not end", done_ = true;
 }
 

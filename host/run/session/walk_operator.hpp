@@ -25,7 +25,7 @@ class WalkOperator {
   /// The gait is over or never starts: failed().
   bool done() const { return done_; }
   /// Reason if it would not stand up or stop; faults and falls are in Outputs.
-  const char* failed() const { return failed_; }
+  const std::string& failed() const { return failed_; }
   /// Seconds of gait; with `stands`, seconds since it stood quietly.
   double walked_s() const { return walked_s_; }
   /// The gait is longer than walk_s although the stop was ordered at its start.
@@ -36,7 +36,7 @@ class WalkOperator {
   void stop_in_time(const State& state);
   bool look_after_fall(safety::Mode mode);
   bool knows_gyro(float still_s) const;
-  void wait_for_stand(const State& state, bool standing);
+  void wait_for_stand(const State& state, const Outputs& outputs, bool standing);
   void watch_stand(bool standing);
   void watch_walk(const State& state, const Outputs& outputs, bool standing);
 
@@ -57,7 +57,7 @@ class WalkOperator {
   bool gait_seen_ = false, stopping_ = false, done_ = false;
   bool changed_ = true;
   bool could_walk_on_ = false, longer_than_asked_ = false;
-  const char* failed_ = "";
+  std::string failed_;
 };
 
 }  // namespace verp::session

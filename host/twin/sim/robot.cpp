@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "host/robot/model/supply.hpp"
 #include "host/twin/sim/coupling.hpp"
 #include "host/twin/sim/start.hpp"
 
@@ -18,10 +19,6 @@ constexpr double kFallenHeight = 0.6;
 constexpr double kFallenTilt = 1.0;
 // If nobody takes the scans, the oldest are dropped.
 constexpr std::size_t kMostScans = 1000;
-
-double made_for_v(const model::Entity& entity) {
-  return entity.joints.empty() ? 0.0 : entity.joints[0].servo.nominal_v;
-}
 
 std::vector<double> mass_factors(const model::Entity& entity, const TwinOptions& options) {
   Random random(options.seed, Draw::kMass);
@@ -44,9 +41,9 @@ TwinRobot::TwinRobot(World& world, const model::Entity& entity, const TwinOption
            options.imperfections.imu, options.seed, options.gyro_bias_rad_s),
       shutters_(entity_, options.cameras),
       probes_(entity_, body_, owner_, options.imperfections.probes, options.seed),
-      nominal_v_(options.supply_v.value_or(made_for_v(entity_))),
+      nominal_v_(options.supply_v.value_or(model::supply_volts(entity_))),
       supply_v_(nominal_v_),
-      supply_ohm_(options.supply_ohm * std::pow(made_for_v(entity_) / 12, 2)),
+      supply_ohm_(options.supply_ohm.value_or(model::supply_resistance_ohm(entity_))),
       external_n_m_(entity.joints.size(), 0),
       saturated_steps_(entity.joints.size(), 0) {
   const Start start = make_start(entity_, options);

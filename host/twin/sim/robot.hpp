@@ -54,12 +54,9 @@ struct TwinOptions {
   /// Release after torque-on of all leg servos. The firmware then stands (rise_s is 1 s) and does
   /// not walk yet.
   double cradle_s = 1.2;
-  std::optional<double> supply_v = {};  ///< unloaded; none: nominal
-  /// Battery and harness. An estimate for 12 V: 3 LiPo cells of about 10 mOhm (hobby packs of 1 to
-  /// 2 Ah), plug, fuse, first metre of daisy chain. It scales with the voltage squared: equal power
-  /// loses an equal share.
-  double supply_ohm = 0.1;
-  bool cameras = false;  ///< cameras are rendered: take_exposures()
+  std::optional<double> supply_v = {};    ///< unloaded; none: the robot's
+  std::optional<double> supply_ohm = {};  ///< battery and harness; none: the robot's
+  bool cameras = false;                   ///< cameras are rendered: take_exposures()
 };
 
 /// One robot in a World. Plant is for the controller, in counts; truth() for the referee.

@@ -42,6 +42,8 @@ ServoModel::ServoModel(const model::Joint& joint, const ServoNoise& noise, Rando
   require(servo.loop_s > 0, joint, "its servo's loop needs a period above 0");
   require(servo.backlash_rad >= 0, joint, "backlash is negative");
   require(servo.gearbox.armature_kg_m2 >= 0, joint, "its servo's armature is negative");
+  require(servo.heat_capacity_j_k > 0 && servo.heat_resistance_k_w > 0, joint,
+          "its servo's heat capacity or resistance is not above 0");
   require(servo.gearbox.w_s_rad_s > 0, joint, "its servo's Stribeck speed is not above 0");
   resistance_ohm_ = servo.stall_current_a > 0 ? servo.nominal_v / servo.stall_current_a : 0;
   measurement_.temperature_c = constants.ambient_c;
@@ -166,7 +168,9 @@ Drive ServoModel::motor_line(double supply_v) const {
       1.0 + constants_.copper_per_k * (measurement_.temperature_c - constants_.ambient_c);
   const Drive line{duty_ * servo.stall_torque_n_m * supply_v / servo.nominal_v / warm,
                    servo.stall_torque_n_m / servo.no_load_speed_rad_s / warm};
-  const double limit = constants_.current_limit_stalls * servo.stall_torque_n_m;
+  const double limit = servo.peak_torque_n_m > 0
+                           ? servo.peak_torque_n_m
+                           : constants_.current_limit_stalls * servo.stall_torque_n_m;
   const double torque = line.torque_n_m(rotor_rad_s_);
   return std::abs(torque) > limit ? Drive{std::copysign(limit, torque), 0} : line;
 }
@@ -290,8 +294,8 @@ void ServoModel::finish(double rate_rad_s, double step_s) {
   supply_current_a_ = std::max(0.0, duty_ * current);
   const double heat_w = current * current * resistance_ohm_;
   const double loss_w =
-      (measurement_.temperature_c - constants_.ambient_c) / constants_.thermal_resistance_k_w;
-  measurement_.temperature_c += (heat_w - loss_w) / constants_.heat_capacity_j_k * step_s;
+      (measurement_.temperature_c - constants_.ambient_c) / servo.heat_resistance_k_w;
+  measurement_.temperature_c += (heat_w - loss_w) / servo.heat_capacity_j_k * step_s;
 }
 
 }  // namespace verp::sim

@@ -31,11 +31,6 @@ double angle_of(const model::Servo& servo, double count);
 
 /// X-series datasheets and e-Manuals beyond Entity's facts, and estimates.
 struct ServoConstants {
-  /// Housing of an XM430: 82 g (e-Manual) of mostly aluminium, 0.9 kJ/(kg K); 77 cm2 of surface
-  /// (28.5 x 46.5 x 34 mm) in still air at 10 W/(m2 K). An estimate: it sets only how fast a servo
-  /// warms.
-  double heat_capacity_j_k = 74.0;
-  double thermal_resistance_k_w = 13.0;
   double ambient_c = 25.0;
   /// Copper's temperature coefficient, IEC 60028.
   double copper_per_k = 0.00393;

@@ -1,5 +1,7 @@
 #include "host/twin/sim/vary.hpp"
 
+#include "host/robot/model/supply.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -118,8 +120,7 @@ class Drawing {
 
   void supply() {
     const double part = stream(Draw::kVarySupply).uniform(bands_.supply_low, bands_.supply_high);
-    const double nominal_v = out_.entity.joints.empty() ? 0 : out_.entity.joints[0].servo.nominal_v;
-    const double supply_v = part * out_.twin.supply_v.value_or(nominal_v);
+    const double supply_v = part * out_.twin.supply_v.value_or(model::supply_volts(out_.entity));
     out_.twin.supply_v = supply_v;
     note("supply_v", supply_v);
   }

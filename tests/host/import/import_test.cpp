@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -14,6 +15,7 @@
 #include "host/robot/model/leg.hpp"
 #include "host/robot/model/load.hpp"
 #include "host/robot/model/params.hpp"
+#include "host/run/session/session.hpp"
 
 /// Robots of our own with the habits of CAD exporters. Their names have no meaning.
 namespace verp::import {
@@ -36,7 +38,10 @@ struct Habits {
   std::string in_names = "";
   std::string more = "";  ///< elements of the robot
   double foot_kg = 0.1;   ///< below 0: without <inertial>
-  double flatter = 1;     ///< least moment over the others: below 0 or above 2 no body has them
+  double larger = 1, heavier = 1;
+  double effort_n_m = 0, speed_rad_s = 0;  ///< of all limits
+  std::string dynamics = "";               ///< element of each joint that turns
+  double flatter = 1;  ///< least moment over the others: below 0 or above 2 no body has them
 };
 
 class Maker {
@@ -95,27 +100,38 @@ class Maker {
     text_ += fmt::format(
         "<joint name=\"{}{}\" type=\"{}\"><parent link=\"{}\"/><child link=\"{}\"/>"
         "<origin xyz=\"{} {} {}\" rpy=\"0 0 {}\"/><axis xyz=\"{} {} {}\"/>{}</joint>\n",
-        "j" + below, h_.in_names, endless ? "continuous" : type, above, below, at.x(), at.y(),
-        at.z(), yaw, axis.x(), axis.y(), axis.z(),
+        "j" + below, h_.in_names, endless ? "continuous" : type, above, below, h_.larger * at.x(),
+        h_.larger * at.y(), h_.larger * at.z(), yaw, axis.x(), axis.y(), axis.z(),
         type == "fixed" || endless
             ? ""
-            : fmt::format("<limit lower=\"{}\" upper=\"{}\" effort=\"0\" velocity=\"0\"/>", lower,
-                          upper));
+            : fmt::format("<limit lower=\"{}\" upper=\"{}\" effort=\"{}\" velocity=\"{}\"/>{}",
+                          lower, upper, h_.effort_n_m, h_.speed_rad_s, h_.dynamics));
   }
 
   void link(const std::string& name, double mass, const std::string& shape, const Vec3& at) {
-    const double moment = 4e-4 * mass * h_.moments_times;
+    const double mass_kg = h_.heavier * mass;
+    const double moment = 4e-4 * mass_kg * h_.larger * h_.larger * h_.moments_times;
     text_ += fmt::format(
         "<link name=\"{0}\"><inertial><origin xyz=\"{1} {2} {3}\"/><mass value=\"{4}\"/><inertia "
         "ixx=\"{5}\" iyy=\"{5}\" izz=\"{6}\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>",
-        name, at.x(), at.y(), at.z(), mass, moment, moment * h_.flatter);
+        name, h_.larger * at.x(), h_.larger * at.y(), h_.larger * at.z(), mass_kg, moment,
+        moment * h_.flatter);
     if (mass < 0) text_.resize(text_.rfind("<inertial>"));
     for (const char* what : {"visual", "collision"}) {
       if (shape.empty()) continue;
-      text_ += fmt::format("<{0}><origin xyz=\"{1} {2} {3}\"/><geometry>{4}</geometry></{0}>", what,
-                           at.x(), at.y(), at.z(), shape);
+      text_ +=
+          fmt::format("<{0}><origin xyz=\"{1} {2} {3}\"/><geometry>{4}</geometry></{0}>", what,
+                      h_.larger * at.x(), h_.larger * at.y(), h_.larger * at.z(), scaled(shape));
     }
     text_ += "</link>\n";
+  }
+
+  std::string scaled(const std::string& shape) const {
+    Vec3 size;
+    if (std::sscanf(shape.c_str(), "<box size=\"%lf %lf %lf", &size[0], &size[1], &size[2]) != 3)
+      return shape;
+    size *= h_.larger;
+    return fmt::format("<box size=\"{} {} {}\"/>", size.x(), size.y(), size.z());
   }
 
   Habits h_;
@@ -311,6 +327,38 @@ TEST_F(ImportedFile, ServosAreTheWeakestThatCarryTheRobot) {
   const Imported heavy = import({.foot_kg = 20});
   EXPECT_EQ(finding(heavy, "servos").value.substr(0, 18), "a motor of 46 N m,");
   EXPECT_EQ(loaded(heavy).joints[4].servo.stall_torque_n_m, 46);
+}
+
+TEST_F(ImportedFile, LimitsOfMotorsStrongerThanAllKnownServosAreTheMotors) {
+  const Imported robot = import({.foot_kg = 20, .effort_n_m = 40, .speed_rad_s = 8});
+  EXPECT_EQ(finding(robot, "servos").sureness, Finding::Sureness::kRead);
+  EXPECT_EQ(finding(robot, "servos").value.substr(0, 56),
+            "motor_1 of 40 N m and 8 rad/s, its joints' <limit>, for ");
+  EXPECT_EQ(finding(robot, "motor_1").sureness, Finding::Sureness::kGuessed);
+  EXPECT_EQ(loaded(robot).joints[4].servo.most_torque_n_m(), 40);
+  const Imported placeholder = import({.foot_kg = 20, .effort_n_m = 1000, .speed_rad_s = 100});
+  EXPECT_EQ(finding(placeholder, "servos").value.substr(0, 18), "a motor of 46 N m,");
+}
+
+TEST_F(ImportedFile, FrictionOfTheServosReplacesTheFilesAndThisIsSaid) {
+  const model::Entity robot =
+      loaded(import({.dynamics = "<dynamics damping=\"1000\" friction=\"0.5\"/>"}));
+  for (const model::Joint& joint : robot.joints)
+    EXPECT_EQ(joint.friction_n_m + joint.damping_n_m_s, 0) << joint.name;
+  EXPECT_GT(robot.joints[0].servo.gearbox.f_base_n_m, 0);
+}
+
+/// Of 12 V and 0.1 ohm, 14 motors of 90 N m would leave 9 V when they rise.
+TEST_F(ImportedFile, RobotOfThirtyKilogramsWalks) {
+  session::WalkPlan plan;
+  const Imported robot = import({.larger = 2.7, .heavier = 10});
+  EXPECT_EQ(finding(robot, "supply").sureness, Finding::Sureness::kGuessed);
+  plan.entity = loaded(robot);
+  EXPECT_GT(model::total_mass(plan.entity), 27);
+  plan.params = model::make_params(plan.entity);
+  plan.velocity.vx_tenth_mm_s = 1500;
+  plan.walk_s = 20;
+  EXPECT_EQ(session::walk(plan).failure, "");
 }
 
 /// The twin's lidars scan in one plane, and its force-torque sensors are in joints that move.

@@ -24,7 +24,7 @@ TEST(ServosOfAnImport, EqualDrivesShareAType) {
       {{"left_knee", kKnee}, {"left_ankle", ankle}, {"right_knee", kKnee}}, "", 100);
   EXPECT_EQ(choice.types, (std::vector<std::string>{"motor_1", "motor_2", "motor_1"}));
   ASSERT_EQ(choice.own_types.size(), 2U);
-  EXPECT_NE(choice.own_types[0].find("stall_torque_n_m=\"130\""), std::string::npos);
+  EXPECT_NE(choice.own_types[0].find("peak_torque_n_m=\"130\""), std::string::npos);
   EXPECT_NE(choice.own_types[0].find("armature_kg_m2=\"0.05\""), std::string::npos);
   EXPECT_EQ(choice.own_types[0].find("f_base_n_m"), std::string::npos);
   EXPECT_NE(choice.own_types[1].find("f_base_n_m=\"0.2\""), std::string::npos);
@@ -34,8 +34,8 @@ TEST(ServosOfAnImport, WhatADriveDoesNotSayIsNamedAsAGuess) {
   const ServoChoice choice =
       choose_servo_types({{"knee", kKnee}, {"neck", Drive{.stall_torque_n_m = 7}}}, "", 100);
   ASSERT_NE(finding(choice, "motor_1 of 130 N m for knee"), nullptr);
-  EXPECT_EQ(finding(choice, "motor_1")->check, "its friction is a guess");
-  EXPECT_EQ(finding(choice, "motor_2")->check, "its speed, rotor, friction is a guess");
+  EXPECT_EQ(finding(choice, "motor_1")->check, "its friction: a guess");
+  EXPECT_EQ(finding(choice, "motor_2")->check, "its speed, rotor, friction: a guess");
 }
 
 TEST(ServosOfAnImport, JointsWithoutADriveKeepTheRuleOfTheWeakestServo) {
@@ -64,6 +64,21 @@ TEST(ServosOfAnImport, WishedTypeIsForAllJoints) {
   EXPECT_EQ(choice.types, (std::vector<std::string>{"xm430_w350", "xm430_w350"}));
   EXPECT_TRUE(choice.own_types.empty());
   EXPECT_THROW(choose_servo_types({{"knee"}}, "ax12", 1), model::LoadError);
+}
+
+TEST(ServosOfAnImport, LimitsAreMotorsOnlyIfTheySuitTheRobotAndStrongerThanKnownServos) {
+  const auto type = [](const Drive& limit, double needed_n_m) {
+    return choose_servo_types({{"knee", {}, limit}}, "", needed_n_m).types[0];
+  };
+  constexpr Drive kStrong{.stall_torque_n_m = 60, .no_load_rad_s = 12};
+  EXPECT_EQ(type(kStrong, 80), "motor_1");
+  EXPECT_EQ(type(kStrong, 5), "mx64") << "twelve times what the robot needs";
+  EXPECT_EQ(type(kStrong, 130), "motor") << "it could not stand";
+  EXPECT_EQ(type({.stall_torque_n_m = 10, .no_load_rad_s = 12}, 8), "xh540_w270");
+  EXPECT_EQ(type({.stall_torque_n_m = 60, .no_load_rad_s = 100}, 80), "motor");
+  EXPECT_EQ(type({.stall_torque_n_m = 60, .no_load_rad_s = -1}, 80), "motor");
+  EXPECT_EQ(choose_servo_types({{"knee", kKnee}, {"neck", {}, kStrong}}, "", 80).types[1], "motor")
+      << "the file says its drives";
 }
 
 }  // namespace

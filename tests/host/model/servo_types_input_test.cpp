@@ -58,7 +58,6 @@ TEST(BadInput, ServoTypesOfTheFileAreReadAndTheirSlipsNamed) {
   expect_refused(mine(motor + gears), at, "source");
   expect_refused(mine("like=\"mx64\" f_visc_n_m_s=\"0.01\""), at, "source");
   expect_refused(mine(gears + source), at, "protocol");
-  expect_refused(mine(motor + source), at, "armature_kg_m2");
   expect_refused(mine(motor + gears + "stall_torque_n_m=\"3\" " + source), at, "motor twice");
   expect_refused(mine("like=\"xm430\" armature_kg_m2=\"0.01\" " + source), at,
                  "no servo type 'xm430'");

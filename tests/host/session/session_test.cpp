@@ -184,5 +184,24 @@ TEST(Session, TakesNobodyInAfterItsFirstTick) {
   EXPECT_THROW(session.add(plan_of("dxl", 2)), std::logic_error);
 }
 
+/// It falls because it lets go, and the fall is not the cause.
+TEST(Session, AWalkThatSagOrHeatEndsSaysSoWithNumbers) {
+  WalkPlan sags = plan_of("dxl");
+  sags.twin.supply_v = 9.7;
+  const std::string low = walk(sags).failure;
+  EXPECT_EQ(low.rfind("stopped by fault: voltage low", 0), 0U) << low;
+  EXPECT_NE(low.find("; lowest 9."), std::string::npos) << low;
+  EXPECT_NE(low.find(" V, cut-out 9.6 V)"), std::string::npos) << low;
+  WalkPlan warms = plan_of("dxl");
+  for (model::Joint& joint : warms.entity.joints) {
+    joint.servo.heat_capacity_j_k = 0.2;
+    joint.servo.heat_resistance_k_w = 1000;
+  }
+  const std::string hot = walk(warms).failure;
+  EXPECT_EQ(hot.rfind("stopped by fault: ", 0), 0U) << hot;
+  EXPECT_NE(hot.find("servo too hot"), std::string::npos) << hot;
+  EXPECT_NE(hot.find(" C, limit "), std::string::npos) << hot;
+}
+
 }  // namespace
 }  // namespace verp::session::test

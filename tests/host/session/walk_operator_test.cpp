@@ -59,7 +59,7 @@ TEST(WalkOperator, WhoStandsIsNeverAskedToWalkAndEndsInTheStand) {
   EXPECT_EQ(robot.asks(), Request::kStand);
   robot.is(Mode::kStanding, 0.02);
   EXPECT_TRUE(robot.watcher.done());
-  EXPECT_STREQ(robot.watcher.failed(), "");
+  EXPECT_EQ(robot.watcher.failed(), "");
 }
 
 TEST(WalkOperator, WhoStandsBeginsWhenTheGyroIsKnown) {
@@ -102,12 +102,26 @@ TEST(WalkOperator, WhoNeverStandsOrStepsForEverFailsAndSaysWhy) {
   Watched never(true);
   never.is(Mode::kRelaxed, 16);
   EXPECT_TRUE(never.watcher.done());
-  EXPECT_STREQ(never.watcher.failed(), "the robot did not stand");
+  EXPECT_EQ(never.watcher.failed().rfind("the robot did not stand: after 15 s it is ", 0), 0U);
   Watched for_ever(true);
   for_ever.is(Mode::kStanding, 1);
   for_ever.is(Mode::kWalking, 8, true);
   EXPECT_TRUE(for_ever.watcher.done());
-  EXPECT_STREQ(for_ever.watcher.failed(), "the robot did not come to stand again");
+  EXPECT_EQ(for_ever.watcher.failed(), "the robot did not come to stand again");
+}
+
+TEST(WalkOperator, AWalkThatNeverBeginsNamesItsReason) {
+  Watched rises(false);
+  rises.is(Mode::kRising, 16);
+  EXPECT_EQ(rises.watcher.failed(),
+            "the robot did not start to walk: after 15 s it is rising, not standing");
+  Watched refuses(false);
+  refuses.is(Mode::kStanding, 1);
+  refuses.outputs.faults = safety::kNotePlanRefused;
+  refuses.is(Mode::kStanding, 16);
+  EXPECT_EQ(refuses.watcher.failed(),
+            "the robot did not start to walk: no gait began, and its controller noted: plan "
+            "refused");
 }
 
 }  // namespace

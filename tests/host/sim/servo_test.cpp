@@ -47,6 +47,26 @@ TEST(Servo, GivesStallTorqueAtStandstill) {
   EXPECT_NEAR(servo.torque_use(), 1.0, 1e-9);
 }
 
+TEST(Servo, GivesNoMoreThanItsDrivesPeak) {
+  BareServo bare;
+  bare.joint.servo.peak_torque_n_m = 1.0;
+  ServoModel servo = bare.model();
+  bare.setpoint.goal_count = 4000;
+  EXPECT_NEAR(servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS).torque_n_m(0), 1.0, 1e-9);
+  const Drive fast = bare.model().drive(bare.setpoint, 0, 6.0, 0, 12.0, kStepS);
+  EXPECT_NEAR(fast.torque_n_m(6.0), 0.75, 1e-9) << "beyond it the motor's line holds";
+}
+
+TEST(Servo, WarmsAsItsHousingSays) {
+  BareServo bare;
+  bare.joint.servo.heat_capacity_j_k = 20;
+  ServoModel servo = bare.model();
+  bare.setpoint.goal_count = 4000;
+  servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS);
+  servo.finish(0, kStepS);
+  EXPECT_NEAR(servo.measurement().temperature_c, 25 + 12 * 2.3 / 20 * kStepS, 1e-9);
+}
+
 TEST(Servo, HasNoTorqueLeftAtNoLoadSpeedAndHalfAtHalf) {
   BareServo bare;
   ServoModel servo = bare.model();
