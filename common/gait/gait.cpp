@@ -2,6 +2,7 @@
 
 #include "common/gait/dcm.hpp"
 #include "common/math/convert.hpp"
+#include "common/model/leg.hpp"
 #include "common/record/digest.hpp"
 
 namespace verp::gait {
@@ -140,8 +141,10 @@ void watch_zmp(const Params& params, const Tuning& tuning, const Step& step, Xy 
   const float halves = tuning.balance.multibody_enable > 0.5F ? 2.0F : 1.0F;
   const float room_x_m = 0.5F * halves * (leg.sole_front_m + leg.sole_back_m) -
                          math::abs(tuning.gait.zmp_x_m) - tuning.gait.support_margin_m;
+  // Without ankle roll the robot rocks over its soles' edges, up to its midline.
+  const float rocks_m = model::has(leg, kLegJoints - 1) ? 0.0F : tuning.gait.half_stance_m;
   const float room_y_m = 0.5F * halves * (leg.sole_left_m + leg.sole_right_m) -
-                         math::abs(tuning.gait.zmp_y_m) - tuning.gait.support_margin_m;
+                         math::abs(tuning.gait.zmp_y_m) - tuning.gait.support_margin_m + rocks_m;
   const auto within = [&](float share) {
     return math::abs(out_m.x) <= share * room_x_m && math::abs(out_m.y) <= share * room_y_m;
   };
