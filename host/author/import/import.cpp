@@ -12,6 +12,7 @@
 
 #include "common/model/params.hpp"
 #include "host/author/import/servos.hpp"
+#include "host/os/files/whole.hpp"
 #include "host/robot/model/find.hpp"
 #include "host/robot/model/load.hpp"
 #include "host/robot/model/supply.hpp"
@@ -50,6 +51,11 @@ class Importer {
       : wish_(wish), source_(wish.file), robot_(root_of(source_)), s_(skeleton_of_urdf(robot_)) {}
 
   Imported import() {
+    out_.left_out = wish_.source.left_out;
+    for (Bone& each : s_.bones) {
+      const auto drive = wish_.source.drives.find(each.name);
+      if (drive != wish_.source.drives.end()) each.drive = drive->second;
+    }
     body_ = find_body(s_, robot_);
     shorten_legs();
     out_.name = w_.name = plain(wish_.name.empty() ? s_.name : wish_.name);
@@ -138,6 +144,10 @@ class Importer {
       }
     }
     for (std::size_t i = 0; i < s_.bones.size(); ++i) leave(static_cast<int>(i));
+    if (!endless_.empty()) {
+      out_.left_out.push_back(fmt::format("no limits, so a servo's single turn is taken: joints {}",
+                                          fmt::join(endless_, ", ")));
+    }
     std::vector<std::string> fixed;
     for (const int each : w_.fixed) fixed.push_back(bone(each).name);
     if (!fixed.empty())
@@ -173,8 +183,7 @@ class Importer {
     const double lost_rad =
         std::abs(row.lower_rad - each.lower_rad) + std::abs(row.upper_rad - each.upper_rad);
     if (!stops) {
-      out_.left_out.push_back(
-          fmt::format("joint {} has no limits: a servo's single turn is taken", each.name));
+      endless_.push_back(each.name);
     } else if (lost_rad > 0.02) {
       out_.left_out.push_back(
           fmt::format("joint {} turns from {:.3g} to {:.3g} rad: the part of a "
@@ -363,13 +372,15 @@ class Importer {
     return 1;
   }
 
-  /// Joints beside the legs that cannot stand at zero; the legs' angles are found.
+  /// Joints beside the legs: as the file has them, else at zero; the legs' angles are found.
   void stand_within_limits() {
     for (const ServoRow& row : w_.servos) {
       const bool of_leg = std::any_of(body_.legs.begin(), body_.legs.end(), [&](const auto& leg) {
         return std::find(leg.bones.begin(), leg.bones.end(), row.bone) != leg.bones.end();
       });
-      const double rad = std::clamp(0.0, row.lower_rad, row.upper_rad);
+      const auto key = wish_.source.stand.find(bone(row.bone).name);
+      const double wanted_rad = key == wish_.source.stand.end() ? 0 : key->second;
+      const double rad = std::clamp(wanted_rad, row.lower_rad, row.upper_rad);
       if (!of_leg && rad != 0) w_.stand.emplace_back(bone(row.bone).name, rad);
     }
   }
@@ -422,6 +433,7 @@ class Importer {
   Wrapper w_;
   Imported out_;
   std::vector<int> followers_;
+  std::vector<std::string> endless_;  ///< joints
 };
 
 const char* word(Sureness sureness) {
@@ -432,14 +444,41 @@ const char* word(Sureness sureness) {
 
 }  // namespace
 
+void make_urdf(Wish& wish) {
+  Source source = read_source(wish.file, wish.folder);
+  if (source.urdf.empty()) return;
+  const fs::path urdf =
+      fs::path(wish.folder) / (fs::path(wish.file).stem().string() + "_from_mjcf.urdf");
+  std::error_code error;
+  if (fs::exists(urdf, error)) {
+    throw model::LoadError(urdf.string(), 0, "is there already",
+                           "remove it, or choose another folder with -o");
+  }
+  const files::Trouble trouble = files::replace(urdf, source.urdf);
+  if (trouble.any()) {
+    throw model::LoadError(urdf.string(), 0, trouble.text(), "choose another folder with -o");
+  }
+  wish.maker_file = wish.file;
+  wish.file = urdf.string();
+  wish.source = std::move(source);
+}
+
 Imported import_robot(const Wish& wish) {
-  return Importer(wish).import();
+  try {
+    return Importer(wish).import();
+  } catch (const model::LoadError& error) {
+    if (wish.maker_file.empty() || error.file != wish.file) throw;
+    throw model::LoadError(wish.maker_file, 0, error.message, error.fix);  // they know that file
+  }
 }
 
 std::string page_of(const Imported& robot, const Wish& wish) {
-  std::string out =
-      fmt::format("# {}\n\nFrom `{}`, which is not changed. `robot.sdf` wraps it.\n\n", robot.name,
-                  fs::path(wish.file).filename().string());
+  std::string out = fmt::format(
+      "# {}\n\nFrom `{}`, which is not changed. {}`robot.sdf` wraps it.\n\n", robot.name,
+      fs::path(wish.maker_file.empty() ? wish.file : wish.maker_file).filename().string(),
+      wish.maker_file.empty()
+          ? ""
+          : "`" + fs::path(wish.file).filename().string() + "` says the same as URDF; ");
   if (!robot.refusal.empty()) out += fmt::format("**It does not load yet:** {}\n\n", robot.refusal);
   out += "| what | found | how | please check |\n|---|---|---|---|\n";
   for (const Finding& each : robot.findings)

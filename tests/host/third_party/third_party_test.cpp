@@ -72,10 +72,17 @@ TEST(ThirdParty, RobotsImportFromTheirUntouchedFiles) {
   for (const Known& each :
        {Known{"model://op3/op3.urdf", "l_knee", "127 by 80 mm under r_ank_roll_link"},
         Known{"model://darwin_op/darwin_op_robot.urdf", "LKnee", "104 by 66 mm under MP_ANKLE2_R"},
-        Known{"model://toddlerbot/toddlerbot.urdf", "left_knee", "under ank_roll_link_2"}}) {
+        Known{"model://toddlerbot/toddlerbot.urdf", "left_knee", "under ank_roll_link_2"},
+        Known{"model://toddlerbot/toddlerbot.xml", "left_knee",
+              "120 by 42 mm under ank_roll_link_2"},
+        Known{"model://op3_mjcf/op3_mjx_feetonly.xml", "l_knee",
+              "127 by 78 mm under r_ank_roll_link"},
+        Known{"model://t1_mjcf/t1_mjx_feetonly.xml", "Left_Knee_Pitch", "223 by 100 mm"}}) {
     const std::string file = file_of(each.uri);
     const files::TemporaryDirectory folder;
-    const import::Imported robot = import::import_robot({file, folder.path().string(), "", ""});
+    import::Wish wish{file, folder.path().string(), "", ""};
+    import::make_urdf(wish);
+    const import::Imported robot = import::import_robot(wish);
     EXPECT_EQ(robot.refusal, "") << each.uri;
     const auto says = [&](const std::string& what, const std::string& value) {
       return std::any_of(robot.findings.begin(), robot.findings.end(), [&](const auto& finding) {

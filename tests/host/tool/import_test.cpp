@@ -25,6 +25,18 @@ TEST_F(Import, ForeignRobotWalksFromItsUntouchedFile) {
   EXPECT_EQ(slurp(folder_ / "odd.urdf"), before);
 }
 
+TEST_F(Import, MjcfBecomesUrdfOnce) {
+  const std::string text =
+      "<mujoco><worldbody><body name=\"b\"><geom size=\"0.1\"/></body></worldbody></mujoco>";
+  std::ofstream(folder_ / "ball.xml") << text;
+  expect_refused("import ball.xml -o new", "ball.xml: no leg is found");
+  EXPECT_FALSE(fs::exists(folder_ / "new"));
+  std::ofstream(folder_ / "ball_from_mjcf.urdf") << "mine";
+  expect_refused("import ball.xml -o .", "ball_from_mjcf.urdf: is there already");
+  EXPECT_EQ(slurp(folder_ / "ball_from_mjcf.urdf"), "mine");
+  EXPECT_EQ(slurp(folder_ / "ball.xml"), text);
+}
+
 TEST_F(Import, WrongFilesAndPlacesAreRefused) {
   ASSERT_EQ(verp("import odd.urdf -o here").status, 0);
   const std::string kept = slurp(folder_ / "here" / "robot.sdf");

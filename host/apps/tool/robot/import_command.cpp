@@ -82,7 +82,7 @@ int import_file(const ImportWords& words) {
   import::Wish wish = words.wish;
   std::error_code error;
   if (fs::is_directory(wish.file, error)) {
-    throw cli::ToolError(cli::kBadInput, wish.file + ": is a folder; give the URDF in it");
+    throw cli::ToolError(cli::kBadInput, wish.file + ": is a folder; give the robot's file in it");
   }
   if (wish.folder.empty()) wish.folder = fs::path(wish.file).stem().string() + "_verp";
   const fs::path folder = wish.folder, sdf = folder / "robot.sdf";
@@ -90,8 +90,10 @@ int import_file(const ImportWords& words) {
   const std::vector<fs::path> made = make_folders(folder);
   import::Imported robot;
   try {
+    import::make_urdf(wish);
     robot = import::import_robot(wish);
   } catch (...) {
+    if (!wish.maker_file.empty()) fs::remove(wish.file, error);
     for (const fs::path& each : made) fs::remove(each, error);
     throw;
   }
@@ -111,7 +113,8 @@ int import_file(const ImportWords& words) {
 cli::Subcommand add_import(CLI::App& root) {
   CLI::App* app = cli::declare_other(root, "import");
   auto words = std::make_shared<ImportWords>();
-  app->add_option("FILE", words->wish.file, "URDF of a robot; it is not changed")->required();
+  app->add_option("FILE", words->wish.file, "URDF or MJCF of a robot; it is not changed")
+      ->required();
   app->add_option("-o,--output", words->wish.folder, "folder (default: FILE's name and _verp)");
   app->add_option("--name", words->wish.name, "of the robot (default: the file's)");
   app->add_option("--servos", words->wish.servo_type,
