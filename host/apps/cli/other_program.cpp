@@ -52,7 +52,7 @@ constexpr Command kCommands[] = {
     {"tune", kStudy, "Find a robot's numbers of gait and balance by walks in the twin"},
     {"check", kRobot,
      "Validate a robot; limbs, links, masses, limits, servos, leg solver, bus load"},
-    {"export", kRobot, "Write a robot's Params image and header for firmware"},
+    {"export", kRobot, "Write a robot's Params for firmware, or a URDF or MJCF file"},
     {"import", kRobot, "Make a robot of VERP from another maker's file, which is not changed"},
     {"new", kRobot, "Begin a robot or a controller of your own"},
     {"edit", kEditor, "Change a robot's file: set, add, delete, mirror, import a mesh"},

@@ -16,7 +16,13 @@ struct Geom {
   std::string mesh;                           ///< its name
   double mass_kg = -1, density_kg_m3 = 1000;  ///< mass below 0: from the density
   bool is_seen = false, touches = false;
+  double friction = 1;
   std::vector<double> rgba;
+};
+
+struct Site {
+  std::string name;
+  Transform pose = Transform::Identity();  ///< in the body
 };
 
 struct Inertial {
@@ -25,11 +31,15 @@ struct Inertial {
   Mat3 inertia_kg_m2 = Mat3::Zero();
 };
 
+/// Our own name of a number in MJCF's <custom>; the joint's name follows.
+inline constexpr const char* kNoLoad = "no_load_rad_s:";
+
 /// Numbers of a joint and of the actuators that turn it.
 struct Motor {
   bool has_actuator = false;
   double torque_n_m = 0;  ///< 0: not limited in the file
   double kp_n_m_rad = 0;
+  double no_load_rad_s = 0;  ///< 0: not said; MJCF has no word for it (kNoLoad)
   double armature_kg_m2 = 0, damping_n_m_s = 0, friction_n_m = 0;
 };
 
@@ -50,6 +60,7 @@ struct Body {
   std::optional<Inertial> inertial;
   std::vector<Joint> joints;
   std::vector<Geom> geoms;
+  std::vector<Site> sites;  ///< soles and IMU, for a writer
   bool has_imu = false;
 };
 
@@ -69,12 +80,18 @@ struct Robot {
   std::vector<Body> bodies;  ///< a parent comes before its children; the first is the trunk's root
   std::map<std::string, Mesh> meshes;
   std::vector<Follower> followers;
-  std::map<std::string, double> stand;  ///< by joint: the keyframe of that name
-  std::vector<std::string> left_out;    ///< one line each
+  std::vector<std::pair<std::string, std::string>> apart;  ///< bodies that never collide
+  std::map<std::string, double> stand;                     ///< by joint: the keyframe of that name
+  std::vector<std::string> left_out;                       ///< one line each
 };
 
 /// Throws LoadError at the element that cannot be understood.
 Robot read_robot(const std::string& path);
+
+/// A robot of VERP, for a writer.
+Robot robot_of(const model::Entity& entity);
+
+std::string mjcf_of(Robot& robot, const std::string& folder);
 
 /// `folder`: of the URDF, for paths of meshes. Adds to `robot.left_out` what URDF cannot say.
 std::string urdf_of(Robot& robot, const std::string& folder);

@@ -33,6 +33,7 @@ class Reader {
     if (out_.bodies.empty())
       document_.root().fail("no <body> is in its <worldbody>", "give a robot's MJCF file");
     read_actuators();
+    read_own_numbers();
     read_equalities();
     read_sensors();
     read_keyframe();
@@ -263,6 +264,15 @@ class Reader {
         continue;
       }
       read_actuator(actuator, joint->motor);
+    }
+  }
+
+  void read_own_numbers() {
+    for (const XmlElement& each : document_.all("custom")) {
+      const std::string name = each.text("name", "");
+      if (name.rfind(kNoLoad, 0) != 0) continue;
+      Joint* const joint = joint_named(name.substr(std::string_view(kNoLoad).size()));
+      if (joint != nullptr) joint->motor.no_load_rad_s = item(each).number("data", 0);
     }
   }
 

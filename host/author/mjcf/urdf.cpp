@@ -2,26 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <set>
 
-#include "host/author/mjcf/mjcf.hpp"
+#include "host/author/mjcf/words.hpp"
 #include "host/os/files/markup_text.hpp"
 
 namespace verp::mjcf {
 namespace {
 
-namespace fs = std::filesystem;
 using files::markup_text;
 
 constexpr double kShare = 0.05;  // of a body's mass for each link between its joints
 // An ellipsoid's box of the same volume: cube root of pi / 6.
 constexpr double kBoxOfEllipsoid = 0.806;
-
-std::string numbers(const Vec3& v) {
-  const auto plain = [](double value) { return std::abs(value) < 1e-15 ? 0.0 : value; };
-  return fmt::format("{:.12g} {:.12g} {:.12g}", plain(v.x()), plain(v.y()), plain(v.z()));
-}
 
 std::string origin(const Transform& pose) {
   const Mat3 r = pose.linear();
@@ -147,6 +140,8 @@ class Writer {
       limit = fmt::format(" lower=\"{:.12g}\" upper=\"{:.12g}\"", joint.lower, joint.upper);
     if (joint.motor.torque_n_m > 0)
       limit += fmt::format(" effort=\"{:.12g}\"", joint.motor.torque_n_m);
+    if (joint.motor.no_load_rad_s > 0)
+      limit += fmt::format(" velocity=\"{:.12g}\"", joint.motor.no_load_rad_s);
     if (!limit.empty()) line(2, "<limit" + limit + "/>");
     const Motor& motor = joint.motor;
     const bool is_passive = motor.damping_n_m_s > 0 || motor.friction_n_m > 0;
@@ -219,14 +214,12 @@ class Writer {
 
   std::vector<std::pair<std::string, Transform>> mesh_of(const Geom& geom) {
     const Mesh& mesh = robot_.meshes.at(geom.mesh);
-    std::string ending = fs::path(mesh.file).extension().string();
-    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const std::string ending = ending_of(mesh.file);
     if (ending != ".stl" && ending != ".obj" && ending != ".dae") {
       unread_.insert(mesh.file);
       return {};
     }
-    const std::string file =
-        fs::relative(fs::weakly_canonical(mesh.file), fs::weakly_canonical(folder_)).string();
+    const std::string file = path_from(folder_, mesh.file);
     return {{fmt::format("<mesh filename=\"{}\" scale=\"{}\"/>", markup_text(file),
                          numbers(mesh.scale)),
              Transform::Identity()}};

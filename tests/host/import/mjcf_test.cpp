@@ -294,6 +294,86 @@ TEST_F(MjcfFile, MuJoCoFindsTheSameInertiaInTheUrdfThatWeMake) {
     EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-9);
   }
 }
+
+/// Centres of mass in the frame of the body, from VERP's own tree.
+std::vector<model::Vec3> centres(const model::Entity& entity, const std::vector<double>& angle) {
+  std::vector<model::Transform> pose(entity.nodes.size(), model::Transform::Identity());
+  std::vector<model::Vec3> out(entity.nodes.size());
+  for (const std::size_t j : model::outward(entity)) {
+    const model::Joint& joint = entity.joints[j];
+    pose[j + 1] = pose[static_cast<std::size_t>(joint.parent)] *
+                  Eigen::Translation3d(joint.origin_m) * Eigen::AngleAxisd(angle[j], joint.axis);
+  }
+  for (std::size_t i = 0; i < pose.size(); ++i) out[i] = pose[i] * entity.nodes[i].com_m;
+  return out;
+}
+
+class ShippedRobot : public ::testing::TestWithParam<const char*> {
+ protected:
+  ShippedRobot() : entity_(model::load_robot(model::find_model(GetParam()))) {
+    for (const auto& [file, text_of] :
+         {std::pair{&mjcf_, &mjcf::mjcf_of}, std::pair{&urdf_, &mjcf::urdf_of}}) {
+      mjcf::Robot robot = mjcf::robot_of(entity_);
+      std::ofstream(*file) << text_of(robot, folder_.path().string());
+    }
+    for (const model::Joint& joint : entity_.joints) names_.push_back(joint.name);
+  }
+
+  files::TemporaryDirectory folder_;
+  std::string mjcf_ = (folder_.path() / "robot.xml").string();
+  std::string urdf_ = (folder_.path() / "robot.urdf").string();
+  model::Entity entity_;
+  std::vector<std::string> names_;
+};
+
+TEST_P(ShippedRobot, HasTheSameMassesPlacesAndInertiasInMuJoCo) {
+  const Model as_mjcf = mujoco(mjcf_), as_urdf = mujoco(urdf_);
+  ASSERT_TRUE(as_mjcf && as_urdf);
+  Data data(mj_makeData(as_mjcf.get()), &mj_deleteData);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> angle(-0.8, 0.8);
+  for (int round = 0; round < 10; ++round) {
+    std::vector<double> angles;
+    for (const std::string& name : names_) {
+      const int joint = mj_name2id(as_mjcf.get(), mjOBJ_JOINT, name.c_str());
+      ASSERT_GE(joint, 0) << name;
+      angles.push_back(angle(random));
+      data->qpos[as_mjcf->jnt_qposadr[joint]] = angles.back();
+    }
+    mj_forward(as_mjcf.get(), data.get());
+    const auto expected = centres(entity_, angles);
+    for (std::size_t i = 0; i < entity_.nodes.size(); ++i) {
+      const model::Node& node = entity_.nodes[i];
+      const int body = mj_name2id(as_mjcf.get(), mjOBJ_BODY, node.name.c_str());
+      ASSERT_GE(body, 0) << node.name;
+      const double* const at = data->xipos + 3 * body;
+      const model::Vec3 moved(at[0], at[1], at[2] - data->qpos[2]);
+      EXPECT_LT((moved - expected[i]).norm(), 1e-6) << node.name;
+      EXPECT_NEAR(as_mjcf->body_mass[body], node.mass_kg, 1e-9) << node.name;
+      const double* const moments = as_mjcf->body_inertia + 3 * body;
+      EXPECT_NEAR(moments[0] + moments[1] + moments[2], node.inertia_kg_m2.trace(), 1e-9);
+    }
+    EXPECT_LT(
+        (inertia(as_mjcf, names_, angles) - inertia(as_urdf, names_, angles)).cwiseAbs().maxCoeff(),
+        1e-9);
+  }
+}
+
+TEST_P(ShippedRobot, StandsInMuJoCo) {
+  const Model model = mujoco(mjcf_);
+  ASSERT_TRUE(model);
+  Data data(mj_makeData(model.get()), &mj_deleteData);
+  mj_resetDataKeyframe(model.get(), data.get(), 0);
+  const double height_m = data->qpos[2];
+  for (int i = 0; i < model->nu; ++i)
+    data->ctrl[i] = data->qpos[model->jnt_qposadr[model->actuator_trnid[2 * i]]];
+  for (int step = 0; step < 1500; ++step) mj_step(model.get(), data.get());
+  EXPECT_NEAR(data->qpos[2], height_m, 0.1 * height_m);
+}
+
+INSTANTIATE_TEST_SUITE_P(InOtherFormats, ShippedRobot,
+                         ::testing::Values("generic21", "op3", "darwin_op"),
+                         [](const auto& each) { return std::string(each.param); });
 #endif
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include <nlohmann/json.hpp>
+
 #include "tests/host/tool/program.hpp"
 
 namespace verp::tool::test {
@@ -35,6 +37,25 @@ TEST_F(Import, MjcfBecomesUrdfOnce) {
   expect_refused("import ball.xml -o .", "ball_from_mjcf.urdf: is there already");
   EXPECT_EQ(slurp(folder_ / "ball_from_mjcf.urdf"), "mine");
   EXPECT_EQ(slurp(folder_ / "ball.xml"), text);
+}
+
+TEST_F(Import, ExportedRobotWalksAsFastWhenItComesBack) {
+  const Outcome made = verp("export generic21 --mjcf out.xml");
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_NE(made.out.find("left out  gait, balance and safety parameters"), std::string::npos);
+  ASSERT_EQ(verp("import out.xml -o back").status, 0);
+  const auto speed = [&](const std::string& robot) {
+    return nlohmann::json::parse(verp("walk " + robot + " --for 8 --json").out)
+        .at("speed_steady_m_s")
+        .get<double>();
+  };
+  EXPECT_NEAR(speed("back/robot.sdf") / speed("generic21"), 1, 0.02);
+}
+
+TEST_F(Import, ExportRefusesWhatItCannotWrite) {
+  expect_refused("export generic21", "give -o FOLDER, --urdf FILE or --mjcf FILE");
+  expect_refused("export generic21 --mjcf no/such/folder.xml", "no/such/folder.xml");
+  expect_refused("export nonesuch --urdf out.urdf", "nonesuch");
 }
 
 TEST_F(Import, WrongFilesAndPlacesAreRefused) {

@@ -8,6 +8,8 @@
 #include "host/apps/cli/other_program.hpp"
 #include "host/apps/tool/robot/commands.hpp"
 #include "host/author/action/let_go.hpp"
+#include "host/author/mjcf/mjcf.hpp"
+#include "host/os/files/whole.hpp"
 #include "host/robot/model/check.hpp"
 #include "host/robot/model/export.hpp"
 #include "host/robot/model/find.hpp"
@@ -23,6 +25,26 @@ int check_world(const std::string& name, bool json) {
   const model::World world = model::load_world(model::find_world(name));
   cli::answer(json ? model::describe_json(world) : model::describe(world));
   return cli::kGood;
+}
+
+void write_whole(const std::string& file, const std::string& text) {
+  const files::Trouble trouble = files::replace(file, text);
+  if (trouble.any()) throw cli::ToolError(cli::kBadInput, file + ": " + trouble.text());
+}
+
+/// As other programs read it; an empty name: not in that format.
+void write_robot(const std::string& name, const std::string& bus, const std::string& urdf,
+                 const std::string& mjcf) {
+  const model::Entity entity = model::load_robot(model::find_model(name), bus);
+  for (const auto& [file, text_of] :
+       {std::pair{urdf, &mjcf::urdf_of}, std::pair{mjcf, &mjcf::mjcf_of}}) {
+    if (file.empty()) continue;
+    mjcf::Robot robot = mjcf::robot_of(entity);
+    write_whole(file, text_of(robot, std::filesystem::absolute(file).parent_path().string()));
+    std::string told = fmt::format("{}: written\n", file);
+    for (const std::string& each : robot.left_out) told += "left out  " + each + "\n";
+    cli::answer(told);
+  }
 }
 
 /// Throws the model::LoadError that reports this mistake in the file.
@@ -80,15 +102,23 @@ cli::Subcommand add_check(CLI::App& root) {
 
 cli::Subcommand add_export(CLI::App& root) {
   struct Options {
-    std::string model, bus, folder;
+    std::string model, bus, folder, urdf, mjcf;
   };
   CLI::App* app = cli::declare_other(root, "export");
   auto options = std::make_shared<Options>();
   cli::add_model(*app, options->model)->required();
   cli::add_bus_option(*app, options->bus);
-  app->add_option("-o,--output", options->folder, "folder")->required();
+  app->add_option("-o,--output", options->folder, "folder of the Params image and its header");
+  app->add_option("--urdf", options->urdf, "write a URDF here instead");
+  app->add_option("--mjcf", options->mjcf, "write an MJCF file (MuJoCo) here instead");
   return {app, [options] {
-            return model::export_command(options->model, options->bus, options->folder);
+            const bool as_robot = !options->urdf.empty() || !options->mjcf.empty();
+            if (as_robot) write_robot(options->model, options->bus, options->urdf, options->mjcf);
+            if (!options->folder.empty())
+              return model::export_command(options->model, options->bus, options->folder);
+            if (as_robot) return static_cast<int>(cli::kGood);
+            throw cli::ToolError(cli::kBadInput,
+                                 "nothing to write; give -o FOLDER, --urdf FILE or --mjcf FILE");
           }};
 }
 
