@@ -447,8 +447,8 @@ const char* word(Sureness sureness) {
 void make_urdf(Wish& wish) {
   Source source = read_source(wish.file, wish.folder);
   if (source.urdf.empty()) return;
-  const fs::path urdf =
-      fs::path(wish.folder) / (fs::path(wish.file).stem().string() + "_from_mjcf.urdf");
+  const std::string name = fs::path(wish.file).stem().stem().string();  // as in robot.urdf.xacro
+  const fs::path urdf = fs::path(wish.folder) / fmt::format("{}_from_{}.urdf", name, source.format);
   std::error_code error;
   if (fs::exists(urdf, error)) {
     throw model::LoadError(urdf.string(), 0, "is there already",

@@ -2,9 +2,11 @@
 
 #include <tinyxml2.h>
 
-#include <string_view>
+#include <fstream>
+#include <sstream>
 
 #include "host/author/mjcf/mjcf.hpp"
+#include "host/author/xacro/xacro.hpp"
 
 namespace verp::import {
 namespace {
@@ -25,13 +27,27 @@ Drive drive_of(const mjcf::Motor& motor) {
           .kp_n_m_rad = motor.kp_n_m_rad};
 }
 
-}  // namespace
+/// A URDF that xacro made may still name its namespace.
+bool is_xacro(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str().find("<xacro:") != std::string::npos;
+}
 
-Source read_source(const std::string& file, const std::string& folder) {
+Source source_of_xacro(const std::string& file, const std::string& folder) {
+  const xacro::Expanded expanded = xacro::expand(file, folder);
   Source out;
-  if (outer_element(file) != "mujoco") return out;
+  out.format = "xacro";
+  out.urdf = expanded.urdf;
+  out.left_out = expanded.left_out;
+  return out;
+}
+
+Source source_of_mjcf(const std::string& file, const std::string& folder) {
+  Source out;
   mjcf::Robot robot = mjcf::read_robot(file);
-  out.format = "MJCF";
+  out.format = "mjcf";
   out.urdf = mjcf::urdf_of(robot, folder);
   out.left_out = robot.left_out;
   out.stand = robot.stand;
@@ -41,6 +57,13 @@ Source read_source(const std::string& file, const std::string& folder) {
     }
   }
   return out;
+}
+
+}  // namespace
+
+Source read_source(const std::string& file, const std::string& folder) {
+  if (outer_element(file) == "mujoco") return source_of_mjcf(file, folder);
+  return is_xacro(file) ? source_of_xacro(file, folder) : Source{};
 }
 
 }  // namespace verp::import
