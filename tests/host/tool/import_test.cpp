@@ -27,6 +27,22 @@ TEST_F(Import, ForeignRobotWalksFromItsUntouchedFile) {
   EXPECT_EQ(slurp(folder_ / "odd.urdf"), before);
 }
 
+TEST_F(Import, TerminalIsAskedForTheServos) {
+  const std::string program = std::string(VERP_PROGRAM) + " import odd.urdf -o ";
+  const auto on_terminal = [&](const std::string& typed, const std::string& words) {
+    std::ofstream(folder_ / "typed") << typed;
+    const std::string line = "cd " + folder_.string() + " && script -qec '" + program + words +
+                             "' said < typed > /dev/null 2>&1";
+    return std::system(line.c_str());
+  };
+  EXPECT_EQ(on_terminal("nonesuch\nxm540_w270\n", "a"), 0);
+  EXPECT_NE(slurp(folder_ / "said").find("no servo type 'nonesuch'"), std::string::npos);
+  EXPECT_NE(slurp(folder_ / "a" / "robot.sdf").find("type=\"xm540_w270\""), std::string::npos);
+  EXPECT_EQ(on_terminal("\n", "b"), 0);
+  EXPECT_EQ(on_terminal("", "c --yes"), 0);
+  EXPECT_EQ(slurp(folder_ / "b" / "robot.sdf"), slurp(folder_ / "c" / "robot.sdf"));
+}
+
 TEST_F(Import, MjcfBecomesUrdfOnce) {
   const std::string text =
       "<mujoco><worldbody><body name=\"b\"><geom size=\"0.1\"/></body></worldbody></mujoco>";

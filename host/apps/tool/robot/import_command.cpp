@@ -1,7 +1,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cstdio>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <vector>
 
@@ -19,7 +22,7 @@ namespace fs = std::filesystem;
 
 struct ImportWords {
   import::Wish wish;
-  bool json = false;
+  bool json = false, yes = false;
 };
 
 void write_beside(const fs::path& file, const std::string& text) {
@@ -78,6 +81,32 @@ void tell(const import::Imported& robot, const std::string& sdf) {
     cli::answer(fmt::format("{}: made; `verp walk {}` walks it\n", sdf, sdf));
 }
 
+/// Empty: the guess is right, or nothing was guessed.
+std::string ask_servos(const import::Imported& robot) {
+  for (const import::Finding& each : robot.findings) {
+    if (each.what != "servos" || each.sureness != import::Finding::Sureness::kGuessed) continue;
+    fmt::print(stderr, "Servos: {}.\nEnter takes this guess; else write the type: ", each.value);
+    std::string type;
+    std::getline(std::cin, type);
+    return type;
+  }
+  return "";
+}
+
+import::Imported import_asking(import::Wish& wish,
+                               bool asks){import::Imported robot = import::import_robot(wish);
+if (!asks || !wish.servo_type.empty()) return robot;
+for (std::string type = ask_servos(robot); !type.empty(); type = ask_servos(robot)) {
+  wish.servo_type = type;
+  try {
+    return import::import_robot(wish);
+  } catch (const model::LoadError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+  }
+}
+return robot;
+}  // namespace
+
 int import_file(const ImportWords& words) {
   import::Wish wish = words.wish;
   std::error_code error;
@@ -91,7 +120,8 @@ int import_file(const ImportWords& words) {
   import::Imported robot;
   try {
     import::make_urdf(wish);
-    robot = import::import_robot(wish);
+    const bool asks = !words.yes && !words.json && isatty(STDIN_FILENO) != 0;
+    robot = import_asking(wish, asks);
   } catch (...) {
     if (!wish.maker_file.empty()) fs::remove(wish.file, error);
     for (const fs::path& each : made) fs::remove(each, error);
@@ -108,7 +138,7 @@ int import_file(const ImportWords& words) {
   throw cli::ToolError(cli::kBadInput, robot.refusal);
 }
 
-}  // namespace
+}  // namespace verp::tool
 
 cli::Subcommand add_import(CLI::App& root) {
   CLI::App* app = cli::declare_other(root, "import");
@@ -119,6 +149,7 @@ cli::Subcommand add_import(CLI::App& root) {
   app->add_option("--name", words->wish.name, "of the robot (default: the file's)");
   app->add_option("--servos", words->wish.servo_type,
                   "type of its servos (default: the weakest that carries it)");
+  app->add_flag("-y,--yes", words->yes, "take the guesses; without it, a terminal is asked");
   cli::add_json_flag(*app, words->json);
   return {app, [words] { return import_file(*words); }};
 }
