@@ -107,7 +107,7 @@ class Converter {
                                 from.offset_rad, from.ratio});
     } else {
       joint.motor.has_actuator = true;
-      joint.motor.torque_n_m = servo.stall_torque_n_m;
+      joint.motor.torque_n_m = servo.most_torque_n_m();
       joint.motor.no_load_rad_s = servo.no_load_speed_rad_s;
       joint.motor.kp_n_m_rad = 1 / static_cast<double>(params_.joint[index].compliance_rad_nm);
       joint.motor.armature_kg_m2 = servo.gearbox.armature_kg_m2;

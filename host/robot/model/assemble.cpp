@@ -11,6 +11,7 @@
 #include "common/model/tuning_ranges.hpp"
 #include "host/robot/model/assemble_sensors.hpp"
 #include "host/robot/model/couplings.hpp"
+#include "host/robot/model/fit_gains.hpp"
 #include "host/robot/model/joint_friction.hpp"
 #include "host/robot/model/leg.hpp"
 #include "host/robot/model/link_tree.hpp"
@@ -58,7 +59,7 @@ class Assembler {
     assemble_sensors(source_, facts_, model_, tree_, e_);
     read_tuning();
     gather_leg_frames(e_);
-    fit_gains();
+    choose_gains();
     choose_supply();
     choose_friction(facts_, e_);
     settle_stance(facts_, e_);
@@ -150,25 +151,19 @@ class Assembler {
   }
 
   /// Where the file has no gains: a P gain that fits the robot, and an eighth of it as D gain.
-  void fit_gains() {
-    std::map<std::string, std::uint16_t> fitted;
+  void choose_gains() {
+    std::vector<OpenGain> open;
     for (const ServoFact& fact : facts_.bus().servos) {
-      if (facts_.mimic_of(fact.joint) != nullptr) continue;
+      if (facts_.mimic_of(fact.joint) != nullptr || fact.gives_p_gain) continue;
       Servo& servo = joint_named(fact.joint)->servo;
-      const std::uint16_t gain = fact.gives_p_gain ? std::uint16_t{0} : fitting_p_gain(e_, servo);
-      if (gain == 0) continue;
-      servo.p_gain = gain;
+      if (fitting_p_gain(e_, servo) == 0) continue;
       const bool known_unit = e_.protocol != BusProtocol::kFeetech;
-      if (!fact.gives_d_gain && known_unit) servo.d_gain = static_cast<std::uint16_t>(gain / 8);
-      fitted[servo.type] = gain;
+      open.push_back({&servo, !fact.gives_d_gain && known_unit});
     }
+    fit_gains(e_, open);
     for (Joint& joint : e_.joints) {
       if (joint.follows >= 0)
         joint.servo = e_.joints[static_cast<std::size_t>(joint.follows)].servo;
-    }
-    for (const auto& [type, gain] : fitted) {
-      e_.defaults.push_back("p_gain " + std::to_string(gain) + " of " + type +
-                            ", from its mass and legs");
     }
   }
 
@@ -252,12 +247,14 @@ class Assembler {
     if (limb.joints.empty())
       fact.at.fail("limb '" + fact.name + "' has no joints", "choose another tip");
     limb.tip = tip.pose;
-    if (fact.name == "left_leg" || fact.name == "right_leg") check_leg(fact, limb, tip.node);
+    if (fact.name == "left_leg" || fact.name == "right_leg")
+      check_leg(fact, limb, base.node, tip.node);
     e_.limbs.push_back(limb);
   }
 
-  void check_leg(const LimbFact& fact, Limb& limb, int foot) const {
-    if (!slots_of(e_, limb)) {
+  void check_leg(const LimbFact& fact, Limb& limb, int base, int foot) const {
+    const bool starts_below_a_joint = base != 0 && limb.joints.size() < kLegJoints;
+    if (!slots_of(e_, limb) || starts_below_a_joint) {
       fact.at.fail(
           fact.name + " has " + std::to_string(limb.joints.size()) +
               " joints: a leg needs hip yaw, roll and pitch, knee, ankle pitch and roll",

@@ -3,12 +3,14 @@
 
 #include <fstream>
 #include <random>
+#include <set>
 
 #include "host/author/import/import.hpp"
 #include "host/author/mjcf/mjcf.hpp"
 #include "host/os/files/temporary_directory.hpp"
 #include "host/robot/model/find.hpp"
 #include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
 
 #ifdef VERP_HAS_MUJOCO
 #include <mujoco/mujoco.h>
@@ -124,11 +126,30 @@ TEST_F(MjcfFile, IsARobotThatLoads) {
   EXPECT_EQ(model::find_limb(entity, "left_leg")->joints.size(), 6U);
   ASSERT_TRUE(entity.imu);
   for (const model::Joint& each : entity.joints) {
-    EXPECT_NEAR(each.servo.stall_torque_n_m, 3, 1e-9) << each.name;
+    EXPECT_NEAR(each.servo.peak_torque_n_m, 3, 1e-9) << each.name;
     EXPECT_NEAR(each.servo.gearbox.armature_kg_m2, each.name.find("yaw") == 0 ? 0 : 0.004, 1e-9);
   }
   const model::Limb& leg = *model::find_limb(entity, "left_leg");
   EXPECT_NEAR(leg.sole_max_m.x() - leg.sole_min_m.x(), 0.1, 1e-4);
+}
+
+TEST_F(MjcfFile, MoreKindsOfMotorsThanTheControllerHasRoomForAreMerged) {
+  std::string text = robot();
+  double force_n_m = 3;
+  for (const char* const joint : {"yaw", "roll", "pitch", "knee", "ankle_pitch", "ankle_roll"}) {
+    for (const char* const side : {"left", "right"}) {
+      const std::string name = fmt::format("joint=\"{}_{}\"/>", side, joint);
+      const std::size_t at = text.find("<position " + name) + 10;
+      text.insert(at, fmt::format("forcerange=\"-{0} {0}\" ", force_n_m));
+    }
+    force_n_m *= 1.5;
+  }
+  const model::Entity entity = loaded(import(text));
+  EXPECT_TRUE(lost(entity.notes, "room for 4 kinds"));
+  std::set<int> gains;
+  for (const model::Joint& each : entity.joints) gains.insert(each.servo.p_gain);
+  EXPECT_EQ(gains.size(), 4U);
+  EXPECT_NO_THROW(model::make_params(entity));
 }
 
 TEST_F(MjcfFile, ClassesGiveWhatTheElementLeavesOut) {

@@ -97,17 +97,20 @@ TEST(BadInput, UnknownServoTypeListsTheTypes) {
                  "xm430_w210, xm430_w350, xh430_w210");
 }
 
-TEST(BadInput, FiveJointLegIsRefused) {
-  std::string text =
-      edited("<verp:limb name=\"left_leg\" base=\"trunk\" tip=\"l_sole\"/>",
-             "<verp:limb name=\"left_leg\" base=\"l_hip_yaw_link\" tip=\"l_sole\"/>");
-  expect_refused(text, "<verp:limb name=\"left_leg\"", "left_leg has 5 joints");
+TEST(BadInput, LegThatStartsBelowItsFirstJointIsRefused) {
+  for (const auto& [base, count] : {std::pair{"l_hip_yaw_link", "5"}, {"l_hip_roll_link", "4"}}) {
+    const std::string text =
+        edited("<verp:limb name=\"left_leg\" base=\"trunk\" tip=\"l_sole\"/>",
+               std::string("<verp:limb name=\"left_leg\" base=\"") + base + "\" tip=\"l_sole\"/>");
+    expect_refused(text, "<verp:limb name=\"left_leg\"",
+                   std::string("left_leg has ") + count + " joints");
+  }
 }
 
-TEST(BadInput, FixedLegJointMakesAFiveJointLeg) {
-  std::string text = edited("<joint name=\"l_hip_yaw\" type=\"revolute\">",
-                            "<joint name=\"l_hip_yaw\" type=\"fixed\">");
-  const auto start = text.find("      <verp:servo joint=\"l_hip_yaw\"");
+TEST(BadInput, LegWithoutHipRollIsRefused) {
+  std::string text = edited("<joint name=\"l_hip_roll\" type=\"revolute\">",
+                            "<joint name=\"l_hip_roll\" type=\"fixed\">");
+  const auto start = text.find("      <verp:servo joint=\"l_hip_roll\"");
   text.erase(start, text.find('\n', start) + 1 - start);
   expect_refused(text, "<verp:limb name=\"left_leg\"", "left_leg has 5 joints");
 }
