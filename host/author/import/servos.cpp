@@ -54,6 +54,21 @@ bool take_limits(std::vector<ServoJoint>& joints, double needed_n_m, double stan
   return true;
 }
 
+/// Servos have no limit of current below their stall. Where a file gives no speed, the damping of
+/// such a joint is its back-EMF: OP3's ends the motion at an XM430-W350's 4.6 rad/s.
+void take_back_emf(Drive& drive) {
+  constexpr double kLeast_rad_s = 1.5;
+  if (drive.no_load_rad_s > 0 || drive.damping_n_m_s <= 0) return;
+  const double end_rad_s = drive.stall_torque_n_m / drive.damping_n_m_s;
+  if (drive.stall_torque_n_m > strongest_known_n_m() || end_rad_s < kLeast_rad_s ||
+      end_rad_s > kMostSpeed_rad_s) {
+    return;
+  }
+  drive.no_load_rad_s = end_rad_s;
+  drive.is_line = true;
+  drive.damping_n_m_s = 0;
+}
+
 /// Of the joints without a drive.
 const model::ServoType* weakest_with(double torque_n_m) {
   const model::ServoType* best = nullptr;
@@ -69,7 +84,11 @@ class Chooser {
   Chooser(std::vector<ServoJoint> joints, double needed_n_m)
       : joints_(std::move(joints)),
         needed_n_m_(needed_n_m),
-        are_limits_(take_limits(joints_, needed_n_m, needed_n_m / kTorqueReserve)) {}
+        are_limits_(take_limits(joints_, needed_n_m, needed_n_m / kTorqueReserve)) {
+    for (ServoJoint& joint : joints_) {
+      if (joint.drive) take_back_emf(*joint.drive);
+    }
+  }
 
   ServoChoice choose() {
     const bool all_drive = std::all_of(joints_.begin(), joints_.end(), has_drive);
@@ -148,9 +167,11 @@ class Chooser {
 
   /// Friction of a file is Coulomb and viscous: no part of the load.
   static std::string numbers_of(const Drive& drive) {
-    std::string out = fmt::format(
-        " stall_torque_n_m=\"{:.4g}\" peak_torque_n_m=\"{:.4g}\" no_load_rev_min=\"{:.4g}\"",
-        kStallOverPeak * drive.stall_torque_n_m, drive.stall_torque_n_m, rev_min(drive));
+    const std::string peak =
+        drive.is_line ? "" : fmt::format(" peak_torque_n_m=\"{:.4g}\"", drive.stall_torque_n_m);
+    std::string out = fmt::format(" stall_torque_n_m=\"{:.4g}\"{} no_load_rev_min=\"{:.4g}\"",
+                                  (drive.is_line ? 1 : kStallOverPeak) * drive.stall_torque_n_m,
+                                  peak, rev_min(drive));
     if (drive.armature_kg_m2 > 0)
       out += fmt::format(" armature_kg_m2=\"{:.4g}\"", drive.armature_kg_m2);
     if (drive.friction_n_m > 0 || drive.damping_n_m_s > 0) {

@@ -12,6 +12,7 @@ namespace verp::import {
 struct Drive {
   double stall_torque_n_m = 0;  ///< the most it gives; without it the joint has no drive
   double no_load_rad_s = 0;
+  bool is_line = false;  ///< its torque falls evenly to nothing there; else it is a current's limit
   double armature_kg_m2 = 0;
   double friction_n_m = 0, damping_n_m_s = 0;
   double kp_n_m_rad = 0;  ///< said, not taken: VERP's gain fits mass and legs

@@ -21,6 +21,7 @@ std::string outer_element(const std::string& file) {
 Drive drive_of(const mjcf::Motor& motor) {
   return {.stall_torque_n_m = motor.torque_n_m,
           .no_load_rad_s = motor.no_load_rad_s,
+          .is_line = motor.no_load_rad_s > 0,
           .armature_kg_m2 = motor.armature_kg_m2,
           .friction_n_m = motor.friction_n_m,
           .damping_n_m_s = motor.damping_n_m_s,

@@ -126,8 +126,9 @@ TEST_F(MjcfFile, IsARobotThatLoads) {
   EXPECT_EQ(model::find_limb(entity, "left_leg")->joints.size(), 6U);
   ASSERT_TRUE(entity.imu);
   for (const model::Joint& each : entity.joints) {
-    EXPECT_NEAR(each.servo.peak_torque_n_m, 3, 1e-9) << each.name;
-    EXPECT_NEAR(each.servo.gearbox.armature_kg_m2, each.name.find("yaw") == 0 ? 0 : 0.004, 1e-9);
+    EXPECT_NEAR(each.servo.stall_torque_n_m, 3, 1e-9) << each.name;
+    EXPECT_NEAR(each.servo.no_load_speed_rad_s, 3 / 0.3, 1e-3) << "its damping is the back-EMF";
+    EXPECT_NEAR(each.servo.gearbox.armature_kg_m2, 0.004, 1e-9) << each.name;
   }
   const model::Limb& leg = *model::find_limb(entity, "left_leg");
   EXPECT_NEAR(leg.sole_max_m.x() - leg.sole_min_m.x(), 0.1, 1e-4);
