@@ -18,8 +18,14 @@ std::optional<XmlElement> first(const XmlElement& parent, const char* name) {
   return found.empty() ? std::nullopt : std::optional(found.front());
 }
 
+/// May be empty.
+std::string words(const XmlElement& element, const char* attribute) {
+  const char* const value = element.raw().Attribute(attribute);
+  return value == nullptr ? "" : value;
+}
+
 Vec3 three(const XmlElement& element, const char* attribute, const Vec3& fallback) {
-  const auto numbers = model::parse_numbers(element.text(attribute, ""));
+  const auto numbers = model::parse_numbers(words(element, attribute));
   if (!numbers || numbers->size() != 3) return fallback;
   return {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
 }
@@ -140,7 +146,7 @@ class UrdfReader {
   /// <gazebo reference="LINK or JOINT"><sensor>
   void find_sensors() {
     for (const XmlElement& gazebo : robot_.children("gazebo")) {
-      const std::string on = gazebo.text("reference", "");
+      const std::string on = words(gazebo, "reference");
       for (const XmlElement& sensor : gazebo.children("sensor")) {
         const std::string type = sensor.text("type", "");
         const auto link = index_.find(on);

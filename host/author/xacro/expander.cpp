@@ -41,6 +41,8 @@ class Expander {
     out_.Print(&printer);
     for (const std::string& each : missing_)
       left_out_.push_back("the include " + each + " is not found");
+    for (const std::string& each : guessed_)
+      left_out_.push_back("the argument " + each + " has no default: false is taken");
     for (const std::string& each : unknown_)
       left_out_.push_back("the macro " + each + " is in no file that was found");
     return {printer.CStr(), left_out_};
@@ -97,15 +99,16 @@ class Expander {
     if (verb == "optenv") return rest;
     if (verb != "arg") throw ExpressionError("$(" + text + ") is not understood");
     const auto found = arguments_.find(name);
-    if (found == arguments_.end())
-      throw ExpressionError("the argument '" + name + "' has no default");
-    return found->second;
+    if (found != arguments_.end()) return found->second;
+    guessed_.insert(name);
+    return "false";
   }
 
   /// A number, where the whole text is one expression that gives one.
   Value filled(const std::string& text, const Scope& scope) const {
     std::string out;
     for (std::size_t at = 0; at < text.size();) {
+      if (out.size() > kMostText) throw ExpressionError("its text is longer than 64 kB");
       if (text.compare(at, 2, "$$") == 0) {
         out += '$';
         at += 2;
@@ -176,12 +179,18 @@ class Expander {
   void expand(const XMLElement& element, XMLNode& to, Scope& scope) {
     if (std::strncmp(element.Name(), "xacro:", 6) == 0)
       return obey(element, element.Name() + 6, to, scope);
-    if (++elements_ > kMostElements)
-      fail(element, "it makes more than 50000 elements", "look for a macro that calls itself");
+    count(element, 1);
     XMLElement* const copy = out_.NewElement(element.Name());
     to.InsertEndChild(copy);
     copy_attributes(element, *copy, scope);
     expand_children(element, *copy, scope);
+  }
+
+  /// Elements, and calls of macros, which may make none.
+  void count(const XMLElement& at, int more) {
+    elements_ += more;
+    if (elements_ > kMostElements)
+      fail(at, "it makes more than 50000 elements", "look for macros that call each other");
   }
 
   void obey(const XMLElement& element, const std::string& word, XMLNode& to, Scope& scope) {
@@ -262,9 +271,7 @@ class Expander {
     const std::string name = attribute(element, "name", scope);
     const auto* const block = scope.find_block(name);
     if (block == nullptr) fail(element, "there is no block '" + name + "'", "correct the name");
-    elements_ += static_cast<int>(block->size());
-    if (elements_ > kMostElements)
-      fail(element, "it makes more than 50000 elements", "look for a macro that calls itself");
+    count(element, static_cast<int>(block->size()));
     for (const XMLNode* each : *block) to.InsertEndChild(each->DeepClone(&out_));
   }
 
@@ -281,6 +288,7 @@ class Expander {
     }
     const Macro macro = found->second;
     const Deeper deeper(*this, element);
+    count(element, 1);
     Scope inner;
     inner.outer = &global_;
     give_values(element, macro, scope, inner);
@@ -363,6 +371,7 @@ class Expander {
   std::map<std::string, Macro> macros_;
   std::map<std::string, std::string> arguments_;
   std::set<std::string> missing_, unknown_;
+  mutable std::set<std::string> guessed_;  ///< arguments
   std::vector<std::string> left_out_;
   int depth_ = 0, elements_ = 0;
 };

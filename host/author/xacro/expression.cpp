@@ -155,6 +155,8 @@ class Parser {
                            std::holds_alternative<std::string>(other);
         if (texts) {
           value = std::get<std::string>(value) + std::get<std::string>(other);
+          if (std::get<std::string>(value).size() > kMostText)
+            throw ExpressionError("its text is longer than 64 kB");
         } else {
           value = number_of(value) + number_of(other);
         }

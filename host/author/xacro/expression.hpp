@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -8,6 +9,8 @@
 /// The part of Python's expressions that robots' xacro files use: numbers, texts, comparisons,
 /// and/or/not, A if B else C, and functions of math.
 namespace verp::xacro {
+
+inline constexpr std::size_t kMostText = 65536;  ///< of a value: doublings end there
 
 using Value = std::variant<double, std::string>;
 

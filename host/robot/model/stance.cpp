@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "common/kinematics/leg_ik.hpp"
 #include "common/model/leg.hpp"
@@ -22,6 +23,7 @@ constexpr double kGravity_m_s2 = 9.80665;
 constexpr double kItsLeg_m = 0.186;
 constexpr double kUsual_v = 12;  // of its servos
 constexpr double kHipShare = 0.808;
+constexpr double kMostHipShare = 0.97;  // straighter legs cannot step
 constexpr double kFeetInside = 0.0014 / kItsLeg_m;
 // Soles that roll with their legs bear less sway. Open Duck Mini walks with 0.30 to 0.32 s.
 constexpr double kRockingCycle_s = 0.335;
@@ -149,7 +151,7 @@ class Settler {
   double hip_height() const {
     if (given("gait.hip_height_m")) return tuned("gait.hip_height_m");
     if (poses_leg("stand")) return stand_of(e_, *leg_[0]).hip_height_m;
-    return kHipShare * leg_m_;
+    return found_m_ > 0 ? found_m_ : kHipShare * leg_m_;
   }
 
   double half_stance() const {
@@ -259,7 +261,7 @@ class Settler {
       }
       if (height_m == stand_m) break;
     }
-    refuse_height(stand_m);
+    refuse_height(stand_m, std::nullopt);
   }
 
   /// Knees ahead, as a person's, unless the limits allow only a bird's.
@@ -273,9 +275,36 @@ class Settler {
       knees_ahead_ = bends_forward(params, 0, angle_rad);
       return;
     }
-    knees_ahead_ = put_pose("stand", height_m);
-    if (!knees_ahead_ && !put_pose("stand", height_m)) knees_ahead_ = true;  // refused below
-    fill_pose("stand", height_m);
+    double used_m = height_m;
+    if (!stands_at(height_m)) {
+      const std::optional<double> nearest_m = nearest_height();
+      if (given("gait.hip_height_m") || !nearest_m) refuse_height(height_m, nearest_m);
+      used_m = found_m_ = *nearest_m;
+      for (auto& [name, value] : e_.tuning) {
+        if (name == "gait.hip_height_m") value = used_m;
+      }
+      e_.defaults.push_back(fmt::format(
+          "gait.hip_height_m {:.4g} instead, the nearest within the legs' limits", used_m));
+    }
+    fill_pose("stand", used_m);
+  }
+
+  bool stands_at(double height_m) {
+    for (const bool ahead : {true, false}) {
+      knees_ahead_ = ahead;
+      if (put_pose("stand", height_m)) return true;
+    }
+    return false;
+  }
+
+  /// To the usual one, where the legs reach a level stand.
+  std::optional<double> nearest_height() {
+    for (int step = 1; step <= 30; ++step) {
+      for (const double share : {kHipShare + 0.01 * step, kHipShare - 0.01 * step}) {
+        if (share < kMostHipShare && stands_at(share * leg_m_)) return share * leg_m_;
+      }
+    }
+    return std::nullopt;
   }
 
   bool put_pose(const std::string& pose, double height_m) {
@@ -295,15 +324,15 @@ class Settler {
     return true;
   }
 
-  [[noreturn]] void refuse_height(double height_m) const {
+  [[noreturn]] void refuse_height(double height_m, std::optional<double> other_m) const {
     const TuningFact* const asked = given("gait.hip_height_m");
     const XmlElement& at = asked ? asked->at : limb_at("left_leg");
     at.fail(fmt::format("the legs ({:.3f} m from hip to ankle) cannot stand level with the hip "
                         "{:.3f} m above the ankle, within their joints' limits",
                         leg_m_, height_m),
-            fmt::format("choose gait.hip_height_m near {:.3f}, or correct limits, axes or the "
-                        "soles' frames",
-                        kHipShare * leg_m_));
+            (other_m ? fmt::format("choose gait.hip_height_m near {:.3f}", *other_m)
+                     : std::string("choose another gait.hip_height_m")) +
+                ", or correct limits, axes or the soles' frames");
   }
 
   /// Soles level, and both on one floor.
@@ -330,7 +359,8 @@ class Settler {
   /// Checks that the legs reach the gait's posture from the standing pose.
   void check_stand() const {
     const Params params = make_params(e_);
-    if (!can_stand(params)) refuse_height(static_cast<double>(params.tuning.gait.hip_height_m));
+    if (!can_stand(params))
+      refuse_height(static_cast<double>(params.tuning.gait.hip_height_m), std::nullopt);
   }
 
   void check_knees() const {
@@ -355,6 +385,7 @@ class Settler {
   std::array<const Limb*, 2> leg_{};
   double leg_m_ = 0;
   bool knees_ahead_ = true;
+  double found_m_ = 0;  ///< hip height, where the usual one is out of reach
 };
 
 }  // namespace

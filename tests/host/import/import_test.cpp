@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <cmath>
 #include <fstream>
 #include <string>
 
@@ -27,7 +28,7 @@ struct Habits {
   double yaw_rad = 0;  ///< of the whole robot in its file
   int leg_joints = 6;  ///< 5: without ankle roll; 7: with toes
   bool has_hip_yaw = true;
-  double knee_lower_rad = 0;     ///< to 2.4
+  double knee_lower_rad = 0, knee_upper_rad = 2.4;
   double sole_ahead_m = 0.01;    ///< middle of the sole, from the ankle
   double moments_times = 1;      ///< a unit beside kg m2
   bool feet_are_meshes = false;  ///< which nobody has
@@ -73,7 +74,7 @@ class Maker {
       const std::string below = fmt::format("{}_{}", side > 0 ? "p4" : "p5", k);
       const char* const type = k > 0 || h_.has_hip_yaw ? "revolute" : "fixed";
       joint(above, below, type, places[k], axes[k], 0, k == 3 ? h_.knee_lower_rad : -1.6,
-            k == 3 ? 2.4 : 1.6);
+            k == 3 ? h_.knee_upper_rad : 1.6);
       const bool foot = k == std::min(h_.leg_joints, 6) - 1;
       const std::string shape = h_.feet_are_meshes
                                     ? "<mesh filename=\"" + h_.meshes + "/foot.stl\"/>"
@@ -245,6 +246,21 @@ TEST_F(ImportedFile, JointsWithoutStopsGetAServosTurn) {
   EXPECT_TRUE(was_changed(robot, ", jp4_3"));
   for (const model::Joint& joint : loaded(robot).joints)
     EXPECT_NEAR(joint.upper_rad - joint.lower_rad, 6.28, 0.01) << joint.name;
+}
+
+TEST_F(ImportedFile, StandsAsLowAsItsKneesAllow) {
+  const model::Entity robot = loaded(import({.knee_upper_rad = 0.9}));
+  for (const model::Joint& joint : robot.joints) EXPECT_LE(joint.stand_rad, joint.upper_rad);
+  EXPECT_TRUE(std::any_of(robot.defaults.begin(), robot.defaults.end(), [](const auto& each) {
+    return each.find("the nearest within the legs' limits") != std::string::npos;
+  }));
+  EXPECT_NEAR(model::make_params(robot).tuning.gait.hip_height_m, 0.186 * std::cos(0.45), 0.002);
+}
+
+TEST_F(ImportedFile, EmptyReferenceOfGazeboDoesNoHarm) {
+  EXPECT_EQ(
+      import({.more = "<gazebo reference=\"\"><sensor name=\"s\" type=\"imu\"/></gazebo>"}).refusal,
+      "");
 }
 
 TEST_F(ImportedFile, ToesAreFixedAndSaid) {

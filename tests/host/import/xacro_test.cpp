@@ -110,6 +110,12 @@ TEST_F(XacroFile, ArgumentsTakeTheirDefaults) {
       "<h/>");
 }
 
+TEST_F(XacroFile, ArgumentWithoutDefaultIsFalseAndSaid) {
+  EXPECT_EQ(expanded("<xacro:if value=\"$(arg crane)\"><c/></xacro:if><p/>"), "<p/>");
+  ASSERT_EQ(result_.left_out.size(), 1U);
+  EXPECT_NE(result_.left_out[0].find("the argument crane has no default"), std::string::npos);
+}
+
 TEST_F(XacroFile, MacrosTakeValuesPresetsAndBlocks) {
   EXPECT_EQ(expanded("<xacro:property name=\"outer\" value=\"7\"/>"
                      "<xacro:macro name=\"m\" params=\"a b:=4 c='x y' outer:=^ d:=^|9 *one **all\">"
@@ -149,7 +155,15 @@ TEST_F(XacroFile, WhatHasNoEndIsRefused) {
   EXPECT_NE(refusal("<xacro:macro name=\"m\"><xacro:m/></xacro:macro><xacro:m/>").find("no end"),
             std::string::npos);
   EXPECT_NE(refusal("<xacro:include filename=\"robot.xacro\"/>").find("no end"), std::string::npos);
-  std::string doubling = "<xacro:macro name=\"m0\"><p/></xacro:macro>";
+  std::string longer = "<xacro:property name=\"a\" value=\"text\"/>";
+  std::string sum = longer;
+  for (int i = 0; i < 40; ++i) {
+    longer += "<xacro:property name=\"a\" value=\"${a}${a}\"/>";
+    sum += "<xacro:property name=\"a\" value=\"${a + a}\"/>";
+  }
+  EXPECT_NE(refusal(longer).find("64 kB"), std::string::npos);
+  EXPECT_NE(refusal(sum).find("64 kB"), std::string::npos);
+  std::string doubling = "<xacro:macro name=\"m0\"/>";
   for (int i = 1; i < 30; ++i) {
     const std::string below = "<xacro:m" + std::to_string(i - 1) + "/>";
     doubling +=
@@ -166,7 +180,6 @@ TEST_F(XacroFile, MistakesAreRefusedAtTheirLine) {
             std::string::npos);
   EXPECT_NE(refusal("<xacro:macro name=\"m\" params=\"*a\"/><xacro:m/>").find("lacks the block a"),
             std::string::npos);
-  EXPECT_NE(refusal("<p a=\"$(arg none)\"/>").find("has no default"), std::string::npos);
   EXPECT_NE(refusal("<p a=\"${1\"/>").find("not closed"), std::string::npos);
   EXPECT_NE(refusal("<xacro:if><p/></xacro:if>").find("has no value"), std::string::npos);
 }

@@ -98,13 +98,10 @@ TEST(BadInput, UnknownServoTypeListsTheTypes) {
 }
 
 TEST(BadInput, LegThatStartsBelowItsFirstJointIsRefused) {
-  for (const auto& [base, count] : {std::pair{"l_hip_yaw_link", "5"}, {"l_hip_roll_link", "4"}}) {
-    const std::string text =
-        edited("<verp:limb name=\"left_leg\" base=\"trunk\" tip=\"l_sole\"/>",
-               std::string("<verp:limb name=\"left_leg\" base=\"") + base + "\" tip=\"l_sole\"/>");
-    expect_refused(text, "<verp:limb name=\"left_leg\"",
-                   std::string("left_leg has ") + count + " joints");
-  }
+  const std::string text =
+      edited("<verp:limb name=\"left_leg\" base=\"trunk\" tip=\"l_sole\"/>",
+             "<verp:limb name=\"left_leg\" base=\"l_hip_yaw_link\" tip=\"l_sole\"/>");
+  expect_refused(text, "<verp:limb name=\"left_leg\"", "left_leg has 5 joints");
 }
 
 TEST(BadInput, LegWithoutHipRollIsRefused) {
