@@ -69,12 +69,21 @@ void take_back_emf(Drive& drive) {
   drive.damping_n_m_s = 0;
 }
 
-/// Of the joints without a drive.
+// A swing leg of 0.2 m turns its hip at up to 4 rad/s: slower servos end steps elsewhere.
+constexpr double kWalking_rad_s = 4;
+
+/// The weakest that is strong enough, and fast enough where one is.
 const model::ServoType* weakest_with(double torque_n_m) {
   const model::ServoType* best = nullptr;
+  const auto is_fast = [](const model::ServoType& type) {
+    return type.no_load_rev_min / kRevMin >= kWalking_rad_s;
+  };
   for (const model::ServoType& type : model::servo_types()) {
     if (type.protocol != BusProtocol::kDynamixel2 || type.stall_torque_n_m < torque_n_m) continue;
-    if (best == nullptr || type.stall_torque_n_m < best->stall_torque_n_m) best = &type;
+    const bool is_better =
+        best == nullptr || (is_fast(type) && !is_fast(*best)) ||
+        (is_fast(type) == is_fast(*best) && type.stall_torque_n_m < best->stall_torque_n_m);
+    if (is_better) best = &type;
   }
   return best;
 }
@@ -150,7 +159,8 @@ class Chooser {
     if (known != nullptr) {
       usual_ = known->name;
       found(Sureness::kGuessed,
-            fmt::format("{}, the weakest known with {:.3g} N m, twice what a knee has to hold",
+            fmt::format("{}, the weakest known with {:.3g} N m, twice what a knee has to hold, "
+                        "of those that are fast enough",
                         usual_, needed_n_m_),
             "give the robot's own with --servos TYPE");
       return;

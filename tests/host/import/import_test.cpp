@@ -337,10 +337,10 @@ TEST_F(ImportedFile, WhatAJointMovesHasAMassAndAGuessIsSaid) {
   }
 }
 
-TEST_F(ImportedFile, ServosAreTheWeakestThatCarryTheRobot) {
+TEST_F(ImportedFile, ServosAreTheWeakestThatCarryTheRobotAndAreFastEnough) {
   const Imported robot = import({});
   EXPECT_EQ(finding(robot, "servos").sureness, Finding::Sureness::kGuessed);
-  EXPECT_EQ(finding(robot, "servos").value.substr(0, 11), "xh430_w350,");
+  EXPECT_EQ(finding(robot, "servos").value.substr(0, 11), "xm430_w350,");
   const Imported heavy = import({.foot_kg = 20});
   EXPECT_EQ(finding(heavy, "servos").value.substr(0, 18), "a motor of 46 N m,");
   EXPECT_EQ(loaded(heavy).joints[4].servo.stall_torque_n_m, 46);
