@@ -9,8 +9,12 @@ inline bool has(const LegParams& leg, int slot) {
   return leg.joint[slot] != kNoJoint;
 }
 
+extern const JointParams kRigid;  ///< its axis is 0, and so are its limits
+
 /// In an empty slot: a joint that never turns, weighs nothing and lies where its parent does.
-const JointParams& joint_of(const Params& params, const LegParams& leg, int slot);
+inline const JointParams& joint_of(const Params& params, const LegParams& leg, int slot) {
+  return has(leg, slot) ? params.joint[leg.joint[slot]] : kRigid;
+}
 
 /// The joint that moves the foot.
 inline std::uint8_t last_joint(const LegParams& leg) {
@@ -18,10 +22,22 @@ inline std::uint8_t last_joint(const LegParams& leg) {
 }
 
 /// One bit for each joint.
-std::uint32_t joints_of(const LegParams& leg);
+inline std::uint32_t joints_of(const LegParams& leg) {
+  std::uint32_t joints = 0;
+  for (int k = 0; k < kLegJoints; ++k) {
+    if (has(leg, k)) joints |= std::uint32_t{1} << leg.joint[k];
+  }
+  return joints;
+}
 
-void read_leg(const LegParams& leg, const float* joint_rad, float* leg_rad);
-void write_leg(const LegParams& leg, const float* leg_rad, float* joint_rad);
+inline void read_leg(const LegParams& leg, const float* joint_rad, float* leg_rad) {
+  for (int k = 0; k < kLegJoints; ++k) leg_rad[k] = has(leg, k) ? joint_rad[leg.joint[k]] : 0.0F;
+}
+inline void write_leg(const LegParams& leg, const float* leg_rad, float* joint_rad) {
+  for (int k = 0; k < kLegJoints; ++k) {
+    if (has(leg, k)) joint_rad[leg.joint[k]] = leg_rad[k];
+  }
+}
 
 /// Angles by the encoders. False: not all are of this tick.
 bool measure_leg(const Params& params, const LegParams& leg, const Inputs& inputs, float* leg_rad);
