@@ -83,8 +83,8 @@ class Importer {
   static model::XmlElement root_of(const model::XmlSource& source) {
     const auto urdfs = source.urdfs();
     if (!urdfs.empty() && urdfs.front().file() == source.path()) return urdfs.front();
-    throw model::LoadError(source.path(), 1, "this is SDF, and `verp import` reads URDF",
-                           "add the verp: elements to it: host/guide/your-robot.md says which");
+    throw model::LoadError(source.path(), 1, "is not a robot's file",
+                           "give a URDF, xacro, SDF or MJCF file");
   }
 
   std::string place() const { return (fs::path(wish_.folder) / "robot.sdf").string(); }

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "host/author/mjcf/mjcf.hpp"
+#include "host/author/plain_sdf/plain_sdf.hpp"
 #include "host/author/xacro/xacro.hpp"
 
 namespace verp::import {
@@ -60,10 +61,21 @@ Source source_of_mjcf(const std::string& file, const std::string& folder) {
   return out;
 }
 
+Source source_of_sdf(const std::string& file, const std::string& folder) {
+  Source out;
+  mjcf::Robot robot = plain_sdf::read_robot(file);
+  out.format = "sdf";
+  out.urdf = mjcf::urdf_of(robot, folder);
+  out.left_out = robot.left_out;
+  return out;
+}
+
 }  // namespace
 
 Source read_source(const std::string& file, const std::string& folder) {
-  if (outer_element(file) == "mujoco") return source_of_mjcf(file, folder);
+  const std::string outer = outer_element(file);
+  if (outer == "mujoco") return source_of_mjcf(file, folder);
+  if (outer == "sdf") return source_of_sdf(file, folder);
   return is_xacro(file) ? source_of_xacro(file, folder) : Source{};
 }
 

@@ -9,7 +9,7 @@ namespace verp::import {
 
 /// A foreign file as URDF, and what URDF has no words for.
 struct Source {
-  std::string format = "urdf";          ///< or mjcf, xacro
+  std::string format = "urdf";          ///< or mjcf, sdf, xacro
   std::string urdf;                     ///< empty: the file is one itself
   std::map<std::string, Drive> drives;  ///< by joint
   std::map<std::string, double> stand;  ///< rad, by joint

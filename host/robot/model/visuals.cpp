@@ -1,18 +1,14 @@
 #include "host/robot/model/visuals.hpp"
 
-#include <filesystem>
 #include <sdf/Material.hh>
 #include <sdf/Mesh.hh>
 #include <sdf/Pbr.hh>
 #include <sdf/Visual.hh>
 
-#include "host/robot/model/find.hpp"
 #include "host/robot/model/sdf_parts.hpp"
 
 namespace verp::model {
 namespace {
-
-namespace fs = std::filesystem;
 
 bool read_geometry(const sdf::Geometry& geometry, const PictureFiles& files, Visual& visual) {
   if (const auto* mesh = geometry.MeshShape()) {
@@ -45,24 +41,6 @@ void read_material(const sdf::Material& material, const PictureFiles& files, Vis
 }
 
 }  // namespace
-
-std::string PictureFiles::find(const std::string& uri) const {
-  const std::size_t scheme = uri.find("://");
-  std::string path = scheme == uri.npos ? uri : uri.substr(scheme + 3);
-  // onshape-to-robot writes package:///foot.stl, which libsdformat calls model:///foot.stl.
-  if (scheme != uri.npos && !uri.starts_with("file:")) path.erase(0, path.find_first_not_of('/'));
-  for (const std::string& file : from_) {
-    if (const std::string found = resolve_model_uri(uri, file); !found.empty()) return found;
-    std::error_code error;
-    for (fs::path folder = fs::absolute(file, error).parent_path();;
-         folder = folder.parent_path()) {
-      const fs::path candidate = folder / path;
-      if (!path.empty() && fs::is_regular_file(candidate, error)) return candidate.string();
-      if (scheme == uri.npos || folder == folder.root_path() || folder.empty()) break;
-    }
-  }
-  return {};
-}
 
 std::vector<Visual> read_visuals(const sdf::Link& link, const PictureFiles& files) {
   std::vector<Visual> visuals;

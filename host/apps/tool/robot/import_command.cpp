@@ -143,7 +143,8 @@ int import_file(const ImportWords& words) {
 cli::Subcommand add_import(CLI::App& root) {
   CLI::App* app = cli::declare_other(root, "import");
   auto words = std::make_shared<ImportWords>();
-  app->add_option("FILE", words->wish.file, "URDF, xacro or MJCF of a robot; it is not changed")
+  app->add_option("FILE", words->wish.file,
+                  "URDF, xacro, SDF or MJCF of a robot; it is not changed")
       ->required();
   app->add_option("-o,--output", words->wish.folder, "folder (default: FILE's name and _verp)");
   app->add_option("--name", words->wish.name, "of the robot (default: the file's)");
