@@ -64,6 +64,7 @@ Xy landing_off(const Params& params, const Tuning& tuning, const SteppingIn& in,
   const float hurry_m = kHurry * tuning.gait.hip_height_m * step.haste;
   Xy off_m{math::clamp(beyond(error_m.x, kAnkles_x * half_x_m + hurry_m), -most_m, most_m),
            math::clamp(beyond(error_m.y, kAnkles_y * half_y_m), -most_m, most_m)};
+  if (off_m.x == 0.0F && off_m.y == 0.0F) return gait::turned(off_m, yaw_rad);
   const float standing_m = 2.0F * tuning.gait.half_stance_m - params.leg[gait::kLeft].sole_right_m -
                            params.leg[gait::kRight].sole_left_m;
   const float least_m = math::min(apart_m(params, step, Xy{}), standing_m);

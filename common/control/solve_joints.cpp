@@ -69,8 +69,11 @@ struct Before {
 Before angles_before(const Params& params, const State& state) {
   Before before;
   for (int side = 0; side < kFeet; ++side) {
-    model::read_leg(params.leg[side], state.limit.goal_rad, before.leg_rad[side]);
-    for (int k = 0; k < kLegJoints && state.gait.queued == 0; ++k) {
+    if (state.gait.queued != 0) {
+      model::read_leg(params.leg[side], state.limit.goal_rad, before.leg_rad[side]);
+      continue;
+    }
+    for (int k = 0; k < kLegJoints; ++k) {
       before.leg_rad[side][k] = state.gait.preview.leg_rad[side * kLegJoints + k];
     }
   }

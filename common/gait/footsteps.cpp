@@ -119,22 +119,31 @@ Foothold landing_of(const GaitTuning& tuning, int swing, const Stride& stride,
   return {state.body.at_m + turned(side_m, state.body.yaw_rad), state.body.yaw_rad};
 }
 
+// One sole on the ground, with its heading's sine and cosine.
+struct Sole {
+  Sole(const Params& params, int side, const Foothold& foot)
+      : leg(params.leg[side]), at_m(foot.at_m), heading(math::sincos(foot.yaw_rad)) {}
+  const LegParams& leg;
+  Xy at_m;
+  math::SinCos heading;
+};
+
+Xy leftward_of(const Sole& sole) {
+  return turned({0.0F, 1.0F}, sole.heading);
+}
+
 // From the sole frame's origin to the edge.
-float extent_m(const LegParams& leg, float yaw_rad, Xy direction) {
-  const Xy in_sole = turned(direction, -yaw_rad);
+float extent_m(const Sole& sole, Xy direction) {
+  const LegParams& leg = sole.leg;
+  const Xy in_sole = turned(direction, {-sole.heading.sin, sole.heading.cos});
   return in_sole.x * (in_sole.x > 0.0F ? leg.sole_front_m : -leg.sole_back_m) +
          in_sole.y * (in_sole.y > 0.0F ? leg.sole_left_m : -leg.sole_right_m);
 }
 
 // Between the soles, across a line whose left is `leftward`.
-float room_m(const Params& params, const Foothold& left, const Foothold& right, Xy leftward) {
-  return dot(left.at_m - right.at_m, leftward) -
-         extent_m(params.leg[kLeft], left.yaw_rad, -1.0F * leftward) -
-         extent_m(params.leg[kRight], right.yaw_rad, leftward);
-}
-
-Xy leftward_of(const Foothold& foot) {
-  return turned({0.0F, 1.0F}, foot.yaw_rad);
+float room_m(const Sole& left, const Sole& right, Xy leftward) {
+  return dot(left.at_m - right.at_m, leftward) - extent_m(left, -1.0F * leftward) -
+         extent_m(right, leftward);
 }
 
 float clearance_m(const Params& params, const GaitTuning& tuning) {
@@ -145,15 +154,15 @@ float clearance_m(const Params& params, const GaitTuning& tuning) {
 
 // How much further out the swing foot must land to clear the stance sole.
 float short_of_m(const Params& params, const GaitTuning& tuning, const Step& step, float yaw_rad) {
-  const Foothold left = step.after(kLeft), right = step.after(kRight);
+  const Sole left(params, kLeft, step.after(kLeft)), right(params, kRight, step.after(kRight));
   const float wanted_m = clearance_m(params, tuning);
   const Xy outward = turned({0.0F, 1.0F}, yaw_rad);
   float short_m = kMostWider_m + 1.0F;
-  for (const Foothold& side : {left, right}) {
-    const Xy leftward = leftward_of(side);
+  for (const Sole* side : {&left, &right}) {
+    const Xy leftward = leftward_of(*side);
     const float gain = dot(outward, leftward);
     if (gain < 0.5F) continue;
-    short_m = math::min(short_m, (wanted_m - room_m(params, left, right, leftward)) / gain);
+    short_m = math::min(short_m, (wanted_m - room_m(left, right, leftward)) / gain);
   }
   return short_m;
 }
@@ -190,7 +199,7 @@ void land_beside(const Params& params, const GaitTuning& tuning, Stride& stride,
 
 bool side_by_side(const GaitTuning& tuning, const Step& last) {
   const Foothold left = last.after(kLeft), right = last.after(kRight);
-  const float apart_m = dot(left.at_m - right.at_m, leftward_of(left));
+  const float apart_m = dot(left.at_m - right.at_m, turned({0.0F, 1.0F}, left.yaw_rad));
   return math::abs(apart_m - 2.0F * tuning.half_stance_m) < 1e-4F;
 }
 
@@ -217,8 +226,8 @@ Step standing_step(const GaitTuning& tuning, const Step& last, Phase phase) {
 }  // namespace
 
 float soles_apart_m(const Params& params, const Foothold& left, const Foothold& right) {
-  return math::max(room_m(params, left, right, leftward_of(left)),
-                   room_m(params, left, right, leftward_of(right)));
+  const Sole l(params, kLeft, left), r(params, kRight, right);
+  return math::max(room_m(l, r, leftward_of(l)), room_m(l, r, leftward_of(r)));
 }
 
 Xy sole_center(const Params& params, int side, const Foothold& foot) {

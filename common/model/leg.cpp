@@ -7,13 +7,15 @@ namespace verp::model {
 constinit const JointParams kRigid{};
 
 bool measure_leg(const Params& params, const LegParams& leg, const Inputs& inputs, float* leg_rad) {
+  std::uint32_t fresh = 1;
   for (int k = 0; k < kLegJoints; ++k) {
-    leg_rad[k] = has(leg, k)
-                     ? angle_of(params.joint[leg.joint[k]], inputs.position_count[leg.joint[k]])
-                     : 0.0F;
+    leg_rad[k] = 0.0F;
+    if (!has(leg, k)) continue;
+    const std::uint8_t j = leg.joint[k];
+    fresh &= inputs.fresh >> j;
+    leg_rad[k] = angle_of(params.joint[j], inputs.position_count[j]);
   }
-  const std::uint32_t joints = joints_of(leg);
-  return (inputs.fresh & joints) == joints;
+  return fresh != 0;
 }
 
 }  // namespace verp::model
