@@ -14,27 +14,40 @@ std::uint32_t leg_joints(const Params& params) {
              : model::joints_of(params.leg[kLeft]) | model::joints_of(params.leg[kRight]);
 }
 
+// One bit for each joint that carries a joint outside the legs, such as toes. A follower's own
+// carriers are not needed: node_pose() goes all the way.
+std::uint32_t carriers_of(const Params& params, std::uint32_t legs) {
+  std::uint32_t carriers = 0;
+  for (int j = params.servo_count() - 1; j >= 0; --j) {
+    const int parent = params.joint[j].parent;
+    const bool weighed = ((carriers | ~legs) >> j & 1U) != 0;
+    if (weighed && parent != 0) carriers |= std::uint32_t{1} << (parent - 1);
+  }
+  return carriers;
+}
+
 }  // namespace
 
 Lump lump_of(const Params& params, const float* angle_rad) {
-  const std::uint32_t legs = leg_joints(params);
+  const std::uint32_t legs = leg_joints(params), carriers = carriers_of(params, legs);
   union Nodes {  // uninitialised: 33 identities cost more than the arms
     Nodes() {}
     Pose at[kMaxNodes];
   } node;
   node.at[0] = Pose{};
   for (int j = params.servo_count(); j < params.joint_count; ++j) {
-    if ((legs >> j & 1U) == 0)
+    if (((~legs | carriers) >> j & 1U) != 0)
       node.at[j + 1] = kinematics::node_pose(params, Pose{}, angle_rad, j + 1);
   }
   Vec3 moment_kg_m = params.body_mass_kg * math::to_vec(params.body_com_m);
   float mass_kg = params.body_mass_kg;
   for (int j = 0; j < params.joint_count; ++j) {
-    if ((legs >> j & 1U) != 0) continue;
+    if (((legs & ~carriers) >> j & 1U) != 0) continue;
     const JointParams& joint = params.joint[j];
     if (j < params.servo_count()) {
       kinematics::chain(node.at[joint.parent], joint, angle_rad[j], node.at[j + 1]);
     }
+    if ((legs >> j & 1U) != 0) continue;
     moment_kg_m += joint.mass_kg * math::apply(node.at[j + 1], math::to_vec(joint.com_link_m));
     mass_kg += joint.mass_kg;
   }

@@ -17,7 +17,8 @@ VERP_PACKED(Lump);
 /// All but the legs' links.
 Lump lump_of(const Params& params, const float* angle_rad);
 
-/// Covers the angles that lump_of reads.
+/// Covers the angles that lump_of reads, but not a leg's: toes count where they were at the last
+/// weighing.
 std::uint32_t digest_load(const Params& params, const float* angle_rad);
 
 /// Body and feet, walk frame.

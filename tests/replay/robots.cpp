@@ -129,14 +129,31 @@ Params limbless(Params params) {
   return params;
 }
 
+/// No leg has an ankle roll, the left one no hip yaw; the right hip yaw follows what was the left
+/// one.
+Params few_joints(const Params& robot) {
+  Params params = newton(coupled_hips(robot));
+  for (LegParams& leg : params.leg) leg.joint[kLegJoints - 1] = kNoJoint;
+  LegParams& left = params.leg[0];
+  const JointParams& yaw = params.joint[left.joint[0]];
+  JointParams& roll = params.joint[left.joint[1]];
+  roll.parent = yaw.parent;
+  roll.origin_parent_m.x += yaw.origin_parent_m.x;
+  roll.origin_parent_m.y += yaw.origin_parent_m.y;
+  roll.origin_parent_m.z += yaw.origin_parent_m.z;
+  left.joint[0] = kNoJoint;
+  return params;
+}
+
 }  // namespace
 
 std::vector<Robot> make_robots(const Params& robot) {
-  return {{"closed_form", 25, 11, false, robot},
+  return {{"closed_form", 20, 11, false, robot},
           {"newton", 20, 22, false, newton(robot)},
           {"mirrored", 20, 33, false, coupled_hips(mirrored(robot))},
           {"slow_heavy", 10, 44, false, slow_and_heavy(robot)},
           {"fast_twisted", 15, 55, false, fast_and_twisted(robot)},
+          {"few_joints", 5, 88, false, few_joints(robot)},
           {"limbless", 5, 66, false, limbless(robot)},
           {"damaged", 5, 77, true, robot}};
 }

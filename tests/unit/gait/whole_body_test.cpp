@@ -33,6 +33,23 @@ TEST(WholeBody, WeighsWhatKinematicsWeighs) {
   EXPECT_NEAR(mass_kg, model::total_mass(kRobot), 1e-5F);
 }
 
+TEST(WholeBody, LumpHasWhatALegCarriesBeyondItsOwnJoints) {
+  Params robot = kRobot;
+  const int toe = robot.leg[1].joint[kLegJoints - 1];
+  robot.leg[1].joint[kLegJoints - 1] = kNoJoint;
+  test::Random random(2);
+  float angle_rad[kMaxJoints];
+  test::random_angles(robot, 0.3F, random, angle_rad);
+  const Lump without = lump_of(kRobot, angle_rad), with = lump_of(robot, angle_rad);
+  const JointParams& joint = robot.joint[toe];
+  const Vec3 com_m = math::apply(kinematics::node_pose(robot, Pose{}, angle_rad, toe + 1),
+                                 math::to_vec(joint.com_link_m));
+  EXPECT_NEAR(with.mass_kg, without.mass_kg + joint.mass_kg, 1e-6F);
+  const Vec3 moment_kg_m =
+      without.mass_kg * math::to_vec(without.com_body_m) + joint.mass_kg * com_m;
+  EXPECT_LT(test::distance(with.mass_kg * math::to_vec(with.com_body_m), moment_kg_m), 1e-6F);
+}
+
 TEST(WholeBody, HipsStandAtTheTunedHeightAtAnyPitch) {
   GaitTuning tuning;
   for (const float pitch_rad : {-0.3F, 0.0F, 0.2F}) {
