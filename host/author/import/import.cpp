@@ -12,9 +12,11 @@
 
 #include "common/model/params.hpp"
 #include "host/author/import/servos.hpp"
+#include "host/author/import/speed.hpp"
 #include "host/os/files/whole.hpp"
 #include "host/robot/model/find.hpp"
 #include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
 #include "host/robot/model/supply.hpp"
 
 namespace verp::import {
@@ -72,7 +74,9 @@ class Importer {
     say_what_was_found();
     out_.sdf = text_of(w_, s_, body_);
     try {
-      name_estimates(model::load_robot_text(place(), out_.sdf));
+      const model::Entity robot = model::load_robot_text(place(), out_.sdf);
+      name_estimates(robot);
+      judge_speed(robot);
     } catch (const model::LoadError& error) {
       out_.refusal = error.what();
     }
@@ -240,6 +244,18 @@ class Importer {
           fmt::format("{:.4g} V, {:.2g} ohm", model::supply_volts(robot),
                       model::supply_resistance_ohm(robot)),
           "write the battery's into <verp:supply volts resistance_ohm>");
+  }
+
+  void judge_speed(const model::Entity& robot) {
+    const bool of_damping =
+        wish_.servo_type.empty() &&
+        std::any_of(s_.bones.begin(), s_.bones.end(), [](const Bone& each) {
+          return each.drive && each.drive->no_load_rad_s <= 0 && each.drive->damping_n_m_s > 0;
+        });
+    SpeedChoice choice = choose_lift(model::make_params(robot), of_damping);
+    for (Finding& each : choice.findings) out_.findings.push_back(std::move(each));
+    w_.lift_m = choice.lift_m;
+    if (w_.lift_m) out_.sdf = text_of(w_, s_, body_);
   }
 
   Vec3 middle_of(const std::vector<const FoundLimb*>& limbs) const {
@@ -436,12 +452,6 @@ class Importer {
   std::vector<std::string> endless_;  ///< joints
 };
 
-const char* word(Sureness sureness) {
-  return sureness == Sureness::kRead       ? "read"
-         : sureness == Sureness::kMeasured ? "measured"
-                                           : "**guessed**";
-}
-
 }  // namespace
 
 void make_urdf(Wish& wish) {
@@ -470,23 +480,6 @@ Imported import_robot(const Wish& wish) {
     if (wish.maker_file.empty() || error.file != wish.file) throw;
     throw model::LoadError(wish.maker_file, 0, error.message, error.fix);  // they know that file
   }
-}
-
-std::string page_of(const Imported& robot, const Wish& wish) {
-  std::string out = fmt::format(
-      "# {}\n\nFrom `{}`, which is not changed. {}`robot.sdf` wraps it.\n\n", robot.name,
-      fs::path(wish.maker_file.empty() ? wish.file : wish.maker_file).filename().string(),
-      wish.maker_file.empty()
-          ? ""
-          : "`" + fs::path(wish.file).filename().string() + "` says the same as URDF; ");
-  if (!robot.refusal.empty()) out += fmt::format("**It does not load yet:** {}\n\n", robot.refusal);
-  out += "| what | found | how | please check |\n|---|---|---|---|\n";
-  for (const Finding& each : robot.findings)
-    out += fmt::format("| {} | {} | {} | {} |\n", each.what, each.value, word(each.sureness),
-                       each.check);
-  if (!robot.left_out.empty()) out += "\n## Changed or left out\n\n";
-  for (const std::string& each : robot.left_out) out += "- " + each + "\n";
-  return out;
 }
 
 }  // namespace verp::import

@@ -43,6 +43,9 @@ class Writer {
     left_out();
     bus();
     poses();
+    if (w_.lift_m) {
+      line(2, fmt::format("<verp:tuning name=\"gait.lift_m\" value=\"{:.4g}\"/>", *w_.lift_m));
+    }
     line(1, "</model>");
     line(0, "</sdf>");
     return std::move(out_);

@@ -35,6 +35,7 @@ struct Wrapper {
   std::vector<Sole> soles;                 ///< left, right, in the body's frame; empty: a probe
   std::optional<Eigen::AlignedBox3d> trunk_box;       ///< body's frame
   std::vector<std::pair<std::string, double>> stand;  ///< joints that cannot stand at zero
+  std::optional<double> lift_m;                       ///< of the gait
 };
 
 /// The link of an IMU that the trunk carries; -1 if the file names no such link.

@@ -53,8 +53,9 @@ class Plan {
         const JointParams& joint = params_.joint[leg.joint[k]];
         const double speed_rad_s =
             std::abs(static_cast<double>(solved.angle_rad[k] - last_rad[k])) / period_s();
-        const double share = speed_rad_s / static_cast<double>(joint.velocity_limit_rad_s);
-        if (share > fastest_.share) fastest_ = {share, joint.name};
+        const auto limit_rad_s = static_cast<double>(joint.velocity_limit_rad_s);
+        const double share = speed_rad_s / limit_rad_s;
+        if (share > fastest_.share) fastest_ = {share, joint.name, limit_rad_s};
         last_rad[k] = solved.angle_rad[k];
       }
     }
@@ -108,8 +109,10 @@ FeasibleVelocity within_servo_speed(const Params& params, const Command& velocit
   return {scaled(velocity, enough),
           fmt::format(
               "walks at {:.0f} % of the velocity asked for: its joint '{}' would turn at {:.1f} "
-              "times its greatest speed; a longer cycle or lower lift allows more",
-              100 * enough, asked.joint, asked.share)};
+              "times its greatest speed; {}",
+              100 * enough, asked.joint, asked.share,
+              enough > 0 ? "a longer cycle or lower lift allows more"
+                         : "even steps on the spot are too fast, `verp check` says what helps")};
 }
 
 }  // namespace verp::session

@@ -12,6 +12,7 @@ namespace verp::session {
 struct Fastest {
   double share = 0;
   std::string joint;
+  double limit_rad_s = 0;
 };
 Fastest fastest_joint(const Params& params, const Command& velocity);
 

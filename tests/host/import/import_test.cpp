@@ -357,6 +357,28 @@ TEST_F(ImportedFile, LimitsOfMotorsStrongerThanAllKnownServosAreTheMotors) {
   EXPECT_EQ(finding(placeholder, "servos").value.substr(0, 18), "a motor of 46 N m,");
 }
 
+TEST_F(ImportedFile, ServosThatWalkWithALowerLiftOnlyGetOne) {
+  urdf_ = folder_.path() / "robot.urdf";
+  std::ofstream(urdf_) << Maker({.leg_joints = 5}).urdf();
+  fs::create_directories(folder_.path() / "out");
+  Wish wish{urdf_.string(), (folder_.path() / "out").string(), "", ""};
+  for (int k = 0; k < 5; ++k) {
+    for (const char* side : {"jp4_", "jp5_"}) {
+      wish.source.drives[side + std::to_string(k)] = {
+          .stall_torque_n_m = 3, .no_load_rad_s = 3.5, .is_line = true};
+    }
+  }
+  const Imported robot = import_robot(wish);
+  const std::string said = finding(robot, "lift").value;
+  const GaitTuning gait = model::make_params(loaded(robot)).tuning.gait;
+  EXPECT_LT(gait.lift_m, GaitTuning{}.lift_m);
+  EXPECT_EQ(said.find(fmt::format("{:.2g} mm instead of 12, because joint 'jp4_3' would need 4.38 ",
+                                  1000 * gait.lift_m)),
+            0U)
+      << said;
+  EXPECT_EQ(finding(robot, "servo speed").value.find("enough for "), 0U);
+}
+
 TEST_F(ImportedFile, FrictionOfTheServosReplacesTheFilesAndThisIsSaid) {
   const model::Entity robot =
       loaded(import({.dynamics = "<dynamics damping=\"1000\" friction=\"0.5\"/>"}));

@@ -134,6 +134,20 @@ TEST_F(MjcfFile, IsARobotThatLoads) {
   EXPECT_NEAR(leg.sole_max_m.x() - leg.sole_min_m.x(), 0.1, 1e-4);
 }
 
+TEST_F(MjcfFile, ServosTooSlowToWalkAreSaidWithBothSpeeds) {
+  std::string text = robot();
+  text.replace(text.find("damping=\"0.3\""), 13, "damping=\"1.8\"");
+  const Imported made = import(text);
+  const auto said = std::find_if(made.findings.begin(), made.findings.end(),
+                                 [](const Finding& each) { return each.what == "servo speed"; });
+  ASSERT_NE(said, made.findings.end());
+  EXPECT_EQ(said->value,
+            "too low to walk: even on the spot joint 'left_knee' needs up to 3.32 rad/s, and its "
+            "servo turns 1.67; servos of 2.65 rad/s would do");
+  EXPECT_NE(said->check.find("the file's torque over its damping"), std::string::npos);
+  EXPECT_NE(page_of(made, {}).find(said->value), std::string::npos);
+}
+
 TEST_F(MjcfFile, MoreKindsOfMotorsThanTheControllerHasRoomForAreMerged) {
   std::string text = robot();
   double force_n_m = 3;

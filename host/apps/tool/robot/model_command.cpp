@@ -15,8 +15,10 @@
 #include "host/robot/model/find.hpp"
 #include "host/robot/model/load.hpp"
 #include "host/robot/model/load_world.hpp"
+#include "host/robot/model/params.hpp"
 #include "host/run/scenario/expand.hpp"
 #include "host/run/scenario/field_bugs.hpp"
+#include "host/run/session/servo_speed.hpp"
 
 namespace verp::tool {
 namespace {
@@ -68,14 +70,21 @@ int check_robot(const std::string& name, const std::string& bus, const std::stri
   const model::Entity entity = model::load_robot(model::find_model(name), bus);
   if (!fault.empty()) check_mistake(fault, entity);
   const action::LetGo ends = action::let_go(entity);
+  const session::ServoSpeed speed = session::servo_speed(model::make_params(entity));
   if (!json) {
-    cli::answer(model::describe(entity) + "letting go: " + ends.words(name) + "\n");
+    cli::answer(model::describe(entity) + "servo speed: " + session::text_of(speed) +
+                "\nletting go: " + ends.words(name) + "\n");
     return cli::kGood;
   }
   cli::Json out = cli::Json::parse(model::describe_json(entity));
   out["letting_go"] = {{"tried", ends.tried},         {"good", ends.good},
                        {"by_action", ends.by_action}, {"ends", ends.ends},
                        {"moved_rad", ends.moved_rad}, {"fall_percent", ends.fall_percent}};
+  out["servo_speed"] = {{"walk_m_s", speed.walk_m_s},
+                        {"most_m_s", speed.most_m_s},
+                        {"joint", speed.fastest.joint},
+                        {"needed_rad_s", session::needed_rad_s(speed.fastest)},
+                        {"limit_rad_s", speed.fastest.limit_rad_s}};
   cli::print_json(out);
   return cli::kGood;
 }
