@@ -81,7 +81,7 @@ TEST_F(Import, WrongFilesAndPlacesAreRefused) {
   EXPECT_EQ(slurp(folder_ / "here" / "robot.sdf"), kept);
   expect_refused("import nothing.urdf -o other", "cannot read this file");
   expect_refused("import . -o other", "is a folder");
-  expect_refused("import here/robot.sdf -o other", "this is SDF");
+  expect_refused("import here/robot.sdf -o other", "this is a robot of VERP already");
   expect_refused("import odd.urdf -o odd.urdf/below", "cannot be made");
   expect_refused("import odd.urdf -o other --servos nonesuch", "no servo type 'nonesuch'");
   expect_refused("import nothing.urdf -o other/below", "cannot read this file");
