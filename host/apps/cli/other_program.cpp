@@ -116,6 +116,21 @@ Subcommand add_other(CLI::App& root, const std::string& word) {
   return {app, [word]() -> int { start_other(word); }};
 }
 
+std::string trouble_of_other(const std::string& word, const std::vector<std::string>& words) {
+  const OtherProgram& other = command_of(word).program;
+  const files::TemporaryDirectory folder;
+  const fs::path said = folder.path() / "said";
+  std::vector<std::string> all = {path_of(other).string(), word};
+  all.insert(all.end(), words.begin(), words.end());
+  try {
+    process::Child child(process::Command{.words = all, .input = {}, .output = {.file = said}});
+    if (child.wait() == kGood) return "";
+    return process::last_line(files::read(said).value_or(""));
+  } catch (const std::system_error&) {
+    return fmt::format("{} is not built; `./verp {} --help` builds it", other.target, word);
+  }
+}
+
 std::vector<ShellWords> words_of_others() {
   std::vector<ShellWords> all;
   const files::TemporaryDirectory folder;

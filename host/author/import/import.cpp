@@ -74,9 +74,9 @@ class Importer {
     say_what_was_found();
     out_.sdf = text_of(w_, s_, body_);
     try {
-      const model::Entity robot = model::load_robot_text(place(), out_.sdf);
-      name_estimates(robot);
-      judge_speed(robot);
+      load();
+      name_estimates(*out_.entity);
+      judge_speed(*out_.entity);
     } catch (const model::LoadError& error) {
       out_.refusal = error.what();
     }
@@ -246,6 +246,10 @@ class Importer {
           "write the battery's into <verp:supply volts resistance_ohm>");
   }
 
+  void load() {
+    out_.entity = std::make_shared<const model::Entity>(model::load_robot_text(place(), out_.sdf));
+  }
+
   void judge_speed(const model::Entity& robot) {
     const bool of_damping =
         wish_.servo_type.empty() &&
@@ -255,7 +259,9 @@ class Importer {
     SpeedChoice choice = choose_lift(model::make_params(robot), of_damping);
     for (Finding& each : choice.findings) out_.findings.push_back(std::move(each));
     w_.lift_m = choice.lift_m;
-    if (w_.lift_m) out_.sdf = text_of(w_, s_, body_);
+    if (!w_.lift_m) return;
+    out_.sdf = text_of(w_, s_, body_);
+    load();
   }
 
   Vec3 middle_of(const std::vector<const FoundLimb*>& limbs) const {

@@ -1,10 +1,12 @@
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "host/author/import/finding.hpp"
 #include "host/author/import/source.hpp"
 #include "host/author/import/wrapper.hpp"
+#include "host/robot/model/entity.hpp"
 #include "host/robot/model/load_error.hpp"
 
 /// A robot's file of another maker, made to walk: `verp import`.
@@ -21,8 +23,10 @@ struct Wish {
 struct Imported {
   std::string name, sdf;
   std::vector<Finding> findings;
-  std::vector<std::string> left_out;  ///< one line each
-  std::string refusal;                ///< why the twin does not load it; empty: it loads
+  std::vector<std::string> left_out;            ///< one line each
+  std::string refusal;                          ///< why the twin does not load it; empty: it loads
+  std::shared_ptr<const model::Entity> entity;  ///< as `sdf` is loaded; null: refused
+  std::string picture, no_picture;              ///< file beside the page; why there is none
 };
 
 /// A file of another format becomes a URDF in the folder, which is then the wish's file. Throws

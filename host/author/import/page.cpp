@@ -26,6 +26,11 @@ std::string page_of(const Imported& robot, const Wish& wish) {
           ? ""
           : "`" + fs::path(wish.file).filename().string() + "` says the same as URDF; ");
   if (!robot.refusal.empty()) out += fmt::format("**It does not load yet:** {}\n\n", robot.refusal);
+  if (!robot.picture.empty()) {
+    out += fmt::format("![{0}, standing]({1})\n\n", robot.name, robot.picture);
+  } else if (!robot.no_picture.empty()) {
+    out += fmt::format("There is no picture: {}\n\n", robot.no_picture);
+  }
   out += "| what | found | how | please check |\n|---|---|---|---|\n";
   for (const Finding& each : robot.findings)
     out += fmt::format("| {} | {} | {} | {} |\n", each.what, each.value, word(each.sureness),

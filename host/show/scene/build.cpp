@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <numbers>
+#include <stdexcept>
 
+#include "host/robot/model/mesh_file.hpp"
 #include "host/robot/model/principal.hpp"
 #include "host/show/scene/looks.hpp"
 #include "host/twin/sim/body.hpp"
@@ -22,6 +24,21 @@ Vec3 extent(Shape shape, const Vec3& size_m) {
       return Vec3::Constant(0.2);  // larger than any servo
     default:
       return size_m;
+  }
+}
+
+/// In the item's frame. A mesh that cannot be read is as large as a servo.
+Eigen::AlignedBox3d box_of(const Item& item) {
+  Vec3 half_m = extent(item.shape, item.size_m) / 2;
+  if (item.shape != Shape::kMesh) return {-half_m, half_m};
+  half_m /= 4;
+  try {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& vertex : model::read_mesh_to_touch(item.mesh_file, item.size_m)->vertex_m)
+      box.extend(vertex);
+    return box;
+  } catch (const std::runtime_error&) {
+    return {-half_m, half_m};
   }
 }
 
@@ -46,7 +63,8 @@ class RobotBuilder {
     for (const model::CameraSensor& sensor : e_.cameras) add_camera(sensor);
     for (const model::Joint& joint : e_.joints) add_hub(joint);
     if (meshes_ == Meshes::kFromFiles) note_missing();
-    scene_.robots.push_back({e_.name, std::make_shared<const Entity>(e_), height_m()});
+    const Eigen::AlignedBox3d drawn = drawn_m();
+    scene_.robots.push_back({e_.name, std::make_shared<const Entity>(e_), drawn.max().z(), drawn});
     return robot_;
   }
 
@@ -169,18 +187,21 @@ class RobotBuilder {
         .material = {.colour = {0.17F, 0.18F, 0.20F, 1}, .roughness = 0.45F};
   }
 
-  double height_m() const {
+  /// Standing, from what is drawn: many files have few shapes that collide, or none.
+  Eigen::AlignedBox3d drawn_m() const {
     const RobotView view = standing(e_);
-    double top_m = 0.1;
-    for (std::size_t n = 0; n < e_.nodes.size(); ++n) {
-      for (const model::Collision& shape : e_.nodes[n].collisions) {
-        const Transform pose = view.link_world[n] * shape.pose;
-        const Vec3 half_m = extent(shape_of(shape.shape), shape.size_m) / 2;
-        top_m =
-            std::max(top_m, pose.translation().z() + pose.linear().row(2).cwiseAbs().dot(half_m));
-      }
+    Vec3 middle_m = view.link_world.front().translation();
+    middle_m.z() = 0;
+    Eigen::AlignedBox3d box(Vec3(0, 0, 0), Vec3(0, 0, 0.1));
+    for (const Item& item : scene_.items) {
+      if (item.robot != robot_ || item.collision) continue;
+      const Eigen::AlignedBox3d own = box_of(item);
+      const Transform pose = view.link_world[static_cast<std::size_t>(item.node)] * item.pose;
+      const Vec3 half_m = pose.linear().cwiseAbs() * (own.sizes() / 2);
+      const Vec3 centre_m = pose * own.center() - middle_m;
+      box.extend(centre_m - half_m).extend(centre_m + half_m);
     }
-    return top_m;
+    return box;
   }
 
   Scene& scene_;

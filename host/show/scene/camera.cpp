@@ -29,6 +29,18 @@ double heading_rad(const Transform& body) {
   return std::atan2(ahead.y(), ahead.x());
 }
 
+/// Of what is drawn of a standing robot, about its middle: arms may reach far to the sides.
+double width_m(const Robot& robot, double azimuth_rad) {
+  double half_m = 0;
+  for (const double x_m : {robot.drawn_m.min().x(), robot.drawn_m.max().x()}) {
+    for (const double y_m : {robot.drawn_m.min().y(), robot.drawn_m.max().y()}) {
+      half_m =
+          std::max(half_m, std::abs(y_m * std::cos(azimuth_rad) - x_m * std::sin(azimuth_rad)));
+    }
+  }
+  return 2 * half_m;
+}
+
 Camera through(const Mount& mount, const Snapshot& now, double aspect) {
   Transform pose = mount.pose;
   if (mount.robot != kWorld) {
@@ -101,7 +113,10 @@ std::optional<Camera> view(const std::string& name, const Scene& scene, const Sn
   orbit.azimuth_rad = heading_rad(body) + preset->azimuth_rad;
   orbit.elevation_rad = preset->elevation_rad;
   orbit.vertical_fov_rad = 0.45;
-  const double tall_m = 1.28 * height_m, wide_m = 0.95 * height_m;
+  const double tall_m = 1.28 * height_m;
+  const double wide_m =
+      std::max(0.95 * height_m,
+               1.15 * width_m(scene.robots[static_cast<std::size_t>(robot)], preset->azimuth_rad));
   orbit.distance_m = std::max(tall_m, wide_m / aspect) / (2 * std::tan(orbit.vertical_fov_rad / 2));
   return orbit.camera();
 }

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "host/os/files/places.hpp"
 #include "host/os/files/temporary_directory.hpp"
 #include "host/robot/model/find.hpp"
 #include "host/robot/model/load.hpp"
@@ -229,6 +230,14 @@ TEST_F(Pictures, OfAWalkAndOfItsTraceShowTheSameInstantAndTheWalkKeepsItsBits) {
                    "--at 30: the run is over");
   ASSERT_EQ(verp("video a.mcap -o a.gif --from 3 --to 3.4 --fps 10 --size 64x64").status, 0);
   EXPECT_EQ(slurp(folder_ / "a.gif").substr(0, 6), "GIF89a");
+}
+
+TEST_F(Pictures, AnImportedRobotsPageShowsIt) {
+  const auto odd = files::source_dir() / "tests/host/model/odd_robot/odd.urdf";
+  const Outcome made = verp("import " + odd.string() + " -o odd");
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_NE(slurp(folder_ / "odd" / "import.md").find("(import.png)"), std::string::npos);
+  EXPECT_EQ(render::read_png((folder_ / "odd" / "import.png").string()).size.width, 640);
 }
 
 TEST_F(Pictures, WrongWordsAndMissingThingsCostOneLineEach) {

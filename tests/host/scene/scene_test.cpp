@@ -88,5 +88,34 @@ TEST(Camera, EachViewLooksAtTheRobotAndItsOwnCameraLooksAhead) {
   EXPECT_FALSE(view("nobody", scene, now, 0, 1.5));
 }
 
+/// Of many foreign files only the feet collide, and arms reach to the sides.
+TEST(Camera, WhatIsDrawnIsInThePictureEvenIfNothingCollides) {
+  Entity entity = generic21();
+  for (model::Node& node : entity.nodes) node.collisions.clear();
+  model::Visual rod;
+  rod.shape = model::Visual::Shape::kBox;
+  rod.size_m = Vec3(0.02, 0.9, 0.02);
+  entity.nodes[0].visuals.push_back(rod);
+  Scene scene = studio();
+  add_robot(scene, entity);
+  Snapshot now;
+  now.robots.push_back(standing(entity, Vec3(3, -2, 0), 1.1));
+  for (const char* name : {"three-quarter", "front", "side", "back", "follow"}) {
+    const Camera camera = view(name, scene, now, 0, 1).value();
+    const Vec3 ahead = (camera.target_m - camera.eye_m).normalized();
+    const Vec3 right = ahead.cross(Vec3::UnitZ()).normalized(), up = right.cross(ahead);
+    for (const Item& item : scene.items) {
+      const Transform pose = now.robots[0].link_world[static_cast<std::size_t>(item.node)];
+      for (const double side_m : {-0.45, 0.0, 0.45}) {
+        const double reach_m = item.size_m.y() == 0.9 ? side_m : 0;
+        const Vec3 seen = pose * item.pose * Vec3(0, reach_m, 0) - camera.eye_m;
+        const double edge = std::tan(camera.vertical_fov_rad / 2) * seen.dot(ahead);
+        EXPECT_LT(std::abs(seen.dot(right)), edge) << name << " " << item.name;
+        EXPECT_LT(std::abs(seen.dot(up)), edge) << name << " " << item.name;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace verp::scene

@@ -27,6 +27,17 @@ TEST_F(Import, ForeignRobotWalksFromItsUntouchedFile) {
   EXPECT_EQ(slurp(folder_ / "odd.urdf"), before);
 }
 
+/// Where the program that draws is not installed.
+TEST_F(Import, PageSaysWhyItHasNoPicture) {
+  const fs::path robot = fs::path(VERP_PROGRAM).parent_path() / "verp_robot";
+  fs::copy_file(robot, folder_ / "verp_robot");
+  const Outcome made = shell("./verp_robot import odd.urdf");
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_NE(slurp(folder_ / "odd_verp" / "import.md")
+                .find("There is no picture: verp_pictures is not built; `./verp shot --help`"),
+            std::string::npos);
+}
+
 TEST_F(Import, TerminalIsAskedForTheServos) {
   const std::string program = std::string(VERP_PROGRAM) + " import odd.urdf -o ";
   const auto on_terminal = [&](const std::string& typed, const std::string& words) {

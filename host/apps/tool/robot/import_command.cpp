@@ -20,6 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kPicture = "import.png";
+
 struct ImportWords {
   import::Wish wish;
   bool json = false, yes = false;
@@ -61,10 +63,9 @@ cli::Json json_of(const import::Imported& robot, const std::string& sdf) {
     findings.push_back(
         {{"what", each.what}, {"value", each.value}, {"guessed", guess}, {"check", each.check}});
   }
-  return {{"name", robot.name},
-          {"robot", sdf},
-          {"findings", findings},
-          {"left_out", robot.left_out},
+  return {{"name", robot.name},       {"robot", sdf},
+          {"findings", findings},     {"left_out", robot.left_out},
+          {"picture", robot.picture}, {"no_picture", robot.no_picture},
           {"refusal", robot.refusal}};
 }
 
@@ -107,6 +108,15 @@ for (std::string type = ask_servos(robot); !type.empty(); type = ask_servos(robo
 return robot;
 }  // namespace
 
+/// A walk needs no picture, so no trouble with it ends the import.
+void draw(import::Imported& robot, const fs::path& folder) {
+  if (!robot.refusal.empty()) return;
+  const std::string place = (folder / kPicture).string();
+  robot.no_picture = cli::trouble_of_other(
+      "shot", {(folder / "robot.sdf").string(), "-o", place, "--size", "640x480"});
+  if (robot.no_picture.empty()) robot.picture = kPicture;
+}
+
 int import_file(const ImportWords& words) {
   import::Wish wish = words.wish;
   std::error_code error;
@@ -128,6 +138,7 @@ int import_file(const ImportWords& words) {
     throw;
   }
   write_beside(sdf, robot.sdf);
+  draw(robot, folder);
   write_beside(folder / "import.md", import::page_of(robot, wish));
   if (words.json) {
     cli::print_json(json_of(robot, sdf.string()));
