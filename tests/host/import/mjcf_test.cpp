@@ -81,11 +81,9 @@ class MjcfFile : public ::testing::Test {
     return import_robot(wish);
   }
 
-  model::Entity loaded(const Imported& made) {
+  static model::Entity loaded(const Imported& made) {
     EXPECT_EQ(made.refusal, "");
-    const fs::path sdf = folder_.path() / "robot.sdf";
-    std::ofstream(sdf) << made.sdf;
-    return model::load_robot(sdf.string());
+    return made.entity ? *made.entity : model::Entity();
   }
 
   /// The message of the refusal, with the line.
