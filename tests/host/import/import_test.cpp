@@ -402,7 +402,9 @@ TEST_F(ImportedFile, RobotOfThirtyKilogramsWalks) {
   plan.params = model::make_params(plan.entity);
   plan.velocity.vx_tenth_mm_s = 1500;
   plan.walk_s = 5;
-  EXPECT_EQ(session::walk(plan).failure, "");
+  session::Options options;
+  options.world.step_us = 2000;
+  EXPECT_EQ(session::walk(plan, {}, options).failure, "");
 }
 
 /// The twin's lidars scan in one plane, and its force-torque sensors are in joints that move.
