@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 #include <sdf/sdf.hh>
+#include <set>
 
 #include "common/model/tuning_ranges.hpp"
 #include "host/robot/model/assemble_sensors.hpp"
@@ -342,6 +343,12 @@ class Assembler {
   }
 
   void add_notes() {
+    std::set<std::string> told;
+    for (const Joint& joint : e_.joints) {
+      if (!joint.servo.unread.empty() && told.insert(joint.servo.type).second)
+        e_.notes.push_back("servo type '" + joint.servo.type + "': the twin has no use for " +
+                           joint.servo.unread);
+    }
     for (const NoCollide& pair : e_.no_collide) {
       e_.notes.push_back("links '" + link_name(pair.link) + "' and '" + link_name(pair.other) +
                          "' don't collide: " + pair.reason);

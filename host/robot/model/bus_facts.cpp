@@ -48,6 +48,7 @@ Servo servo_of(const ServoType& type) {
   s.friction_band = type.friction_band;
   s.source = type.source;
   s.estimated = type.estimated;
+  s.unread = type.unread;
   s.heat_capacity_j_k = type.heat_capacity_j_k;
   s.heat_resistance_k_w = type.heat_resistance_k_w;
   s.model_number = type.model_number;

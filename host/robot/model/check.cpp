@@ -253,6 +253,7 @@ nlohmann::ordered_json joint_json(const Entity& entity, std::size_t j) {
             {"heat_capacity_j_k", servo.heat_capacity_j_k},
             {"heat_resistance_k_w", servo.heat_resistance_k_w},
             {"estimated", servo.estimated},
+            {"unread", servo.unread},
             {"source", servo.source}}}};
 }
 

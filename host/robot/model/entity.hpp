@@ -53,7 +53,7 @@ struct Node {
   std::vector<Visual> visuals;
 };
 
-/// Gearbox seen from the joint: Duclusaud and Passault, arXiv 2410.08650 (M4). Friction is a
+/// Gearbox seen from the joint: Duclusaud and Passault, arXiv 2410.08650 (M1 to M6). Friction is a
 /// budget, the most that opposes motion:
 ///   f_base + s * f_strib + load * (l_base + s * l_strib) + f_visc * |speed|,
 ///   s = exp(-|speed / w_s|^alpha),
@@ -65,6 +65,11 @@ struct Gearbox {
   double l_base = 0, l_strib = 0;  ///< shares of the load
   double w_s_rad_s = 1, alpha = 1;
   double f_visc_n_m_s = 0;
+  /// Loads from both sides count apart: the shares above are the motor's.
+  bool is_directional = false;
+  double l_external = 0, l_external_strib = 0;
+  double q_motor_per_n_m = 0,
+         q_external_per_n_m = 0;  ///< of the weaker side's square, with Stribeck
 };
 
 /// Datasheet values and place on the bus.
@@ -90,6 +95,7 @@ struct Servo {
   double armature_band = 0, friction_band = 0;
   std::string source;     ///< of armature and friction, one line
   std::string estimated;  ///< numbers that nobody gave, one line; empty: none beyond source
+  std::string unread;     ///< numbers of its file that the twin has no use for, one line
   double heat_capacity_j_k = 74, heat_resistance_k_w = 13;  ///< housing; housing to air
   std::uint16_t model_number = 0;  ///< Params' ServoProfile gives its meaning
   bool fast_sync_read = false;

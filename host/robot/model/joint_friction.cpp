@@ -14,6 +14,8 @@ bool has_own(const Joint& joint) {
 /// Rotor and Stribeck's curve stay: without friction they have no part in it.
 void drop(Gearbox& gears) {
   gears.f_base_n_m = gears.f_strib_n_m = gears.f_visc_n_m_s = gears.l_base = gears.l_strib = 0;
+  gears.l_external = gears.l_external_strib = 0;
+  gears.q_motor_per_n_m = gears.q_external_per_n_m = 0;
 }
 
 std::string what_the_file_has(const Entity& entity) {

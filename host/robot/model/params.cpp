@@ -68,6 +68,13 @@ void follow(const Joint& joint, JointParams& p) {
   p.friction_n_m = static_cast<float>(joint.friction_n_m);
 }
 
+/// While the motor holds a load, each side has half of what the gears bear.
+double held_load_share(const Gearbox& gears) {
+  const double motor = gears.l_base + gears.l_strib;
+  if (!gears.is_directional) return motor;
+  return (motor + gears.l_external + gears.l_external_strib) / 2;
+}
+
 JointParams joint_params(const Entity& entity, std::size_t j, Params& params) {
   const Joint& joint = entity.joints[j];
   const Node& link = entity.nodes[j + 1];
@@ -92,7 +99,7 @@ JointParams joint_params(const Entity& entity, std::size_t j, Params& params) {
   const Gearbox& gears = servo.gearbox;
   p.armature_kg_m2 = static_cast<float>(gears.armature_kg_m2);
   p.friction_n_m = static_cast<float>(joint.friction_n_m + gears.f_base_n_m + gears.f_strib_n_m);
-  p.load_friction = static_cast<float>(gears.l_base + gears.l_strib);
+  p.load_friction = static_cast<float>(held_load_share(gears));
   p.friction_speed_rad_s = static_cast<float>(gears.w_s_rad_s);
   if (joint.follows >= 0) follow(joint, p);
   p.stand_rad = static_cast<float>(joint.stand_rad);

@@ -35,7 +35,7 @@ struct ServoType {
   /// warms.
   double heat_capacity_j_k = 74, heat_resistance_k_w = 13;
   double armature_band = 0, friction_band = 0;  ///< as in Servo
-  std::string source, estimated;                ///< as in Servo
+  std::string source, estimated, unread;        ///< as in Servo
 };
 
 template <class Type>

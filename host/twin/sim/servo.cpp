@@ -19,6 +19,22 @@ void require(bool good, const model::Joint& joint, const char* what) {
   if (!good) throw std::invalid_argument("joint '" + joint.name + "': " + what);
 }
 
+/// Models M3 and M4 of Rhoban's BAM; M5 where the sides count apart, M6 with its squares.
+double load_friction_n_m(const model::Gearbox& gears, double motor_n_m, double external_n_m,
+                         double stribeck) {
+  if (!gears.is_directional)
+    return std::abs(external_n_m - motor_n_m) * (gears.l_base + stribeck * gears.l_strib);
+  const double base = std::abs(external_n_m * gears.l_external - motor_n_m * gears.l_base);
+  const double still = std::abs(external_n_m * gears.l_external_strib - motor_n_m * gears.l_strib);
+  double squares = 0;
+  if (motor_n_m * external_n_m < 0) {
+    const bool motor_wins = std::abs(external_n_m) < std::abs(motor_n_m);
+    squares = motor_wins ? gears.q_external_per_n_m * external_n_m * external_n_m
+                         : gears.q_motor_per_n_m * motor_n_m * motor_n_m;
+  }
+  return base + stribeck * (still + squares);
+}
+
 }  // namespace
 
 double count_of(const model::Servo& servo, double angle_rad) {
@@ -181,12 +197,13 @@ void ServoModel::set_joint_friction(double friction_n_m) {
   if (std::abs(rotor_rad_s_) > constants_.still_rad_s) sliding_ = rotor_rad_s_ > 0 ? 1 : -1;
 }
 
-double ServoModel::friction_budget_n_m(double rate_rad_s, double load_n_m) const {
+double ServoModel::friction_budget_n_m(double rate_rad_s, double motor_n_m,
+                                       double external_n_m) const {
   const model::Gearbox& gears = joint_.servo.gearbox;
   const double speed = std::abs(rate_rad_s);
   const double stribeck = std::exp(-std::pow(speed / gears.w_s_rad_s, gears.alpha));
   return joint_.friction_n_m + gears.f_base_n_m + stribeck * gears.f_strib_n_m +
-         load_n_m * (gears.l_base + stribeck * gears.l_strib) + gears.f_visc_n_m_s * speed;
+         load_friction_n_m(gears, motor_n_m, external_n_m, stribeck) + gears.f_visc_n_m_s * speed;
 }
 
 // The rotor stays on a flank while that pushes. Inside the play only its own motion decides whether
@@ -198,8 +215,7 @@ bool ServoModel::engage(double rate_rad_s, double step_s) {
   const double inertia = joint_.servo.gearbox.armature_kg_m2 / step_s;
   const double drive = motor_.standstill_n_m + inertia * rotor_rad_s_;
   const double slope = motor_.slope_n_m_s + inertia;
-  const double budget =
-      friction_budget_n_m(rotor_rad_s_, std::abs(motor_.torque_n_m(rotor_rad_s_)));
+  const double budget = friction_budget_n_m(rotor_rad_s_, motor_.torque_n_m(rotor_rad_s_), 0);
   const double rest = std::max(std::abs(drive) - budget, 0.0);
   const double alone_rad_s = slope > 0 ? std::copysign(rest, drive) / slope : rate_rad_s;
   const double wanted = play_rad_ + (alone_rad_s - rate_rad_s) * step_s;
@@ -263,9 +279,8 @@ Drive ServoModel::drive(const ServoSetpoint& setpoint, double angle_rad, double 
   gear_ = friction_ = Drive{};
   if (engaged_) {
     const double inertia = joint_.servo.gearbox.armature_kg_m2 / step_s;
-    const double load = std::abs(external_n_m - motor_.torque_n_m(rate_rad_s));
     const double rest = motor_.standstill_n_m + external_n_m + inertia * rate_rad_s;
-    budget_n_m_ = friction_budget_n_m(rate_rad_s, load);
+    budget_n_m_ = friction_budget_n_m(rate_rad_s, motor_.torque_n_m(rate_rad_s), external_n_m);
     friction_ = friction_line(angle_rad, rate_rad_s, rest, budget_n_m_, step_s);
     gear_ = motor_;
     gear_ += {inertia * rotor_rad_s_, inertia};

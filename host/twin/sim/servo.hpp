@@ -99,7 +99,7 @@ class ServoModel {
   double mean_duty(const ServoSetpoint& setpoint, double angle_rad, double rate_rad_s,
                    double step_s);
   Drive motor_line(double supply_v) const;
-  double friction_budget_n_m(double rate_rad_s, double load_n_m) const;
+  double friction_budget_n_m(double rate_rad_s, double motor_n_m, double external_n_m) const;
   bool engage(double rate_rad_s, double step_s);
   void meet(double angle_rad, double rate_rad_s);
   Drive friction_line(double angle_rad, double rate_rad_s, double rest_n_m, double budget_n_m,

@@ -134,7 +134,9 @@ class Drawing {
 void scale_friction(double in_band, model::Servo& servo) {
   const double factor = 1 + servo.friction_band * in_band;
   for (double* part : {&servo.gearbox.f_base_n_m, &servo.gearbox.f_strib_n_m, &servo.gearbox.l_base,
-                       &servo.gearbox.l_strib, &servo.gearbox.f_visc_n_m_s}) {
+                       &servo.gearbox.l_strib, &servo.gearbox.f_visc_n_m_s,
+                       &servo.gearbox.l_external, &servo.gearbox.l_external_strib,
+                       &servo.gearbox.q_motor_per_n_m, &servo.gearbox.q_external_per_n_m}) {
     *part *= factor;
   }
 }

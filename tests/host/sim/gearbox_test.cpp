@@ -132,6 +132,34 @@ TEST(Gearbox, LoadMakesFrictionThatHelpsToHold) {
   EXPECT_LT(moved(0.93 / up), -0.01);
 }
 
+// M5 and M6: m holds up e while m - e <= l_e e + l_m m + q_e e e, and down while
+// e - m <= l_e e + l_m m + q_m m m.
+TEST(Gearbox, LoadsOfMotorAndLinkHaveFrictionOfTheirOwn) {
+  const double l_m = 0.3, l_e = 0.05, q_m = 0.04, q_e = 0.08;
+  const auto moved = [&](double motor_n_m) {
+    Bench bench(joint_with({.armature_kg_m2 = 0.01,
+                            .l_base = l_m / 2,
+                            .l_strib = l_m / 2,
+                            .w_s_rad_s = 1.5,
+                            .alpha = 1.3,
+                            .is_directional = true,
+                            .l_external = l_e / 2,
+                            .l_external_strib = l_e / 2,
+                            .q_motor_per_n_m = q_m,
+                            .q_external_per_n_m = q_e}));
+    bench.drive_by(motor_n_m / 3.0);
+    for (int step = 0; step < 300; ++step) bench.step(-1.0);
+    return bench.angle_rad;
+  };
+  const double up = (1 + l_e + q_e) / (1 - l_m);
+  const double down =
+      (std::sqrt((1 + l_m) * (1 + l_m) + 4 * q_m * (1 - l_e)) - 1 - l_m) / (2 * q_m);
+  EXPECT_LT(std::abs(moved(0.98 * up)), 1e-4);
+  EXPECT_GT(moved(1.03 * up), 0.01);
+  EXPECT_LT(std::abs(moved(1.02 * down)), 1e-4);
+  EXPECT_LT(moved(0.95 * down), -0.01);
+}
+
 TEST(Gearbox, InsideThePlayTheRotorHasOnlyItselfToTurn) {
   model::Joint joint = joint_with({.armature_kg_m2 = 0.01});
   joint.servo.backlash_rad = 0.02;
@@ -215,15 +243,28 @@ struct PaperPendulum {
   double inertia_kg_m2, gravity_n_m;
   double angle_rad = 0, rate_rad_s = 0;
 
+  /// M4; with its two sides apart M5, with squares M6.
+  double load_friction(double motor, double external, double s) const {
+    if (!gears.is_directional)
+      return std::abs(external - motor) * (gears.l_base + s * gears.l_strib);
+    double friction = std::abs(external * gears.l_external - motor * gears.l_base);
+    friction += s * std::abs(external * gears.l_external_strib - motor * gears.l_strib);
+    if (external * motor >= 0) return friction;
+    if (std::abs(external) < std::abs(motor))
+      friction += s * gears.q_external_per_n_m * external * external;
+    else
+      friction += s * gears.q_motor_per_n_m * motor * motor;
+    return friction;
+  }
+
   void run(double duty, double time_s) {
     constexpr double kStep = 1e-5;
     for (double t = 0; t < time_s - kStep / 2; t += kStep) {
       const double motor = duty == 0 ? 0 : duty * stall_n_m - slope_n_m_s * rate_rad_s;
       const double external = -gravity_n_m * std::sin(angle_rad);
-      const double load = std::abs(external - motor);
       const double s = std::exp(-std::pow(std::abs(rate_rad_s / gears.w_s_rad_s), gears.alpha));
       const double budget = gears.f_base_n_m + s * gears.f_strib_n_m +
-                            load * (gears.l_base + s * gears.l_strib) +
+                            load_friction(motor, external, s) +
                             gears.f_visc_n_m_s * std::abs(rate_rad_s);
       const double inertia = inertia_kg_m2 + gears.armature_kg_m2;
       const double stop = inertia / kStep * rate_rad_s + motor + external;
@@ -268,6 +309,39 @@ TEST_P(IdentifiedMotor, SwingsAPendulumAsThePaperSays) {
       }
     }
     EXPECT_GT(travelled, 0.3);
+  }
+}
+
+// Rhoban/bam, commit 1b5a1ce, bam/params/mx64/m6.json.
+TEST(Gearbox, AMotorOfModelM6SwingsAPendulumAsItsAuthorsSay) {
+  model::Joint joint = joint_with({.armature_kg_m2 = 0.01227,
+                                   .f_base_n_m = 6e-7,
+                                   .f_strib_n_m = 0.1227,
+                                   .l_base = 0.31147,
+                                   .l_strib = 0.18774,
+                                   .w_s_rad_s = 2.5753,
+                                   .alpha = 0.8409,
+                                   .f_visc_n_m_s = 0.02533,
+                                   .is_directional = true,
+                                   .l_external = 2e-8,
+                                   .l_external_strib = 0.01407,
+                                   .q_motor_per_n_m = 0.00691,
+                                   .q_external_per_n_m = 0.01});
+  joint.servo.stall_torque_n_m = 1.6017 * 12 / 2.3164;
+  joint.servo.no_load_speed_rad_s = 12 / 1.6017;
+  const double gravity_n_m = 0.3 * joint.servo.stall_torque_n_m;
+  const double inertia = gravity_n_m * 0.1 / test::kGravity_m_s2;
+  PaperPendulum paper{joint.servo.gearbox, joint.servo.stall_torque_n_m,
+                      joint.servo.stall_torque_n_m / joint.servo.no_load_speed_rad_s, inertia,
+                      gravity_n_m};
+  Bench bench(joint, inertia);
+  for (const Leg& leg : kRun) {
+    bench.drive_by(leg.duty);
+    for (int ms = 0; ms < std::lround(leg.time_s * 1000); ++ms) {
+      bench.step(-gravity_n_m * std::sin(bench.angle_rad));
+      paper.run(std::round(885 * leg.duty) / 885, 0.001);
+      EXPECT_NEAR(bench.angle_rad, paper.angle_rad, 0.016) << leg.duty << " at " << ms << " ms";
+    }
   }
 }
 
