@@ -26,6 +26,7 @@ namespace fs = std::filesystem;
 using Sureness = Finding::Sureness;
 
 constexpr std::size_t kLegJointCount = 6;
+constexpr double kCount_rad = 0.002;     // limits are whole counts of a servo
 constexpr double kMostServo_rad = 3.14;  // a single turn, with room for the encoder's last counts
 constexpr double kGravity_m_s2 = 9.80665;
 // The knee's arm on one leg with the hip at 0.81 of the leg, over the leg's length (stance.cpp).
@@ -67,10 +68,10 @@ class Importer {
     choose_types();
     choose_friction();
     mend_inertias();
+    stand_within_limits();
     place_body();
     measure();
     if (!body_.sure_of_forward) look_at_soles();
-    stand_within_limits();
     say_what_was_found();
     out_.sdf = text_of(w_, s_, body_);
     try {
@@ -274,7 +275,9 @@ class Importer {
   void place_body() {
     const Vec3 hips = middle_of({&body_.legs[0], &body_.legs[1]});
     std::vector<const FoundLimb*> top;
-    for (const FoundLimb& limb : body_.others) top.push_back(&limb);
+    for (const FoundLimb& limb : body_.others) {
+      if (limb.name != "waist") top.push_back(&limb);
+    }
     double up_m = 0.35 * leg_m();
     if (!top.empty()) up_m = std::max(up_m, (middle_of(top).z() - hips.z()) / 2);
     w_.body.linear().col(0) = body_.forward;
@@ -292,10 +295,15 @@ class Importer {
 
   void measure() {
     w_.soles.clear();
+    w_.below_soles.clear();
     w_.trunk_box.reset();
     const model::Entity probe = model::load_part_of_robot_text(place(), text_of(w_, s_, body_));
-    for (const FoundLimb& leg : body_.legs)
-      w_.soles.push_back(sole_of(probe, node_of(probe, link(leg.tip).name), leg_m()));
+    std::vector<int> feet;
+    for (const FoundLimb& leg : body_.legs) {
+      feet.push_back(node_of(probe, link(leg.tip).name));
+      w_.soles.push_back(sole_of(probe, feet.back(), leg_m()));
+    }
+    w_.below_soles = reach_below(probe, feet, w_.soles);
     if (!probe.nodes[0].collisions.empty()) return;
     Eigen::AlignedBox3d box;
     for (const Vec3& point : points_of(probe, 0)) box.extend(point);
@@ -402,7 +410,10 @@ class Importer {
       });
       const auto key = wish_.source.stand.find(bone(row.bone).name);
       const double wanted_rad = key == wish_.source.stand.end() ? 0 : key->second;
-      const double rad = std::clamp(wanted_rad, row.lower_rad, row.upper_rad);
+      const bool fits = row.lower_rad <= wanted_rad && wanted_rad <= row.upper_rad;
+      const double rad =
+          fits ? wanted_rad
+               : std::clamp(wanted_rad, row.lower_rad + kCount_rad, row.upper_rad - kCount_rad);
       if (!of_leg && rad != 0) w_.stand.emplace_back(bone(row.bone).name, rad);
     }
   }
@@ -438,6 +449,10 @@ class Importer {
                         sole.measured ? "" : ", from the leg's length: the foot has no shape here"),
             sole.measured ? "" : "measure it, and write it into <verp:box>");
     }
+    if (!w_.below_soles.empty())
+      out_.left_out.push_back(
+          fmt::format("collisions of {}, which reach below the soles: measure the feet",
+                      fmt::join(w_.below_soles, ", ")));
     const int imu = imu_of(s_, body_);
     found(imu >= 0 ? Sureness::kRead : Sureness::kGuessed, "IMU",
           link(imu >= 0 ? imu : body_.trunk).name,

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t kLeastJoints = 4;  // of a leg
 constexpr double kLeastApart_m = 0.005;  // of two feet
+constexpr std::ptrdiff_t kLeastArm = 2;  // joints
 
 class Finder {
  public:
@@ -161,11 +162,16 @@ class Finder {
 
   /// Beside the trunk the longest chains are arms; in its middle, the highest is a head.
   void find_others() {
-    std::vector<FoundLimb> left, right, middle;
+    std::vector<FoundLimb> chains;
     for (const int tip : tips_) {
       FoundLimb limb{"", tip, bones_between(tip)};
-      if (limb.bones.empty() || shares_leg(limb)) continue;
-      const double y = bone(limb.bones.front()).pose.translation().dot(body_.left) - middle_y();
+      if (!limb.bones.empty() && !shares_leg(limb)) chains.push_back(limb);
+    }
+    cut_waist(chains);
+    std::vector<FoundLimb> left, right, middle;
+    for (const FoundLimb& limb : chains) {
+      if (limb.bones.empty()) continue;
+      const double y = sideways(bone(limb.bones.front()).pose);
       (y > kLeastApart_m ? left : y < -kLeastApart_m ? right : middle).push_back(limb);
     }
     const auto shorter = [](const FoundLimb& a, const FoundLimb& b) {
@@ -177,6 +183,46 @@ class Finder {
     add("left_arm", std::max_element(left.begin(), left.end(), shorter), left);
     add("right_arm", std::max_element(right.begin(), right.end(), shorter), right);
     add("head", std::max_element(middle.begin(), middle.end(), lower), middle);
+  }
+
+  /// Joints that carry both arms are the waist, a limb of its own: it goes to body_.others, and the
+  /// chains begin above it. What carries less than two joints on a side, such as antennas, is a
+  /// head.
+  void cut_waist(std::vector<FoundLimb>& chains) {
+    FoundLimb waist{"waist", -1, {}};
+    for (const FoundLimb& limb : chains) {
+      std::size_t shared = 0;
+      while (shared < limb.bones.size() && carries_arms(chains, limb.bones[shared])) ++shared;
+      if (shared > waist.bones.size())
+        waist.bones.assign(limb.bones.begin(),
+                           limb.bones.begin() + static_cast<std::ptrdiff_t>(shared));
+    }
+    if (waist.bones.empty()) return;
+    waist.tip = bone(waist.bones.back()).child;
+    for (FoundLimb& limb : chains)
+      std::erase_if(limb.bones, [&](int each) { return contains(waist.bones, each); });
+    body_.others.push_back(waist);
+  }
+
+  bool carries_arms(const std::vector<FoundLimb>& chains, int carrier) const {
+    bool left = false, right = false;
+    for (const FoundLimb& limb : chains) {
+      const auto at = std::find(limb.bones.begin(), limb.bones.end(), carrier);
+      if (limb.bones.end() - at <= kLeastArm) continue;
+      const double y = sideways(link(limb.tip).pose);
+      left = left || y > kLeastApart_m;
+      right = right || y < -kLeastApart_m;
+    }
+    return left && right;
+  }
+
+  static bool contains(const std::vector<int>& bones, int each) {
+    return std::find(bones.begin(), bones.end(), each) != bones.end();
+  }
+
+  /// From the sagittal plane to the left.
+  double sideways(const Transform& pose) const {
+    return pose.translation().dot(body_.left) - middle_y();
   }
 
   bool shares_leg(const FoundLimb& limb) const {

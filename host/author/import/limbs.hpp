@@ -8,9 +8,9 @@
 namespace verp::import {
 
 struct FoundLimb {
-  std::string name;        ///< left_leg, right_leg, left_arm, right_arm, head
+  std::string name;        ///< left_leg, right_leg, left_arm, right_arm, head, waist
   int tip = -1;            ///< link that the last joint moves
-  std::vector<int> bones;  ///< turning ones, from the trunk to the tip
+  std::vector<int> bones;  ///< turning ones, from the trunk or the waist to the tip
 };
 
 struct Body {

@@ -1,5 +1,6 @@
 #include "host/author/import/shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -65,15 +66,22 @@ void add_seen(std::vector<Vec3>& points, const Visual& visual, const Transform& 
   }
 }
 
-}  // namespace
-
-std::vector<Vec3> points_of(const model::Entity& entity, int node) {
+std::vector<Vec3> contacts_of(const model::Entity& entity, int node) {
   const auto& part = entity.nodes[static_cast<std::size_t>(node)];
   const Eigen::Translation3d at(model::node_origins(entity)[static_cast<std::size_t>(node)]);
   std::vector<Vec3> points;
   for (const Collision& each : part.collisions)
     add_solid(points, each.shape, each.size_m, at * each.pose);
+  return points;
+}
+
+}  // namespace
+
+std::vector<Vec3> points_of(const model::Entity& entity, int node) {
+  std::vector<Vec3> points = contacts_of(entity, node);
   if (!points.empty()) return points;
+  const auto& part = entity.nodes[static_cast<std::size_t>(node)];
+  const Eigen::Translation3d at(model::node_origins(entity)[static_cast<std::size_t>(node)]);
   for (const Visual& each : part.visuals) add_seen(points, each, at * each.pose);
   return points;
 }
@@ -98,6 +106,23 @@ Sole sole_of(const model::Entity& entity, int foot, double leg_m) {
   for (const double sign : {-1.0, 1.0})
     sole.box.extend(middle + sign * Vec3(0.27 * leg_m, 0.17 * leg_m, 0));
   return sole;
+}
+
+std::vector<std::string> reach_below(const model::Entity& entity, const std::vector<int>& feet,
+                                     const std::vector<Sole>& soles) {
+  constexpr double kLeast_m = 0.001;
+  double floor_m = INFINITY;
+  for (const Sole& sole : soles) floor_m = std::min(floor_m, sole.box.min().z());
+  std::vector<std::string> found;
+  for (int node = 0; node < static_cast<int>(entity.nodes.size()); ++node) {
+    if (std::find(feet.begin(), feet.end(), node) != feet.end()) continue;
+    const std::vector<Vec3> points = contacts_of(entity, node);
+    const bool below = std::any_of(points.begin(), points.end(), [&](const Vec3& point) {
+      return point.z() < floor_m - kLeast_m;
+    });
+    if (below) found.push_back(entity.nodes[static_cast<std::size_t>(node)].name);
+  }
+  return found;
 }
 
 }  // namespace verp::import

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Geometry>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "host/robot/model/entity.hpp"
@@ -21,5 +22,9 @@ struct Sole {
 
 /// The bounding box of the points within 4 mm of the lowest; within more where these are no sole.
 Sole sole_of(const model::Entity& entity, int foot, double leg_m);
+
+/// Nodes but the feet whose contact shapes reach below the soles: they would carry the robot.
+std::vector<std::string> reach_below(const model::Entity& entity, const std::vector<int>& feet,
+                                     const std::vector<Sole>& soles);
 
 }  // namespace verp::import

@@ -92,13 +92,17 @@ class Writer {
 
   void limbs() {
     if (is_probe()) return;
-    const std::string base = markup_text(link(b_.trunk).name);
-    const auto limb = [&](const std::string& name, const std::string& tip) {
-      line(2, fmt::format("<verp:limb name=\"{}\" base=\"{}\" tip=\"{}\"/>", name, base, tip));
+    const auto limb = [&](const std::string& name, int base, const std::string& tip) {
+      line(2, fmt::format("<verp:limb name=\"{}\" base=\"{}\" tip=\"{}\"/>", name,
+                          markup_text(link(base).name), tip));
     };
-    limb("left_leg", "verp_l_sole");
-    limb("right_leg", "verp_r_sole");
-    for (const FoundLimb& each : b_.others) limb(each.name, markup_text(link(each.tip).name));
+    limb("left_leg", b_.trunk, "verp_l_sole");
+    limb("right_leg", b_.trunk, "verp_r_sole");
+    int base = b_.trunk;
+    for (const FoundLimb& each : b_.others) {  // the waist is the first of them
+      limb(each.name, base, markup_text(link(each.tip).name));
+      if (each.name == "waist") base = each.tip;
+    }
   }
 
   bool is_foot(const LinkPart& part) const {
@@ -116,6 +120,10 @@ class Writer {
                        [&](const Ball& ball) { return ball.link == link && ball.mass_kg > 0; });
   }
 
+  bool reaches_below(const std::string& link) const {
+    return std::find(w_.below_soles.begin(), w_.below_soles.end(), link) != w_.below_soles.end();
+  }
+
   void drop(const char* what, const std::string& name, const char* reason) {
     line(2, fmt::format("<verp:drop what=\"{}\" name=\"{}\" reason=\"{}\"/>", what,
                         markup_text(name), reason));
@@ -127,6 +135,8 @@ class Writer {
         drop("collision", part.name, "contacts use boxes, not meshes");
       } else if (is_foot(part) && !is_probe() && part.has_contact) {
         drop("collision", part.name, "the sole is one box");
+      } else if (part.has_contact && reaches_below(part.name)) {
+        drop("collision", part.name, "it reaches below the soles");
       }
       if (part.mass_kg <= 0 && part.has_shape && !is_weighed(part.name))
         drop("massless_link", part.name, "the file gives it no mass");
@@ -178,7 +188,7 @@ class Writer {
   }
 
   void poses() {
-    if (w_.stand.empty() || is_probe()) return;
+    if (w_.stand.empty()) return;
     for (const char* const pose : {"stand", "sit"}) {
       line(2, fmt::format("<verp:pose name=\"{}\">", pose));
       for (const auto& [joint, rad] : w_.stand)

@@ -33,6 +33,7 @@ struct Wrapper {
   std::vector<Ball> balls;
   Transform body = Transform::Identity();  ///< root's frame
   std::vector<Sole> soles;                 ///< left, right, in the body's frame; empty: a probe
+  std::vector<std::string> below_soles;    ///< links whose contacts are dropped
   std::optional<Eigen::AlignedBox3d> trunk_box;       ///< body's frame
   std::vector<std::pair<std::string, double>> stand;  ///< joints that cannot stand at zero
   std::optional<double> lift_m;                       ///< of the gait

@@ -34,8 +34,10 @@ struct Habits {
   bool feet_are_meshes = false;  ///< which nobody has
   std::string meshes = "package://nowhere";
   bool has_wide_ankles = false;  ///< a block on each sole, wider than that
+  bool has_low_shanks = false;   ///< a block on each, lower than the sole
   bool has_no_stops = false;     ///< continuous joints
   bool has_right_leg = true;
+  bool has_waist = false;  ///< which carries both arms; their elbows cannot be at zero
   std::string in_names = "";
   std::string more = "";  ///< elements of the robot
   double foot_kg = 0.1;   ///< below 0: without <inertial>
@@ -55,9 +57,11 @@ class Maker {
     link("p1", 1.2, "<box size=\"0.08 0.12 0.15\"/>", {0, 0, 0});
     for (const int side : {1, -1}) {
       if (side > 0 || h_.has_right_leg) leg(side);
+      if (h_.has_waist) continue;
       joint("p1", arm(side), "revolute", {0, 0.085 * side, 0.06}, {0, 1, 0});
       link(arm(side), 0.2, "<box size=\"0.03 0.03 0.14\"/>", {0, 0, -0.07});
     }
+    if (h_.has_waist) waist();
     return text_ + h_.more + "</robot>\n";
   }
 
@@ -81,16 +85,29 @@ class Maker {
                                     : "<box size=\"0.1 0.06 0.01\"/>";
       link(below, foot ? h_.foot_kg : 0.1, foot ? shape : "",
            {foot ? h_.sole_ahead_m : 0.0, 0, foot ? -0.025 : 0.0});
-      if (foot && h_.has_wide_ankles) add_block(text_);
+      if (foot && h_.has_wide_ankles) add_block(text_, -0.005);
+      if (k == 3 && h_.has_low_shanks) add_block(text_, -0.12);
       above = below;
     }
   }
 
-  /// Its lower face is 1 cm above that of the sole.
-  static void add_block(std::string& link) {
-    const std::string block =
-        "<collision><origin xyz=\"0 0 -0.005\"/><geometry><box size=\"0.04 0.1 0.03\"/></geometry>"
-        "</collision>";
+  void waist() {
+    joint("p1", "p6", "revolute", {0, 0, 0.03}, {0, 0, 1});
+    link("p6", 0.3, "", {0, 0, 0.03});
+    for (const int side : {1, -1}) {
+      joint("p6", arm(side), "revolute", {0, 0.085 * side, 0.03}, {0, 1, 0});
+      link(arm(side), 0.1, "", {0, 0, -0.03});
+      joint(arm(side), arm(side) + "e", "revolute", {0, 0, -0.07}, {0, 1, 0}, 0, -1.6, -0.1);
+      link(arm(side) + "e", 0.1, "", {0, 0, -0.03});
+    }
+  }
+
+  /// On a foot at -0.005 its lower face is 1 cm above that of the sole.
+  static void add_block(std::string& link, double z_m) {
+    const std::string block = fmt::format(
+        "<collision><origin xyz=\"0 0 {}\"/><geometry><box size=\"0.04 0.1 0.03\"/></geometry>"
+        "</collision>",
+        z_m);
     link.insert(link.rfind("</link>"), block);
   }
 
@@ -214,6 +231,16 @@ TEST_F(ImportedFile, RobotMayLookAnyWayInItsFile) {
   }
 }
 
+TEST_F(ImportedFile, JointsThatCarryBothArmsAreAWaistAndNothingIsFixed) {
+  const Imported robot = import({.has_waist = true});
+  EXPECT_EQ(finding(robot, "waist").value, "jp6");
+  EXPECT_EQ(finding(robot, "left_arm").value, "jp2, jp2e");
+  EXPECT_EQ(finding(robot, "right_arm").value, "jp3, jp3e");
+  const model::Entity entity = loaded(robot);
+  EXPECT_EQ(entity.joints.size(), 17U);
+  EXPECT_LT(entity.joints.back().stand_rad, -0.1) << "elbows stand within their limits";
+}
+
 TEST_F(ImportedFile, FeetTellWhatIsAheadWhereKneesDoNot) {
   const Imported robot =
       import({.yaw_rad = 3.1415927, .knee_lower_rad = -2.4, .sole_ahead_m = 0.02});
@@ -235,6 +262,16 @@ TEST_F(ImportedFile, SolesAreTheLowestFacesOfTheFeet) {
     EXPECT_NEAR(leg.sole_max_m.y() - leg.sole_min_m.y(), 0.06, 1e-4);
     EXPECT_NEAR(leg.tip.translation().x(), 0.01, 1e-6);
     EXPECT_NEAR(leg.tip.translation().z(), -0.03, 1e-6);
+  }
+}
+
+TEST_F(ImportedFile, RobotStandsOnItsSolesAndOnNothingBelowThem) {
+  const Imported robot = import({.has_low_shanks = true});
+  EXPECT_TRUE(was_changed(robot, "collisions of p4_3, p5_3, which reach below the soles"));
+  const model::Entity entity = loaded(robot);
+  for (const model::Node& node : entity.nodes) {
+    const bool shank = node.name == "p4_3" || node.name == "p5_3";
+    EXPECT_FALSE(shank && !node.collisions.empty()) << node.name;
   }
 }
 
