@@ -1,4 +1,5 @@
 #include "host/author/import/import.hpp"
+#include "host/author/import/masses.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -31,11 +32,8 @@ constexpr double kMostServo_rad = 3.14;  // a single turn, with room for the enc
 constexpr double kGravity_m_s2 = 9.80665;
 // The knee's arm on one leg with the hip at 0.81 of the leg, over the leg's length (stance.cpp).
 constexpr double kKneeArm = 0.295;
-// Shares of the robot's size: a link's radius of gyration.
-constexpr double kMostGyration = 0.3, kUsualGyration = 0.05;
 // Share of the sole's length: its middle ahead of the ankle shows the direction.
 constexpr double kLeastReach = 0.05;
-constexpr double kLinkShare = 0.01;  // of the robot's mass: a link whose mass the file lacks
 
 /// Small letters, digits and _, as robots are named.
 std::string plain(const std::string& name) {
@@ -67,7 +65,9 @@ class Importer {
     choose_servos();
     choose_types();
     choose_friction();
-    mend_inertias();
+    std::vector<int> moving = followers_;
+    for (const ServoRow& row : w_.servos) moving.push_back(row.bone);
+    for (std::string& each : mend_masses(s_, moving, w_)) out_.left_out.push_back(std::move(each));
     stand_within_limits();
     place_body();
     measure();
@@ -332,74 +332,6 @@ class Importer {
     body_.turn_round();
     place_body();
     measure();
-  }
-
-  /// Moments in another unit than kg m2 make links larger than the robot.
-  void mend_inertias() {
-    Eigen::AlignedBox3d extent;
-    for (const LinkPart& part : s_.links) extent.extend(part.pose.translation());
-    const double size_m = extent.sizes().norm();
-    const double unit = unit_of_inertias(size_m);
-    for (const LinkPart& part : s_.links) {
-      const double radius_m = part.radius_m * std::sqrt(unit);
-      const bool is_small = radius_m < size_m;
-      if (part.is_no_body) {
-        put_ball(part, is_small && radius_m > 0 ? radius_m : kUsualGyration * size_m);
-      } else if (!is_small) {
-        const double wanted_m = kUsualGyration * size_m;
-        w_.inertia_scales.emplace_back(part.name, std::pow(wanted_m / radius_m, 2));
-        out_.left_out.push_back(
-            fmt::format("link {}: its moments are those of a body of {:.2g} m; "
-                        "those of {:.2g} m are taken",
-                        part.name, radius_m, wanted_m));
-      }
-    }
-    for (const ServoRow& row : w_.servos) weigh(bone(row.bone).child, size_m);
-    for (const int follower : followers_) weigh(bone(follower).child, size_m);
-  }
-
-  void put_ball(const LinkPart& part, double gyration_m) {
-    w_.balls.push_back({part.name, std::clamp(gyration_m / std::sqrt(0.4), 0.001, 1.0), 0});
-    out_.left_out.push_back(fmt::format(
-        "link {}: no body has its moments of inertia; those of a ball are taken", part.name));
-  }
-
-  /// A joint must move some mass.
-  void weigh(int moved, double size_m) {
-    double mass_kg = 0;
-    std::vector<int> piece = {moved};
-    for (std::size_t i = 0; i < piece.size(); ++i) {
-      mass_kg += link(piece[i]).mass_kg;
-      for (std::size_t b = 0; b < s_.bones.size(); ++b) {
-        if (s_.bones[b].parent == piece[i] && !keeps(static_cast<int>(b)))
-          piece.push_back(s_.bones[b].child);
-      }
-    }
-    if (mass_kg > 0) return;
-    const double guess_kg = kLinkShare * s_.mass_kg();
-    w_.balls.push_back({link(moved).name, kUsualGyration * size_m / std::sqrt(0.4), guess_kg});
-    out_.left_out.push_back(fmt::format("link {} has no mass: {:.2g} kg are taken, a guess",
-                                        link(moved).name, guess_kg));
-  }
-
-  /// In kg m2: 1, unless most links would be larger than the robot.
-  double unit_of_inertias(double size_m) {
-    std::vector<double> radii;
-    for (const LinkPart& part : s_.links) {
-      if (part.radius_m > 0) radii.push_back(part.radius_m);
-    }
-    if (radii.empty()) return 1;
-    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-    std::nth_element(radii.begin(), middle, radii.end());
-    if (*middle < size_m) return 1;
-    for (const auto& [unit, factor] :
-         {std::pair{"g m2", 1e-3}, {"kg mm2", 1e-6}, {"g cm2", 1e-7}, {"g mm2", 1e-9}}) {
-      if (*middle * std::sqrt(factor) > kMostGyration * size_m) continue;
-      w_.inertia_scales.emplace_back("*", factor);
-      out_.left_out.push_back(fmt::format("all moments of inertia are taken as {}", unit));
-      return factor;
-    }
-    return 1;
   }
 
   /// Joints beside the legs: as the file has them, else at zero; the legs' angles are found.
