@@ -185,17 +185,15 @@ class Finder {
     add("head", std::max_element(middle.begin(), middle.end(), lower), middle);
   }
 
-  /// Joints that carry both arms are the waist, a limb of its own: it goes to body_.others, and the
-  /// chains begin above it. What carries less than two joints on a side, such as antennas, is a
-  /// head.
+  /// Joints that carry both arms are the waist, a limb of its own, and the chains begin above it.
+  /// What carries less than an arm on each side, such as antennas, is a head.
   void cut_waist(std::vector<FoundLimb>& chains) {
     FoundLimb waist{"waist", -1, {}};
     for (const FoundLimb& limb : chains) {
-      std::size_t shared = 0;
-      while (shared < limb.bones.size() && carries_arms(chains, limb.bones[shared])) ++shared;
-      if (shared > waist.bones.size())
-        waist.bones.assign(limb.bones.begin(),
-                           limb.bones.begin() + static_cast<std::ptrdiff_t>(shared));
+      for (const int each : limb.bones) {
+        if (!contains(waist.bones, each) && carries_both(chains, each, kLeastArm))
+          waist.bones.push_back(each);
+      }
     }
     if (waist.bones.empty()) return;
     waist.tip = bone(waist.bones.back()).child;
@@ -204,11 +202,14 @@ class Finder {
     body_.others.push_back(waist);
   }
 
-  bool carries_arms(const std::vector<FoundLimb>& chains, int carrier) const {
+  /// Chains to the left and to the right with at least `own` joints that carry one side only.
+  bool carries_both(const std::vector<FoundLimb>& chains, int carrier, std::ptrdiff_t own) const {
     bool left = false, right = false;
     for (const FoundLimb& limb : chains) {
-      const auto at = std::find(limb.bones.begin(), limb.bones.end(), carrier);
-      if (limb.bones.end() - at <= kLeastArm) continue;
+      if (!contains(limb.bones, carrier)) continue;
+      const auto carries_one = [&](int each) { return !carries_both(chains, each, 0); };
+      if (own > 0 && std::count_if(limb.bones.begin(), limb.bones.end(), carries_one) < own)
+        continue;
       const double y = sideways(link(limb.tip).pose);
       left = left || y > kLeastApart_m;
       right = right || y < -kLeastApart_m;
