@@ -186,7 +186,7 @@ class Finder {
   }
 
   /// Joints that carry both arms are the waist, a limb of its own, and the chains begin above it.
-  /// What carries less than an arm on each side, such as antennas, is a head.
+  /// A neck with antennas carries no arms: it is a head.
   void cut_waist(std::vector<FoundLimb>& chains) {
     FoundLimb waist{"waist", -1, {}};
     for (const FoundLimb& limb : chains) {

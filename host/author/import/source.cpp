@@ -12,7 +12,7 @@
 namespace verp::import {
 namespace {
 
-/// Of the outer element; empty: no XML, which the reader of URDF tells better.
+/// The outer element's name. Empty where the file is no XML: the reader of URDF then says why.
 std::string outer_element(const std::string& file) {
   tinyxml2::XMLDocument document;
   if (document.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS) return "";

@@ -23,10 +23,10 @@ std::string text_in(const XmlElement& parent, const char* child);
 bool flag_in(const XmlElement& parent, const char* child);
 /// Each throws LoadError at the child: it is no number, or beyond any robot (bounds.hpp).
 double number_in(const XmlElement& parent, const char* child, double fallback);
-/// Of any size; inf is allowed.
+/// It may be inf.
 double free_number_in(const XmlElement& parent, const char* child, double fallback);
 Vec3 vector_in(const XmlElement& parent, const char* child, const Vec3& fallback);
-/// Of the <pose> in it: six numbers, or seven with rotation_format="quat_xyzw".
+/// Its <pose>: six numbers, or seven with rotation_format="quat_xyzw".
 Transform pose_in(const XmlElement& parent);
 /// The frame that the <pose> names; empty: none.
 std::string frame_of_pose(const XmlElement& parent);

@@ -12,7 +12,7 @@ class LinkReader {
 
   /// Without its name and its place in the tree.
   mjcf::Body body_of(const FoundPart& link);
-  /// Of the IMU sensors on it.
+  /// Places of the IMU sensors on a link.
   std::vector<Transform> imus_on(const FoundPart& link) const;
   Transform place_of(const FoundPart& joint) const;
   /// Limits, damping and friction of one axis; the direction in the robot's frame. `axis`: its

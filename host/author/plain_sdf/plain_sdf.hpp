@@ -6,7 +6,7 @@
 /// SDF files of other makers (Gazebo's), without elements of ours.
 namespace verp::plain_sdf {
 
-/// Of a world's models the one with most joints. Throws LoadError at the element that cannot be
+/// In a world, the model with most joints is the robot. Throws LoadError at the element that cannot be
 /// understood.
 mjcf::Robot read_robot(const std::string& path);
 

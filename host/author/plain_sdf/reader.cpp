@@ -116,7 +116,7 @@ class Reader {
     return found;
   }
 
-  /// Of the trees the one with most joints; its first link that is no child.
+  /// The first link that is no child, in the tree with most joints.
   const FoundPart& root() const {
     std::set<std::string> seen;
     const FoundPart* best = nullptr;

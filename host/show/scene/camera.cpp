@@ -29,7 +29,8 @@ double heading_rad(const Transform& body) {
   return std::atan2(ahead.y(), ahead.x());
 }
 
-/// Of what is drawn of a standing robot, about its middle: arms may reach far to the sides.
+/// The width of what is drawn of a standing robot, about its middle: arms may reach far to the
+/// sides.
 double width_m(const Robot& robot, double azimuth_rad) {
   double half_m = 0;
   for (const double x_m : {robot.drawn_m.min().x(), robot.drawn_m.max().x()}) {

@@ -113,7 +113,7 @@ struct Robot {
   std::string name;
   std::shared_ptr<const Entity> entity;
   double height_m = 0.5;  ///< standing
-  /// Of what is drawn where it stands; x ahead, y left of the body's centre, z above the floor.
+  /// The box around what is drawn of it; x ahead, y left of the body's centre, z above the floor.
   Eigen::AlignedBox3d drawn_m = Eigen::AlignedBox3d(Vec3(0, 0, 0), Vec3(0, 0, 0));
 };
 

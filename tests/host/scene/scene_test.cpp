@@ -88,7 +88,7 @@ TEST(Camera, EachViewLooksAtTheRobotAndItsOwnCameraLooksAhead) {
   EXPECT_FALSE(view("nobody", scene, now, 0, 1.5));
 }
 
-/// Of many foreign files only the feet collide, and arms reach to the sides.
+/// In many foreign files only the feet collide, and arms reach to the sides.
 TEST(Camera, WhatIsDrawnIsInThePictureEvenIfNothingCollides) {
   Entity entity = generic21();
   for (model::Node& node : entity.nodes) node.collisions.clear();
