@@ -5,8 +5,11 @@
 #include "host/run/session/servo_speed.hpp"
 
 namespace verp::import {
+namespace {
 
 using Sureness = Finding::Sureness;
+
+}  // namespace
 
 SpeedChoice choose_lift(Params params, bool of_damping) {
   SpeedChoice choice;
