@@ -18,8 +18,10 @@ void read_moments(const XmlElement& inertial, mjcf::Inertial& own) {
   const auto at = [&](const char* name, double fallback) {
     return inertia ? number_in(*inertia, name, fallback) : fallback;
   };
-  own.inertia_kg_m2 << at("ixx", 1), at("ixy", 0), at("ixz", 0), at("ixy", 0), at("iyy", 1),
-      at("iyz", 0), at("ixz", 0), at("iyz", 0), at("izz", 1);
+  // An Eigen list that a refusal leaves unfinished ends the program where assertions are on.
+  const double xx = at("ixx", 1), xy = at("ixy", 0), xz = at("ixz", 0), yy = at("iyy", 1),
+               yz = at("iyz", 0), zz = at("izz", 1);
+  own.inertia_kg_m2 << xx, xy, xz, xy, yy, yz, xz, yz, zz;
 }
 
 std::vector<double> colour_of(const XmlElement& visual) {
