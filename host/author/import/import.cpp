@@ -1,5 +1,4 @@
 #include "host/author/import/import.hpp"
-#include "host/author/import/masses.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,6 +11,7 @@
 #include <numbers>
 
 #include "common/model/params.hpp"
+#include "host/author/import/masses.hpp"
 #include "host/author/import/servos.hpp"
 #include "host/author/import/speed.hpp"
 #include "host/os/files/whole.hpp"

@@ -2,12 +2,10 @@
 
 #include <tinyxml2.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "host/author/mjcf/mjcf.hpp"
 #include "host/author/plain_sdf/plain_sdf.hpp"
 #include "host/author/xacro/xacro.hpp"
+#include "host/os/files/whole.hpp"
 
 namespace verp::import {
 namespace {
@@ -31,10 +29,7 @@ Drive drive_of(const mjcf::Motor& motor) {
 
 /// A URDF that xacro made may still name its namespace.
 bool is_xacro(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str().find("<xacro:") != std::string::npos;
+  return files::read(file).value_or("").find("<xacro:") != std::string::npos;
 }
 
 Source source_of_xacro(const std::string& file, const std::string& folder) {
@@ -46,10 +41,9 @@ Source source_of_xacro(const std::string& file, const std::string& folder) {
   return out;
 }
 
-Source source_of_mjcf(const std::string& file, const std::string& folder) {
+Source source_of(mjcf::Robot robot, const char* format, const std::string& folder) {
   Source out;
-  mjcf::Robot robot = mjcf::read_robot(file);
-  out.format = "mjcf";
+  out.format = format;
   out.urdf = mjcf::urdf_of(robot, folder);
   out.left_out = robot.left_out;
   out.stand = robot.stand;
@@ -61,21 +55,12 @@ Source source_of_mjcf(const std::string& file, const std::string& folder) {
   return out;
 }
 
-Source source_of_sdf(const std::string& file, const std::string& folder) {
-  Source out;
-  mjcf::Robot robot = plain_sdf::read_robot(file);
-  out.format = "sdf";
-  out.urdf = mjcf::urdf_of(robot, folder);
-  out.left_out = robot.left_out;
-  return out;
-}
-
 }  // namespace
 
 Source read_source(const std::string& file, const std::string& folder) {
   const std::string outer = outer_element(file);
-  if (outer == "mujoco") return source_of_mjcf(file, folder);
-  if (outer == "sdf") return source_of_sdf(file, folder);
+  if (outer == "mujoco") return source_of(mjcf::read_robot(file), "mjcf", folder);
+  if (outer == "sdf") return source_of(plain_sdf::read_robot(file), "sdf", folder);
   return is_xacro(file) ? source_of_xacro(file, folder) : Source{};
 }
 

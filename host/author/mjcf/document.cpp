@@ -7,9 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include "host/robot/model/load_error.hpp"
 #include "host/robot/model/malformed_xml.hpp"
@@ -24,14 +22,6 @@ constexpr std::size_t kMostFiles = 256;
 // They set one record in MuJoCo: a default of <general> is one of <position>, too.
 constexpr std::array kActuators = {"general",     "motor",    "position", "velocity", "damper",
                                    "intvelocity", "cylinder", "muscle",   "adhesion"};
-
-std::string text_of_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  if (!file) throw model::LoadError(path, 0, "cannot be read", "check its name and rights");
-  return text.str();
-}
 
 bool is_actuator(const std::string& element) {
   return std::find(kActuators.begin(), kActuators.end(), element) != kActuators.end();
@@ -157,14 +147,10 @@ XmlElement Document::root() const {
 }
 
 const Document::File& Document::read(const std::string& path) {
-  const std::string text = text_of_file(path);
   files_.push_back(std::make_unique<File>());
   File& file = *files_.back();
   file.path = path;
-  if (file.xml.Parse(text.c_str(), text.size()) != tinyxml2::XML_SUCCESS ||
-      file.xml.RootElement() == nullptr) {
-    model::refuse_malformed(path, text, file.xml);
-  }
+  model::load_xml(path, file.xml);
   return file;
 }
 

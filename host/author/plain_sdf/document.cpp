@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <numbers>
-#include <sstream>
 
 #include "host/robot/model/find.hpp"
 #include "host/robot/model/load_error.hpp"
@@ -27,14 +25,6 @@ std::string trimmed(const char* text) {
   const auto begin = all.find_first_not_of(" \t\r\n");
   if (begin == all.npos) return "";
   return all.substr(begin, all.find_last_not_of(" \t\r\n") + 1 - begin);
-}
-
-std::string text_of_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  if (!file) throw model::LoadError(path, 0, "cannot be read", "check its name and rights");
-  return text.str();
 }
 
 [[noreturn]] void fail_at_leaf(const XmlElement& leaf, const std::string& text,
@@ -164,14 +154,10 @@ XmlElement Document::root() const {
 }
 
 Document::File& Document::read(const std::string& path) {
-  const std::string text = text_of_file(path);
   files_.push_back(std::make_unique<File>());
   File& file = *files_.back();
   file.path = path;
-  if (file.xml.Parse(text.c_str(), text.size()) != tinyxml2::XML_SUCCESS ||
-      file.xml.RootElement() == nullptr) {
-    model::refuse_malformed(path, text, file.xml);
-  }
+  model::load_xml(path, file.xml);
   const char* const version = file.xml.RootElement()->Attribute("version");
   file.version = model::parse_number(version == nullptr ? "" : version).value_or(1.6);
   // 1.10 and 1.11 are numbers after the dot.

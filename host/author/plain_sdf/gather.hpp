@@ -30,7 +30,7 @@ struct Flat {
 
 /// Whether a joint of that type moves in a robot of VERP, or in one with sliding joints.
 bool moves(const XmlElement& joint);
-/// An element's name; throws LoadError where it has none.
+/// Throws LoadError for an element without a name.
 std::string name_of(const XmlElement& element);
 
 /// `include`: the element that includes the model; null: none.

@@ -3,7 +3,6 @@
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <set>
 #include <sstream>
@@ -59,18 +58,10 @@ class Expander {
   }
 
   const File& read(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    std::stringstream text;
-    text << in.rdbuf();
-    if (!in) throw model::LoadError(path, 0, "cannot be read", "check its name and rights");
     files_.push_back(std::make_unique<File>());
     File& file = *files_.back();
     file.path = path;
-    const std::string bytes = text.str();
-    if (file.xml.Parse(bytes.c_str(), bytes.size()) != tinyxml2::XML_SUCCESS ||
-        file.xml.RootElement() == nullptr) {
-      model::refuse_malformed(path, bytes, file.xml);
-    }
+    model::load_xml(path, file.xml);
     return file;
   }
 

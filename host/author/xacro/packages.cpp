@@ -1,8 +1,8 @@
 #include "host/author/xacro/packages.hpp"
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+
+#include "host/os/files/whole.hpp"
 
 namespace verp::xacro {
 namespace {
@@ -11,10 +11,8 @@ namespace fs = std::filesystem;
 constexpr int kMostSteps = 6;  // above the file
 
 bool says_its_name(const fs::path& folder, const std::string& name) {
-  std::ifstream file(folder / "package.xml");
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str().find("<name>" + name + "</name>") != std::string::npos;
+  const std::string text = files::read(folder / "package.xml").value_or("");
+  return text.find("<name>" + name + "</name>") != std::string::npos;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host/os/files/whole.hpp"
 #include "host/robot/model/load_error.hpp"
 
 namespace verp::model {
@@ -145,6 +146,15 @@ void refuse_malformed(const std::string& path, const std::string& text,
       path, found.line > 0 ? found.line : std::max(1, document.ErrorLineNum()),
       "malformed XML (" + (found.line > 0 ? found.why : std::string(document.ErrorName())) + ")",
       "up to this line, close every tag and quote, and give no attribute twice");
+}
+
+void load_xml(const std::string& path, tinyxml2::XMLDocument& document) {
+  const auto text = files::read(path);
+  if (!text) throw LoadError(path, 0, "cannot be read", "check its name, rights and length");
+  if (document.Parse(text->data(), text->size()) != tinyxml2::XML_SUCCESS ||
+      document.RootElement() == nullptr) {
+    refuse_malformed(path, *text, document);
+  }
 }
 
 }  // namespace verp::model

@@ -17,4 +17,8 @@ Malformed find_malformed(const std::string& text);
 [[noreturn]] void refuse_malformed(const std::string& path, const std::string& text,
                                    const tinyxml2::XMLDocument& document);
 
+/// Fills `document`. Throws LoadError for a file that cannot be read, is longer than
+/// files::kMostBytes or is malformed.
+void load_xml(const std::string& path, tinyxml2::XMLDocument& document);
+
 }  // namespace verp::model

@@ -229,6 +229,11 @@ TEST_F(MjcfFile, OfSeveralBodiesTheOneWithMostJointsIsTheRobot) {
   EXPECT_TRUE(lost(made.left_out, "ball"));
 }
 
+TEST_F(MjcfFile, IncludeWithoutAnEndIsRefused) {
+  EXPECT_TRUE(
+      refusal("<mujoco><include file=\"/dev/zero\"/></mujoco>").ends_with("cannot be read"));
+}
+
 TEST_F(MjcfFile, IncludesAreReadInTheirPlace) {
   write("<mujoco>" + leg("left", 0.04) + "</mujoco>", "left.xml");
   std::string text = robot();
