@@ -11,6 +11,7 @@
 #include "host/robot/model/find.hpp"
 #include "host/robot/model/load.hpp"
 #include "host/robot/model/params.hpp"
+#include "tests/host/import/refusal.hpp"
 
 #ifdef VERP_HAS_MUJOCO
 #include <mujoco/mujoco.h>
@@ -86,14 +87,8 @@ class MjcfFile : public ::testing::Test {
     return made.entity ? *made.entity : model::Entity();
   }
 
-  /// The message of the refusal, with the line.
   std::string refusal(const std::string& text) {
-    try {
-      read(text);
-    } catch (const model::LoadError& error) {
-      return fmt::format("{}: {}", error.line, error.message);
-    }
-    return "";
+    return import::refusal_of([&] { read(text); });
   }
 
   static const mjcf::Joint& joint(const mjcf::Robot& robot, const std::string& name) {

@@ -13,6 +13,7 @@
 #include "host/os/files/temporary_directory.hpp"
 #include "host/robot/model/find.hpp"
 #include "host/robot/model/load.hpp"
+#include "tests/host/import/refusal.hpp"
 
 namespace verp::plain_sdf {
 namespace {
@@ -107,14 +108,8 @@ class SdfFile : public ::testing::Test {
     return model::load_robot((folder_.path() / "ours" / "robot.sdf").string());
   }
 
-  /// The line and message of the refusal.
   std::string refusal(const std::string& text) {
-    try {
-      read(text);
-    } catch (const model::LoadError& error) {
-      return fmt::format("{}: {}", error.line, error.message);
-    }
-    return "";
+    return import::refusal_of([&] { read(text); });
   }
 
   static Transform place(const mjcf::Robot& robot, int body) {

@@ -9,6 +9,7 @@
 #include "host/author/xacro/xacro.hpp"
 #include "host/os/files/temporary_directory.hpp"
 #include "host/robot/model/load_error.hpp"
+#include "tests/host/import/refusal.hpp"
 
 namespace verp::xacro {
 namespace {
@@ -85,12 +86,7 @@ class XacroFile : public ::testing::Test {
   }
 
   std::string refusal(const std::string& inside) {
-    try {
-      expanded(inside);
-    } catch (const model::LoadError& error) {
-      return std::to_string(error.line) + ": " + error.message;
-    }
-    return "";
+    return import::refusal_of([&] { expanded(inside); });
   }
 
   files::TemporaryDirectory folder_;
