@@ -123,7 +123,8 @@ TEST_F(Live, AnInterruptedRunSaysGoodbye) {
       begin({"walk", "--real-time", "--for", "600", "--json", "--live", "0"}, "live");
   Viewer viewer(port_of("live"));
   viewer.greet();
-  viewer.subscribe(1, 1);
+  ASSERT_NE(viewer.next_text(R"("channels":[{"id":1,)"), "") << slurp(folder_ / "live.err");
+  viewer.subscribe(1, 1);           // only now: the port is told before the run has channels
   Viewer(port_of("live")).greet();  // leaves at once
   ASSERT_TRUE(live::test::next_data(viewer).has_value());
   walk.tell(SIGINT);
