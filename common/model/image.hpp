@@ -14,7 +14,7 @@ namespace verp {
 /// Raise when the layout of ParamsImage or a member changes.
 inline constexpr std::uint32_t kImageVersion = 6;
 /// Raise when the same Params and Inputs give other Outputs.
-inline constexpr std::uint32_t kCoreVersion = 28;
+inline constexpr std::uint32_t kCoreVersion = 29;
 
 inline constexpr char kImageMagic[8] = {'V', 'E', 'R', 'P', 'P', 'A', 'R', '1'};
 

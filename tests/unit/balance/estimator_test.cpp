@@ -42,6 +42,17 @@ TEST(Estimator, FollowsASwayWithoutLag) {
   }
 }
 
+// The higher the body, the more its believed velocity turns "up", which moves the soles.
+TEST(Estimator, ATallRobotThatWasPushedComesToRest) {
+  Led& led = led_robot();
+  led.grow(4.0F);
+  led.rest();
+  led.ticks(10, Vec3(0.1F, 0.1F, 0));
+  led.ticks(200);
+  EXPECT_LT(math::norm(led.believed_m_s()), 0.01F);
+  EXPECT_LT(distance(led.believed_m(), led.body_m), 0.01F);
+}
+
 // The velocity error is 2 * offset / rate, where `rate` is that at which the legs are believed: 5.6
 // mm/s for 5 mg at 18 per second.
 TEST(Estimator, OffsetOfTheAccelerometerIsNoDrift) {

@@ -44,6 +44,29 @@ struct Led {
     in.on_feet = true;
   }
 
+  /// All lengths, masses kept: before the first tick.
+  void grow(float times) {
+    const auto scale = [&](Xyz& place_m) {
+      place_m = {times * place_m.x, times * place_m.y, times * place_m.z};
+    };
+    for (int j = 0; j < params.joint_count; ++j) {
+      scale(params.joint[j].origin_parent_m);
+      scale(params.joint[j].com_link_m);
+    }
+    scale(params.body_com_m);
+    for (int side = 0; side < kFeet; ++side) {
+      LegParams& leg = params.leg[side];
+      scale(leg.hip_body_m);
+      scale(leg.sole_foot_m);
+      leg.thigh_m *= times;
+      leg.shank_m *= times;
+      sole_m[side] = times * sole_m[side];
+    }
+    body_m = times * body_m;
+    float angle_rad[kMaxJoints] = {};
+    lump = gait::lump_of(params, angle_rad);
+  }
+
   /// False if the legs cannot reach the soles.
   bool place_legs() {
     bool reached = true;
