@@ -10,6 +10,7 @@
 #include "common/model/image.hpp"
 #include "host/robot/model/bus_time.hpp"
 #include "host/robot/model/couplings.hpp"
+#include "host/robot/model/fit_gains.hpp"
 #include "host/robot/model/leg.hpp"
 #include "host/robot/model/params.hpp"
 #include "host/robot/model/servo_types.hpp"
@@ -148,7 +149,8 @@ std::string servo_type_rows(const Entity& entity) {
     text += fmt::format(
         "  p_gain {} makes {:.1f} N m/rad; this mass and leg want about {:.1f}, p_gain {} "
         "(host/guide/your-robot.md)\n",
-        servo->p_gain, servo_stiffness_n_m_rad(*servo), fitting_stiffness_n_m_rad(entity), fitting);
+        servo->p_gain, servo_stiffness_n_m_rad(*servo), fitting_stiffness_n_m_rad(entity, *servo),
+        fitting);
   }
   return text;
 }

@@ -268,6 +268,8 @@ struct Entity {
   std::vector<std::string> notes;  ///< declarations about third-party data, one line each
 };
 
+inline constexpr double kGravity_m_s2 = 9.80665;  ///< standard (CGPM 1901)
+
 inline double total_mass(const Entity& entity) {
   double sum = 0;
   for (const Node& node : entity.nodes) sum += node.mass_kg;

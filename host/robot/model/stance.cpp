@@ -16,8 +16,6 @@
 namespace verp::model {
 namespace {
 
-constexpr double kGravity_m_s2 = 9.80665;
-
 // Tuning's defaults are for generic21: leg 186 mm, hip at 0.81 of it, feet 1.4 mm inside the hips.
 // Lengths scale with the leg, times with its square root, like a pendulum's.
 constexpr double kItsLeg_m = 0.186;
@@ -29,10 +27,6 @@ constexpr double kFeetInside = 0.0014 / kItsLeg_m;
 constexpr double kRockingCycle_s = 0.335;
 // Gap between inner edges of passing soles.
 constexpr double kSolesApart_m = 0.005;
-// Stiffness over weight times leg, 1/rad. Tuned: generic21 9.0, op3 12.5, darwin_op 7.4.
-constexpr double kStiffness = 9.03;
-// Above it a servo buzzes; the table ends at 16383.
-constexpr double kMostGain = 8000;
 // The walk's range (tuning_ranges.hpp): hip 5 cm to 1 m above the ankle.
 constexpr double kLeastLeg_m = 0.06, kMostLeg_m = 1.2;
 constexpr double kMostTilt_rad = 0.2, kMostUneven_m = 0.02;
@@ -297,11 +291,16 @@ class Settler {
     return false;
   }
 
-  /// To the usual one, where the legs reach a level stand.
+  /// To the usual one, where the legs reach a level stand, and if possible bend on to lift a foot:
+  /// by the gait's lift, else by half of it, else not at all.
   std::optional<double> nearest_height() {
-    for (int step = 1; step <= 30; ++step) {
-      for (const double share : {kHipShare + 0.01 * step, kHipShare - 0.01 * step}) {
-        if (share < kMostHipShare && stands_at(share * leg_m_)) return share * leg_m_;
+    for (const double bend_m : {tuned("gait.lift_m"), tuned("gait.lift_m") / 2, 0.0}) {
+      for (int step = 1; step <= 30; ++step) {
+        for (const double share : {kHipShare + 0.01 * step, kHipShare - 0.01 * step}) {
+          const double height_m = share * leg_m_;
+          if (share < kMostHipShare && stands_at(height_m - bend_m) && stands_at(height_m))
+            return height_m;
+        }
       }
     }
     return std::nullopt;
@@ -418,24 +417,6 @@ Stand stand_of(const Entity& entity, const Limb& leg) {
   const double arm_m = std::abs(knee.x() - (ankle.x() + g.hip_m.x()) / 2);
   stand.knee_n_m = total_mass(entity) * kGravity_m_s2 * arm_m;
   return stand;
-}
-
-double fitting_stiffness_n_m_rad(const Entity& entity) {
-  const Limb* const leg = find_limb(entity, "left_leg");
-  if (!leg) return 0;
-  return kStiffness * total_mass(entity) * kGravity_m_s2 * leg_length(entity, *leg);
-}
-
-std::uint16_t fitting_p_gain(const Entity& entity, const Servo& servo) {
-  const double wanted = fitting_stiffness_n_m_rad(entity);
-  if (!(wanted > 0)) return 0;
-  Servo unit = servo;
-  unit.p_gain = 1;
-  const bool fine = servo.most_gain > kMostGain;
-  const double least = fine ? 50 : 1;
-  const double most = fine ? kMostGain : servo.most_gain;
-  return static_cast<std::uint16_t>(
-      std::clamp(std::round(wanted / servo_stiffness_n_m_rad(unit)), least, most));
 }
 
 }  // namespace verp::model

@@ -13,12 +13,6 @@ void settle_stance(const Facts& facts, Entity& entity);
 /// True if the legs reach the gait's stand; settle_stance() rejects other files.
 bool can_stand(const Params& params);
 
-/// N m/rad, to sag as little as robots that walk well; 0: no legs. For `verp check`, and servos
-/// without p_gain.
-double fitting_stiffness_n_m_rad(const Entity& entity);
-/// P gain of this servo for that stiffness, within its range; 0: no legs.
-std::uint16_t fitting_p_gain(const Entity& entity, const Servo& servo);
-
 /// Hip above ankle, and knee torque (N m) on one leg.
 struct Stand {
   double hip_height_m = 0;

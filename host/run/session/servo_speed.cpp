@@ -8,7 +8,6 @@ namespace verp::session {
 namespace {
 
 constexpr double kUsualStep_m = 0.04;
-constexpr double kGravity_m_s2 = 9.80665;
 // A slow walk, as a share of the square root of gravity times leg: 5 cm/s for legs of 16 cm.
 constexpr double kSlowWalk = 0.04;
 // Lower lifts than 0.6 of the usual one drag the feet: Open Duck Mini falls at 0.4 of it.
@@ -26,7 +25,7 @@ double m_s(const Command& command) {
 
 double slow_walk_m_s(const Params& params) {
   const auto leg_m = static_cast<double>(params.leg[0].thigh_m + params.leg[0].shank_m);
-  return kSlowWalk * std::sqrt(kGravity_m_s2 * leg_m);
+  return kSlowWalk * std::sqrt(model::kGravity_m_s2 * leg_m);
 }
 
 double most_m_s(const Params& params, double walk_m_s) {

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 #include "host/robot/model/check.hpp"
+#include "host/robot/model/params.hpp"
 #include "host/robot/model/supply.hpp"
 #include "tests/host/model/bad_input.hpp"
 
@@ -11,6 +13,7 @@ namespace verp::model {
 namespace {
 
 const std::string kBus = "<verp:bus name=\"dxl\"";
+const std::string kGain = " p_gain=\"3112\"";
 const std::string kOldType = "type=\"xm430_w210\"";
 
 std::string with(const std::string& elements) {
@@ -22,11 +25,15 @@ Entity loaded(const std::string& text) {
   return load_robot(file.path());
 }
 
-/// generic21 with servos of that type.
-Entity driven_by(const std::string& attributes, const std::string& elements = "") {
+/// generic21 with servos of that type. An empty `gain` leaves the choice of gains to the loader.
+Entity driven_by(const std::string& attributes, const std::string& elements = "",
+                 const std::string& gain = kGain) {
   std::string text = with("<verp:servo_type name=\"mine\" " + attributes + "/>" + elements);
   for (auto from = text.find(kOldType); from != std::string::npos; from = text.find(kOldType))
     text.replace(from, kOldType.size(), "type=\"mine\"");
+  for (auto from = text.find(kGain); gain != kGain && from != std::string::npos;
+       from = text.find(kGain))
+    text.replace(from, kGain.size(), gain);
   return loaded(text);
 }
 
@@ -65,6 +72,36 @@ TEST(Motors, ATypeLikeAnotherScalesWhatItsOwnMotorChanges) {
   EXPECT_EQ(same.gearbox.armature_kg_m2, like.gearbox.armature_kg_m2);
   EXPECT_EQ(same.source, like.source);
   EXPECT_EQ(same.estimated, "");
+}
+
+std::optional<double> look_ahead_s(const Entity& robot) {
+  for (const auto& [name, value] : robot.tuning) {
+    if (name == "gait.look_ahead_s") return value;
+  }
+  return std::nullopt;
+}
+
+/// Gears without friction: only the motor damps.
+TEST(Motors, GainsLeaveARobotDampedAndTheGaitLooksAheadByTheirLag) {
+  const Entity robot = driven_by(
+      "like=\"xm430_w210\" stall_torque_n_m=\"3\" no_load_rev_min=\"119\" source=\"a test\" "
+      "f_base_n_m=\"0\" "
+      "f_strib_n_m=\"0\" "
+      "l_base=\"0\" l_strib=\"0\" f_visc_n_m_s=\"0\"",
+      "", "");
+  const Servo& servo = robot.joints.back().servo;
+  const double damping = servo.stall_torque_n_m / servo.no_load_speed_rad_s;
+  const double stiffness = servo_stiffness_n_m_rad(servo), leg_m = 0.186;
+  const double inertia = total_mass(robot) * leg_m * leg_m;
+  EXPECT_NEAR(damping / (2 * std::sqrt(stiffness * inertia)), 0.095, 0.001);
+  EXPECT_GT(stiffness, total_mass(robot) * kGravity_m_s2 * leg_m) << "it stands";
+  EXPECT_NEAR(look_ahead_s(robot).value_or(0), damping / stiffness + 0.005, 1e-4);
+}
+
+TEST(Motors, FrictionOfHobbyGearsDampsEnoughForTheUsualGains) {
+  const Entity robot = driven_by("like=\"xm430_w210\"", "", "");
+  EXPECT_NEAR(servo_stiffness_n_m_rad(robot.joints.back().servo), 53.7, 0.1);
+  EXPECT_EQ(look_ahead_s(robot), std::nullopt);
 }
 
 TEST(Motors, NumbersThatNoMotorHasAreRefused) {
