@@ -1,5 +1,6 @@
 #include "host/robot/model/visuals.hpp"
 
+#include <sdf/Collision.hh>
 #include <sdf/Material.hh>
 #include <sdf/Mesh.hh>
 #include <sdf/Pbr.hh>
@@ -40,6 +41,19 @@ void read_material(const sdf::Material& material, const PictureFiles& files, Vis
   }
 }
 
+void add_meshes_to_touch(const sdf::Link& link, const PictureFiles& files,
+                         std::vector<Visual>& visuals) {
+  for (std::uint64_t i = 0; i < link.CollisionCount(); ++i) {
+    const sdf::Collision& sdf = *link.CollisionByIndex(i);
+    if (sdf.Geom() == nullptr || sdf.Geom()->MeshShape() == nullptr) continue;
+    Visual visual;
+    visual.name = sdf.Name();
+    if (!read_geometry(*sdf.Geom(), files, visual)) continue;
+    visual.pose = resolved(sdf.SemanticPose(), link.Name());
+    visuals.push_back(std::move(visual));
+  }
+}
+
 }  // namespace
 
 std::vector<Visual> read_visuals(const sdf::Link& link, const PictureFiles& files) {
@@ -53,6 +67,7 @@ std::vector<Visual> read_visuals(const sdf::Link& link, const PictureFiles& file
     visual.pose = resolved(sdf.SemanticPose(), link.Name());
     visuals.push_back(std::move(visual));
   }
+  if (link.VisualCount() == 0) add_meshes_to_touch(link, files, visuals);
   return visuals;
 }
 
