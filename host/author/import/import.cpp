@@ -13,7 +13,7 @@
 #include "common/model/params.hpp"
 #include "host/author/import/masses.hpp"
 #include "host/author/import/servos.hpp"
-#include "host/author/import/speed.hpp"
+#include "host/author/import/swing.hpp"
 #include "host/os/files/whole.hpp"
 #include "host/robot/model/find.hpp"
 #include "host/robot/model/load.hpp"
@@ -29,9 +29,9 @@ using Sureness = Finding::Sureness;
 constexpr std::size_t kLegJointCount = 6;
 constexpr double kCount_rad = 0.002;     // limits are whole counts of a servo
 constexpr double kMostServo_rad = 3.14;  // a single turn, with room for the encoder's last counts
-constexpr double kGravity_m_s2 = 9.80665;
 // The knee's arm on one leg with the hip at 0.81 of the leg, over the leg's length (stance.cpp).
 constexpr double kKneeArm = 0.295;
+constexpr double kLevel_rad = 0.001;
 // Share of the sole's length: its middle ahead of the ankle shows the direction.
 constexpr double kLeastReach = 0.05;
 
@@ -210,7 +210,8 @@ class Importer {
   }
 
   void choose_types() {
-    const double needed_n_m = kTorqueReserve * kKneeArm * s_.mass_kg() * kGravity_m_s2 * leg_m();
+    const double needed_n_m =
+        kTorqueReserve * kKneeArm * s_.mass_kg() * model::kGravity_m_s2 * leg_m();
     std::vector<ServoJoint> joints;
     for (const ServoRow& row : w_.servos)
       joints.push_back({bone(row.bone).name, bone(row.bone).drive, bone(row.bone).limit});
@@ -257,10 +258,10 @@ class Importer {
         std::any_of(s_.bones.begin(), s_.bones.end(), [](const Bone& each) {
           return each.drive && each.drive->no_load_rad_s <= 0 && each.drive->damping_n_m_s > 0;
         });
-    SpeedChoice choice = choose_lift(model::make_params(robot), of_damping);
+    SwingChoice choice = choose_swing(model::make_params(robot), of_damping);
     for (Finding& each : choice.findings) out_.findings.push_back(std::move(each));
-    w_.lift_m = choice.lift_m;
-    if (!w_.lift_m) return;
+    w_.tuning = std::move(choice.tuning);
+    if (w_.tuning.empty()) return;
     out_.sdf = text_of(w_, s_, body_);
     load();
   }
@@ -316,14 +317,22 @@ class Importer {
     w_.trunk_box = Eigen::AlignedBox3d(centre - half, centre + half);
   }
 
+  static std::string how_found(const Sole& sole) {
+    if (!sole.measured) return ", from the leg's length: the foot has no shape here";
+    const double tilt_rad = std::acos(std::min(1.0, sole.pose.linear()(2, 2)));
+    if (tilt_rad < kLevel_rad) return "";
+    return fmt::format(", tilted by {:.1f} degrees where all joints are at zero",
+                       tilt_rad * 180 / std::numbers::pi);
+  }
+
   /// Feet reach further ahead of the ankle than behind it.
   void look_at_soles() {
     double ahead = 0;
     for (std::size_t side = 0; side < 2; ++side) {
       if (!w_.soles[side].measured) return;
       const Vec3 ankle = w_.body.inverse() * link(body_.legs[side].tip).pose.translation();
-      const Eigen::AlignedBox3d& box = w_.soles[side].box;
-      ahead += (box.center().x() - ankle.x()) / box.sizes().x();
+      const Sole& sole = w_.soles[side];
+      ahead += (sole.pose.translation().x() - ankle.x()) / sole.length_m;
     }
     if (std::abs(ahead) < 2 * kLeastReach) return;
     body_.sure_of_forward = true;
@@ -373,12 +382,10 @@ class Importer {
     }
     for (std::size_t side = 0; side < w_.soles.size(); ++side) {
       const Sole& sole = w_.soles[side];
-      const Vec3 size = sole.box.sizes();
       found(sole.measured ? Sureness::kMeasured : Sureness::kGuessed,
             side == 0 ? "left sole" : "right sole",
-            fmt::format("{:.0f} by {:.0f} mm under {}{}", 1000 * size.x(), 1000 * size.y(),
-                        link(body_.legs[side].tip).name,
-                        sole.measured ? "" : ", from the leg's length: the foot has no shape here"),
+            fmt::format("{:.0f} by {:.0f} mm under {}{}", 1000 * sole.length_m, 1000 * sole.width_m,
+                        link(body_.legs[side].tip).name, how_found(sole)),
             sole.measured ? "" : "measure it, and write it into <verp:box>");
     }
     if (!w_.below_soles.empty())

@@ -10,6 +10,7 @@ namespace verp::import {
 namespace {
 
 constexpr std::size_t kLeastJoints = 4;  // of a leg
+constexpr double kOneHeight_m = 0.01;
 constexpr double kLeastApart_m = 0.005;  // of two feet
 constexpr std::ptrdiff_t kLeastArm = 2;  // joints
 
@@ -47,15 +48,26 @@ class Finder {
 
   bool could_be_foot(int tip) const { return s_.turning_to(tip).size() >= kLeastJoints; }
 
+  /// Of links at one height, one that has mass: rods that are only drawn follow some legs.
   int lowest() const {
     int foot = -1;
     for (const int tip : tips_) {
       if (!could_be_foot(tip)) continue;
-      if (foot < 0 || height(tip) < height(foot)) foot = tip;
+      const bool beside = foot >= 0 && std::abs(height(tip) - height(foot)) < kOneHeight_m;
+      const bool is_better = beside && has_mass(tip) != has_mass(foot)
+                                 ? has_mass(tip)
+                                 : foot < 0 || height(tip) < height(foot);
+      if (is_better) foot = tip;
     }
     if (foot >= 0) return foot;
     at_.fail("no leg is found: no chain of four or more turning joints",
              "legs need four joints or more; VERP walks on two legs of four to six");
+  }
+
+  bool has_mass(int tip) const {
+    const std::vector<int> below = s_.hanging_on(tip);
+    return std::any_of(below.begin(), below.end(),
+                       [&](int each) { return link(each).mass_kg > 0; });
   }
 
   double height(int tip) const { return link(tip).pose.translation().z(); }

@@ -25,7 +25,7 @@ constexpr double kMostStall_a = 60;
 constexpr double kStallOverPeak = 2;
 // A limit is no placeholder if it suits the robot's need and a motor's speed.
 constexpr double kMostTimesNeed = 10;
-constexpr double kLeastSpeed_rad_s = 0.5, kMostSpeed_rad_s = 40;
+constexpr double kLeastSpeed_rad_s = 0.5, kMostSpeed_rad_s = 45;
 
 bool is_motor(const Drive& limit, double needed_n_m) {
   return limit.stall_torque_n_m > 0 && limit.stall_torque_n_m <= kMostTimesNeed * needed_n_m &&

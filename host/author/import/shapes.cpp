@@ -1,5 +1,6 @@
 #include "host/author/import/shapes.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -75,6 +76,71 @@ std::vector<Vec3> contacts_of(const model::Entity& entity, int node) {
   return points;
 }
 
+using Turn = Eigen::Matrix3d;  ///< of a sole: its third column is up
+
+Turn turned(double pitch_rad, double roll_rad) {
+  return (Eigen::AngleAxisd(pitch_rad, Vec3::UnitY()) * Eigen::AngleAxisd(roll_rad, Vec3::UnitX()))
+      .toRotationMatrix();
+}
+
+/// Those within `within_m` of a floor so turned that touches them from below.
+std::vector<Vec3> lowest_of(const std::vector<Vec3>& points, const Turn& turn, double within_m) {
+  double lowest = INFINITY;
+  for (const Vec3& point : points) lowest = std::min(lowest, turn.col(2).dot(point));
+  std::vector<Vec3> low;
+  for (const Vec3& point : points) {
+    if (turn.col(2).dot(point) < lowest + within_m) low.push_back(point);
+  }
+  return low;
+}
+
+Sole sole_on(const std::vector<Vec3>& points, const Turn& turn, double within_m) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& point : lowest_of(points, turn, within_m)) box.extend(turn.transpose() * point);
+  if (box.isEmpty()) return {};
+  Sole sole{.length_m = box.sizes().x(), .width_m = box.sizes().y()};
+  sole.pose.linear() = turn;
+  sole.pose.translation() = turn * Vec3(box.center().x(), box.center().y(), box.min().z());
+  return sole;
+}
+
+bool is_sole(const Sole& sole, double leg_m, double narrowest) {
+  return sole.length_m > 0.15 * leg_m && sole.width_m > narrowest * leg_m;
+}
+
+/// Along the plane through these points.
+Turn along_plane(const std::vector<Vec3>& points) {
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& point : points) middle += point / static_cast<double>(points.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Vec3& point : points) spread += (point - middle) * (point - middle).transpose();
+  Vec3 up = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+  if (up.z() < 0) up = -up;
+  return turned(std::atan2(up.x(), up.z()), -std::asin(std::clamp(up.y(), -1.0, 1.0)));
+}
+
+/// The pitch and then the roll, in steps of a degree, that make the largest sole; then the plane of
+/// its points.
+Sole tilted_sole(const std::vector<Vec3>& points) {
+  constexpr double kDegree_rad = std::numbers::pi / 180, kWithin_m = 0.004;
+  constexpr int kMostPitch = 30, kMostRoll = 20;
+  Sole best = sole_on(points, Turn::Identity(), kWithin_m);
+  const auto area = [](const Sole& sole) { return sole.length_m * sole.width_m; };
+  const auto look = [&](const Turn& turn) {
+    const Sole sole = sole_on(points, turn, kWithin_m);
+    if (area(sole) > area(best)) best = sole;
+  };
+  for (int degree = -kMostPitch; degree <= kMostPitch; ++degree)
+    look(turned(degree * kDegree_rad, 0));
+  const Vec3 ahead = best.pose.linear().col(0);
+  for (int degree = -kMostRoll; degree <= kMostRoll; ++degree)
+    look(turned(std::asin(-ahead.z()), degree * kDegree_rad));
+  const std::vector<Vec3> low = lowest_of(points, best.pose.linear(), kWithin_m);
+  if (low.size() < 3) return best;
+  const Sole level = sole_on(points, along_plane(low), kWithin_m);
+  return area(level) > 0.9 * area(best) ? level : best;
+}
+
 }  // namespace
 
 std::vector<Vec3> points_of(const model::Entity& entity, int node) {
@@ -88,31 +154,30 @@ std::vector<Vec3> points_of(const model::Entity& entity, int node) {
 
 Sole sole_of(const model::Entity& entity, int foot, double leg_m) {
   const std::vector<Vec3> points = points_of(entity, foot);
-  Sole sole;
-  double lowest = INFINITY;
-  for (const Vec3& point : points) lowest = std::min(lowest, point.z());
-  for (const double within_m : {0.004, 0.008, 0.016}) {
-    for (const Vec3& point : points) {
-      if (point.z() < lowest + within_m) sole.box.extend(Vec3(point.x(), point.y(), lowest));
+  for (const double narrowest : {0.08, 0.03}) {
+    for (const double within_m : {0.004, 0.008, 0.016}) {
+      const Sole sole = sole_on(points, Turn::Identity(), within_m);
+      if (is_sole(sole, leg_m, narrowest)) return sole;
     }
-    const Vec3 size = sole.box.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(sole.box.sizes());
-    if (size.x() > 0.15 * leg_m && size.y() > 0.08 * leg_m) return sole;
+    const Sole tilted = tilted_sole(points);
+    if (is_sole(tilted, leg_m, narrowest)) return tilted;
   }
-  sole.measured = false;
+  Sole guess;
+  guess.measured = false;
+  guess.length_m = 0.54 * leg_m;
+  guess.width_m = 0.34 * leg_m;
   const Vec3 ankle = model::node_origins(entity)[static_cast<std::size_t>(foot)];
-  const Vec3 middle(ankle.x() + 0.06 * leg_m, ankle.y(),
-                    points.empty() ? ankle.z() - 0.17 * leg_m : lowest);
-  sole.box.setEmpty();
-  for (const double sign : {-1.0, 1.0})
-    sole.box.extend(middle + sign * Vec3(0.27 * leg_m, 0.17 * leg_m, 0));
-  return sole;
+  double lowest = points.empty() ? ankle.z() - 0.17 * leg_m : INFINITY;
+  for (const Vec3& point : points) lowest = std::min(lowest, point.z());
+  guess.pose.translation() = Vec3(ankle.x() + 0.06 * leg_m, ankle.y(), lowest);
+  return guess;
 }
 
 std::vector<std::string> reach_below(const model::Entity& entity, const std::vector<int>& feet,
                                      const std::vector<Sole>& soles) {
   constexpr double kLeast_m = 0.001;
   double floor_m = INFINITY;
-  for (const Sole& sole : soles) floor_m = std::min(floor_m, sole.box.min().z());
+  for (const Sole& sole : soles) floor_m = std::min(floor_m, sole.pose.translation().z());
   std::vector<std::string> found;
   for (int node = 0; node < static_cast<int>(entity.nodes.size()); ++node) {
     if (std::find(feet.begin(), feet.end(), node) != feet.end()) continue;

@@ -43,9 +43,8 @@ class Writer {
     left_out();
     bus();
     poses();
-    if (w_.lift_m) {
-      line(2, fmt::format("<verp:tuning name=\"gait.lift_m\" value=\"{:.4g}\"/>", *w_.lift_m));
-    }
+    for (const auto& [name, value] : w_.tuning)
+      line(2, fmt::format("<verp:tuning name=\"{}\" value=\"{:.4g}\"/>", name, value));
     line(1, "</model>");
     line(0, "</sdf>");
     return std::move(out_);
@@ -79,11 +78,11 @@ class Writer {
     line(2, fmt::format("<verp:body link=\"{}\">{}</verp:body>", markup_text(link(b_.trunk).name),
                         pose_text(pose)));
     for (std::size_t side = 0; side < w_.soles.size(); ++side) {
-      const Vec3 centre = w_.soles[side].box.center(), size = w_.soles[side].box.sizes();
+      const Sole& sole = w_.soles[side];
       const char* const name = side == 0 ? "verp_l_sole" : "verp_r_sole";
-      const double thick_m = std::max(0.002, size.x() / 16);
-      frame(name, b_.legs[side].tip, at(centre));
-      box(name, {0, 0, thick_m / 2}, {size.x(), size.y(), thick_m});
+      const double thick_m = std::max(0.002, sole.length_m / 16);
+      frame(name, b_.legs[side].tip, sole.pose);
+      box(name, {0, 0, thick_m / 2}, {sole.length_m, sole.width_m, thick_m});
     }
     if (!w_.trunk_box) return;
     frame("verp_trunk", b_.trunk, at(w_.trunk_box->center()));

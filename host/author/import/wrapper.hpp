@@ -36,7 +36,7 @@ struct Wrapper {
   std::vector<std::string> below_soles;    ///< links whose contacts are dropped
   std::optional<Eigen::AlignedBox3d> trunk_box;       ///< body's frame
   std::vector<std::pair<std::string, double>> stand;  ///< joints that cannot stand at zero
-  std::optional<double> lift_m;                       ///< of the gait
+  std::vector<std::pair<std::string, double>> tuning;
 };
 
 /// The link of an IMU that the trunk carries; -1 if the file names no such link.

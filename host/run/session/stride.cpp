@@ -29,8 +29,11 @@ class Plan {
 
   void run(bool walk, double duration_s) {
     in_.walk = walk;
+    kept_ = 1;
     for (double t_s = 0; t_s < duration_s; t_s += period_s()) tick();
   }
+
+  double kept() const { return (state_.footsteps.notes & gait::kPlanRefused) != 0 ? 0 : kept_; }
 
   Fastest measure(double duration_s) {
     fastest_ = {};
@@ -43,6 +46,7 @@ class Plan {
 
   void tick() {
     const gait::GaitOut out = gait::update(params_, params_.tuning, state_, in_);
+    kept_ = std::min(kept_, static_cast<double>(state_.footsteps.scale));
     for (int side = 0; side < kFeet; ++side) {
       const LegParams& leg = params_.leg[side];
       float* const last_rad = leg_rad_ + side * kLegJoints;
@@ -67,6 +71,7 @@ class Plan {
   float goal_rad_[kMaxJoints] = {};
   float leg_rad_[kFeet * kLegJoints] = {};
   Fastest fastest_;
+  double kept_ = 1;
 };
 
 Command scaled(const Command& velocity, double share) {
@@ -87,6 +92,14 @@ Fastest fastest_joint(const Params& params, const Command& velocity) {
   Plan plan(params, velocity);
   plan.run(false, kStand_s);
   return plan.measure(kWalk_s);
+}
+
+double kept_stride(const Params& params, const Command& velocity) {
+  if (params.leg[0].solver == LegSolver::kNone) return 0;
+  Plan plan(params, velocity);
+  plan.run(false, kStand_s);
+  plan.run(true, kWalk_s);
+  return plan.kept();
 }
 
 Command longest_order(const Params& params) {

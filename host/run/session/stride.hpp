@@ -20,6 +20,10 @@ Fastest fastest_joint(const Params& params, const Command& velocity);
 /// cycles of 0.30 to 0.45 s, seed 1: walks were good up to 1.28, and all fell from 1.34 on.
 inline constexpr double kMostSpeedShare = 1.25;
 
+/// The share of its strides that a steady walk keeps: below 1 the planner shortens them, because
+/// legs or ZMP would leave their reach. 0: it stops walking.
+double kept_stride(const Params& params, const Command& velocity);
+
 /// An order for the longest steps that the tuning admits, straight ahead.
 Command longest_order(const Params& params);
 

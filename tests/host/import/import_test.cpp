@@ -17,6 +17,7 @@
 #include "host/robot/model/load.hpp"
 #include "host/robot/model/params.hpp"
 #include "host/run/session/session.hpp"
+#include "host/run/session/stride.hpp"
 #include "tests/host/import/made_robot.hpp"
 
 namespace verp::import {
@@ -139,6 +140,31 @@ TEST_F(ImportedFile, SolesAreTheLowestFacesOfTheFeet) {
   }
 }
 
+TEST_F(ImportedFile, SolesThatAreNotLevelInTheFileAreStoodOnLevel) {
+  for (const double pitch_rad : {0.25, -0.35}) {
+    const Imported robot = import({.sole_pitch_rad = pitch_rad});
+    EXPECT_EQ(finding(robot, "left sole").value,
+              fmt::format("100 by 60 mm under p4_5, tilted by {} degrees where all joints are at "
+                          "zero",
+                          pitch_rad > 0 ? "14.3" : "20.1"));
+    const model::Entity entity = loaded(robot);
+    const model::Limb& leg = *model::find_limb(entity, "left_leg");
+    EXPECT_NEAR(std::asin(leg.tip.linear()(0, 2)), pitch_rad, 0.003);
+  }
+}
+
+TEST_F(ImportedFile, NarrowSolesAreSolesAndNoWiderOnesAreInvented) {
+  const Imported robot = import({.sole_width_m = 0.01});
+  EXPECT_EQ(finding(robot, "left sole").value, "100 by 10 mm under p4_5");
+  EXPECT_EQ(finding(robot, "left sole").sureness, Finding::Sureness::kMeasured);
+}
+
+TEST_F(ImportedFile, RodsThatAreOnlyDrawnAreNoLegs) {
+  const Imported robot = import({.has_rods = true});
+  EXPECT_EQ(finding(robot, "left_leg").value, "jp4_0, jp4_1, jp4_2, jp4_3, jp4_4, jp4_5");
+  expect_a_biped(loaded(robot));
+}
+
 TEST_F(ImportedFile, RobotStandsOnItsSolesAndOnNothingBelowThem) {
   const Imported robot = import({.has_low_shanks = true});
   EXPECT_TRUE(was_changed(robot, "collisions of p4_3, p5_3, which reach below the soles"));
@@ -164,13 +190,14 @@ TEST_F(ImportedFile, JointsWithoutStopsGetAServosTurn) {
     EXPECT_NEAR(joint.upper_rad - joint.lower_rad, 6.28, 0.01) << joint.name;
 }
 
-TEST_F(ImportedFile, StandsAsLowAsItsKneesAllow) {
+TEST_F(ImportedFile, StandsSoLowThatItsKneesCanStillLiftTheFeet) {
   const model::Entity robot = loaded(import({.knee_upper_rad = 0.9}));
   for (const model::Joint& joint : robot.joints) EXPECT_LE(joint.stand_rad, joint.upper_rad);
   EXPECT_TRUE(std::any_of(robot.defaults.begin(), robot.defaults.end(), [](const auto& each) {
     return each.find("the nearest within the legs' limits") != std::string::npos;
   }));
-  EXPECT_NEAR(model::make_params(robot).tuning.gait.hip_height_m, 0.186 * std::cos(0.45), 0.002);
+  const GaitTuning gait = model::make_params(robot).tuning.gait;
+  EXPECT_NEAR(gait.hip_height_m - gait.lift_m, 0.186 * std::cos(0.45), 0.002);
 }
 
 TEST_F(ImportedFile, EmptyReferenceOfGazeboDoesNoHarm) {
@@ -189,8 +216,12 @@ TEST_F(ImportedFile, MeshesOfNoPackageLieBesideTheFile) {
   std::ofstream(folder_.path() / "foot.stl")
       << "solid foot\nfacet normal 0 0 -1\nouter loop\nvertex -0.04 -0.03 -0.01\n"
          "vertex 0.06 -0.03 -0.01\nvertex 0.06 0.03 -0.01\nendloop\nendfacet\nendsolid foot\n";
-  const Imported robot = import({.feet_are_meshes = true, .meshes = "package://"});
-  EXPECT_EQ(finding(robot, "left sole").value, "100 by 60 mm under p4_5");
+  for (const bool drawn : {true, false}) {
+    const Imported robot =
+        import({.feet_are_meshes = true, .feet_are_drawn = drawn, .meshes = "package://"});
+    EXPECT_EQ(finding(robot, "left sole").value, "100 by 60 mm under p4_5")
+        << "a mesh that only touches is measured too";
+  }
 }
 
 TEST_F(ImportedFile, LegsWithoutHipYawOrAnkleRollAreTakenAndSaid) {
@@ -316,6 +347,19 @@ TEST_F(ImportedFile, RobotOfThirtyKilogramsWalks) {
   session::Options options;
   options.world.step_us = 2000;
   EXPECT_EQ(session::walk(plan, {}, options).failure, "");
+}
+
+TEST_F(ImportedFile, WhereHeavyLegsWouldStopTheWalkTheirFeetSwingCalmly) {
+  const Imported robot =
+      import({.sole_width_m = 0.03, .leg_kg = 0.3, .foot_kg = 0.4, .larger = 3.4, .heavier = 8});
+  EXPECT_EQ(finding(robot, "swing").sureness, Finding::Sureness::kGuessed);
+  Params params = model::make_params(loaded(robot));
+  Command walk;
+  walk.vx_tenth_mm_s = 1500;
+  EXPECT_GT(session::kept_stride(params, walk), 0.95);
+  params.tuning.gait.lift_m = 3.4F * GaitTuning{}.lift_m;
+  params.tuning.gait.touchdown_m = 3.4F * GaitTuning{}.touchdown_m;
+  EXPECT_LT(session::kept_stride(params, walk), 0.95) << "as it would be";
 }
 
 /// The twin's lidars scan in one plane, and its force-torque sensors are in joints that move.

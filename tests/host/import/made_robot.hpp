@@ -14,9 +14,13 @@ struct Habits {
   int leg_joints = 6;  ///< 5: without ankle roll; 7: with toes
   bool has_hip_yaw = true;
   double knee_lower_rad = 0, knee_upper_rad = 2.4;
-  double sole_ahead_m = 0.01;    ///< middle of the sole, from the ankle
-  double moments_times = 1;      ///< a unit beside kg m2
+  double sole_ahead_m = 0.01;  ///< middle of the sole, from the ankle
+  double moments_times = 1;    ///< a unit beside kg m2
+  double sole_pitch_rad = 0;   ///< where all joints are at zero
+  double sole_width_m = 0.06;
   bool feet_are_meshes = false;  ///< which nobody has
+  bool feet_are_drawn = true;
+  bool has_rods = false;  ///< beside each leg, drawn only, down to the height of its foot
   std::string meshes = "package://nowhere";
   bool has_wide_ankles = false;  ///< a block on each sole, wider than that
   bool has_low_shanks = false;   ///< a block on each, lower than the sole
@@ -26,6 +30,7 @@ struct Habits {
   bool has_ears = false;   ///< on a head that turns and nods
   std::string in_names = "";
   std::string more = "";  ///< elements of the robot
+  double leg_kg = 0.1;    ///< of each link but the foot
   double foot_kg = 0.1;   ///< below 0: without <inertial>
   double larger = 1, heavier = 1;
   double effort_n_m = 0, speed_rad_s = 0;  ///< of all limits
@@ -69,11 +74,23 @@ class Maker {
       const bool foot = k == std::min(h_.leg_joints, 6) - 1;
       const std::string shape = h_.feet_are_meshes
                                     ? "<mesh filename=\"" + h_.meshes + "/foot.stl\"/>"
-                                    : "<box size=\"0.1 0.06 0.01\"/>";
-      link(below, foot ? h_.foot_kg : 0.1, foot ? shape : "",
-           {foot ? h_.sole_ahead_m : 0.0, 0, foot ? -0.025 : 0.0});
+                                    : fmt::format("<box size=\"0.1 {} 0.01\"/>", h_.sole_width_m);
+      link(below, foot ? h_.foot_kg : h_.leg_kg, foot ? shape : "",
+           {foot ? h_.sole_ahead_m : 0.0, 0, foot ? -0.025 : 0.0}, foot);
       if (foot && h_.has_wide_ankles) add_block(text_, -0.005);
       if (k == 3 && h_.has_low_shanks) add_block(text_, -0.12);
+      above = below;
+    }
+    if (h_.has_rods) rods(side);
+  }
+
+  /// Two bars with a joint at each end, as beside NimbRo's thighs and shanks.
+  void rods(int side) {
+    std::string above = side > 0 ? "p4_1" : "p5_1";
+    for (int k = 0; k < 4; ++k) {
+      const std::string below = fmt::format("{}_{}", side > 0 ? "p9" : "p10", k);
+      joint(above, below, "revolute", {k == 0 ? 0.03 : 0, 0, k % 2 == 1 ? -0.0932 : 0}, {0, 1, 0});
+      text_ += "<link name=\"" + below + "\"/>\n";
       above = below;
     }
   }
@@ -124,7 +141,8 @@ class Maker {
                           lower, upper, h_.effort_n_m, h_.speed_rad_s, h_.dynamics));
   }
 
-  void link(const std::string& name, double mass, const std::string& shape, const Vec3& at) {
+  void link(const std::string& name, double mass, const std::string& shape, const Vec3& at,
+            bool is_foot = false) {
     const double mass_kg = h_.heavier * mass;
     const double moment = 4e-4 * mass_kg * h_.larger * h_.larger * h_.moments_times;
     text_ += fmt::format(
@@ -134,10 +152,11 @@ class Maker {
         moment * h_.flatter);
     if (mass < 0) text_.resize(text_.rfind("<inertial>"));
     for (const char* what : {"visual", "collision"}) {
-      if (shape.empty()) continue;
-      text_ +=
-          fmt::format("<{0}><origin xyz=\"{1} {2} {3}\"/><geometry>{4}</geometry></{0}>", what,
-                      h_.larger * at.x(), h_.larger * at.y(), h_.larger * at.z(), scaled(shape));
+      if (shape.empty() || (is_foot && !h_.feet_are_drawn && *what == 'v')) continue;
+      text_ += fmt::format(
+          "<{0}><origin xyz=\"{1} {2} {3}\" rpy=\"0 {5} 0\"/><geometry>{4}</geometry></{0}>", what,
+          h_.larger * at.x(), h_.larger * at.y(), h_.larger * at.z(), scaled(shape),
+          is_foot ? h_.sole_pitch_rad : 0.0);
     }
     text_ += "</link>\n";
   }
