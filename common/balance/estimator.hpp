@@ -3,7 +3,7 @@
 #include "common/gait/whole_body.hpp"
 
 /// Position and velocity of body and centre of mass, by the body's motion over the stance soles,
-/// weighted by load; the accelerometer adds what encoders are too coarse for. It controls nothing.
+/// weighted by load; the accelerometer adds what encoders are too coarse for. Capture steps use it.
 ///
 /// *Odometry frame*: z up from the ground under the stance soles; x and y from under the body,
 /// along its heading, at power-up. They drift, a millimetre a step.

@@ -48,7 +48,7 @@ class Finder {
 
   bool could_be_foot(int tip) const { return s_.turning_to(tip).size() >= kLeastJoints; }
 
-  /// Of links at one height, one that has mass: rods that are only drawn follow some legs.
+  /// Takes the link with mass where two are at one height: some legs have rods that are only drawn.
   int lowest() const {
     int foot = -1;
     for (const int tip : tips_) {

@@ -42,7 +42,7 @@ double stiffness_n_m_rad(const Entity& entity, double over_weight_and_leg) {
   return over_weight_and_leg * total_mass(entity) * kGravity_m_s2 * leg_length_m(entity);
 }
 
-/// Of its back-EMF, N m s/rad: torque falls from stall to none at the no-load speed.
+/// Its torque falls from stall to none at the no-load speed; N m s/rad.
 double back_emf_n_m_s_rad(const Servo& servo) {
   return servo.stall_torque_n_m / servo.no_load_speed_rad_s;
 }
@@ -68,7 +68,7 @@ std::vector<const Servo*> leg_servos(const Entity& entity) {
   return servos;
 }
 
-/// What the goals wait for: the servo's own lag, bus and profile.
+/// The goals wait for the servo's own lag, the bus and the profile.
 double look_ahead_s(double rate_s) {
   return 1 / rate_s + kGoalsWait_s;
 }
