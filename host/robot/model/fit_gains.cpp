@@ -60,7 +60,7 @@ std::vector<const Servo*> leg_servos(const Entity& entity) {
     const Limb* const leg = find_limb(entity, name);
     if (!leg) continue;
     const LegGeometry g = classify_leg(entity, *leg);
-    for (int k = 1; k < kLegJoints; ++k) {
+    for (std::size_t k = 1; k < g.joint.size(); ++k) {
       if (g.joint[k] >= 0)
         servos.push_back(&entity.joints[static_cast<std::size_t>(g.joint[k])].servo);
     }
