@@ -120,7 +120,7 @@ Turn along_plane(const std::vector<Vec3>& points) {
 }
 
 /// The pitch and then the roll, in steps of a degree, that make the largest sole; then the plane of
-/// its points.
+/// its points, if it is within three degrees: any plane fits a narrow strip.
 Sole tilted_sole(const std::vector<Vec3>& points) {
   constexpr double kDegree_rad = std::numbers::pi / 180, kWithin_m = 0.004;
   constexpr int kMostPitch = 30, kMostRoll = 20;
@@ -137,8 +137,10 @@ Sole tilted_sole(const std::vector<Vec3>& points) {
     look(turned(std::asin(-ahead.z()), degree * kDegree_rad));
   const std::vector<Vec3> low = lowest_of(points, best.pose.linear(), kWithin_m);
   if (low.size() < 3) return best;
-  const Sole level = sole_on(points, along_plane(low), kWithin_m);
-  return area(level) > 0.9 * area(best) ? level : best;
+  const Sole fitted = sole_on(points, along_plane(low), kWithin_m);
+  const double cosine = fitted.pose.linear().col(2).dot(best.pose.linear().col(2));
+  const bool is_near = cosine > std::cos(3 * kDegree_rad);
+  return is_near && area(fitted) > 0.9 * area(best) ? fitted : best;
 }
 
 }  // namespace

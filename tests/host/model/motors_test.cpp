@@ -85,9 +85,7 @@ std::optional<double> look_ahead_s(const Entity& robot) {
 TEST(Motors, GainsLeaveARobotDampedAndTheGaitLooksAheadByTheirLag) {
   const Entity robot = driven_by(
       "like=\"xm430_w210\" stall_torque_n_m=\"3\" no_load_rev_min=\"119\" source=\"a test\" "
-      "f_base_n_m=\"0\" "
-      "f_strib_n_m=\"0\" "
-      "l_base=\"0\" l_strib=\"0\" f_visc_n_m_s=\"0\"",
+      "f_base_n_m=\"0\" f_strib_n_m=\"0\" l_base=\"0\" l_strib=\"0\" f_visc_n_m_s=\"0\"",
       "", "");
   const Servo& servo = robot.joints.back().servo;
   const double damping = servo.stall_torque_n_m / servo.no_load_speed_rad_s;

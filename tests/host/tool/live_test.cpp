@@ -124,7 +124,7 @@ TEST_F(Live, AnInterruptedRunSaysGoodbye) {
   Viewer viewer(port_of("live"));
   viewer.greet();
   ASSERT_NE(viewer.next_text(R"("channels":[{"id":1,)"), "") << slurp(folder_ / "live.err");
-  viewer.subscribe(1, 1);           // the program tells its port before it has channels
+  viewer.subscribe(1, 1);           // a port is printed before there are channels
   Viewer(port_of("live")).greet();  // leaves at once
   ASSERT_TRUE(live::test::next_data(viewer).has_value());
   walk.tell(SIGINT);
