@@ -39,6 +39,15 @@ TEST(ThirdParty, DarwinOpWalks) {
   expect_walks("darwin_op");
 }
 
+// Asked for nothing, they go steps of gait.max_step_m.
+TEST(ThirdParty, DucksWalkWithoutAnkleRoll) {
+  for (const char* const duck : {"microduck", "open_duck"}) {
+    const Walk result = walk(std::string(duck) + " --for 20 --physics-step 2");
+    expect_walked(result);
+    expect_between(0.05, number(result, "speed_mean_m_s"), 0.15, duck);
+  }
+}
+
 // Knees bent the wrong way at zero, axes that do not meet, one motor for both hip yaws, fingers,
 // massless links, no gait, gains or pose.
 TEST(ThirdParty, OddRobotWalksFromTheLeastWrapper) {

@@ -80,7 +80,7 @@ void set_by_name(std::map<std::string, double>& tuning, const std::string& setti
 void declare_gait(CLI::App& app, WalkOptions& options) {
   cli::add_model(app, options.model)->capture_default_str();
   cli::add_bus_option(app, options.bus);
-  app.add_option("--step", options.step_m, "step length, m")
+  app.add_option("--step", options.step_m, "step length, m; at its default at most gait.max_step_m")
       ->check(cli::number_between(0, kMaxStep_m, "m"))
       ->capture_default_str();
   app.add_option("--velocity", options.velocity_text, "VX,VY,WZ in m/s and rad/s instead of --step")

@@ -154,7 +154,8 @@ std::string title(const WalkPlan& plan, const scenario::Orders& orders) {
   const float cycle_s = plan.params.tuning.gait.cycle_s;
   if (plan.stands) return model + " stands";
   if (const auto* ahead = std::get_if<scenario::Ahead>(&orders))
-    return fmt::format("{}: {:g} cm steps, {:g} s cycle", model, 100 * ahead->step_m, cycle_s);
+    return fmt::format("{}: {:g} cm steps, {:g} s cycle", model,
+                       100 * scenario::step_of(*ahead, plan.params.tuning.gait), cycle_s);
   return fmt::format("{}: velocity {}, {:g} s cycle", model, scenario::velocity_text(orders),
                      cycle_s);
 }

@@ -79,8 +79,8 @@ class TreeWriter {
       line(
           "      <visual name=\"{}_shape\"><pose>{} 0 0 "
           "0</pose><geometry><box><size>{}</size></box>"
-          "</geometry></visual>",
-          name, join(com), join(even_box(mass[0], inertia)));
+          "</geometry>{}</visual>",
+          name, join(com), join(even_box(mass[0], inertia)), paint(name));
     }
     if (name == "trunk" && t_.has("imu")) {
       line("      <sensor name=\"imu\" type=\"imu\"><pose>{} 0 0 0</pose></sensor>",
@@ -112,7 +112,18 @@ class TreeWriter {
     line("          <contact><ode><kp>{:.6g}</kp><kd>{:.6g}</kd></ode></contact></surface>",
          t_.number("contact_stiffness_n_m"), t_.number("contact_damping_n_s_m"));
     line("      </collision>");
-    line("      <visual name=\"{}_shape\"><pose>{}</pose>{}</visual>", name, pose, geometry);
+    line("      <visual name=\"{}_shape\"><pose>{}</pose>{}{}</visual>", name, pose, geometry,
+         paint(t_.has("colour." + name_of(key)) ? name_of(key) : link));
+  }
+
+  /// `J.N` of `box.J.N`.
+  static std::string name_of(const std::string& box) { return box.substr(box.find('.') + 1); }
+
+  /// Red, green, blue of colour.J, or of colour.J.N for one box; else nothing.
+  std::string paint(const std::string& name) {
+    if (!t_.has("colour." + name)) return "";
+    return "<material><diffuse>" + join(t_.numbers("colour." + name, 0, 3)) +
+           " 1</diffuse></material>";
   }
 
   /// parent | position from the parent's joint | axis | lower upper | servo id
@@ -136,9 +147,13 @@ class TreeWriter {
     link(name, fmt::format("<pose relative_to=\"{}\">0 0 0 0 0 0</pose>", name));
     servos_ += fmt::format(
         "      <verp:servo joint=\"{}\" id=\"{:.0f}\" type=\"{}\" offset=\"2048\" "
-        "backlash_rad=\"{:.6g}\" p_gain=\"{:.0f}\" d_gain=\"{:.0f}\" profile_ms=\"{:.0f}\"/>\n",
-        name, t_.numbers(key, 4, 1)[0], t_.text("servo"), t_.number("servo_backlash_rad"),
-        t_.number("servo_p_gain"), t_.number("servo_d_gain"), t_.number("servo_profile_ms"));
+        "backlash_rad=\"{:.6g}\"",
+        name, t_.numbers(key, 4, 1)[0], t_.text("servo"), t_.number("servo_backlash_rad"));
+    for (const std::string fact : {"p_gain", "d_gain", "profile_ms"}) {
+      if (!t_.has("servo_" + fact)) continue;
+      servos_ += fmt::format(" {}=\"{:.0f}\"", fact, t_.number("servo_" + fact));
+    }
+    servos_ += "/>\n";
   }
 
   std::string speed_limit() {
@@ -150,8 +165,11 @@ class TreeWriter {
   void soles() {
     for (const std::string side : {"left", "right"}) {
       const std::string key = "sole." + side;
-      line("    <frame name=\"{}_sole\" attached_to=\"{}\"><pose>{} 0 0 0</pose></frame>", side,
-           link_of(t_.part(key, 0)), join(t_.numbers(key, 1, 3)));
+      const std::string text = t_.text(key);
+      const bool turned = std::count(text.begin(), text.end(), '|') > 1;
+      line("    <frame name=\"{}_sole\" attached_to=\"{}\"><pose>{} {}</pose></frame>", side,
+           link_of(t_.part(key, 0)), join(t_.numbers(key, 1, 3)),
+           turned ? join(t_.numbers(key, 2, 3)) : "0 0 0");
     }
   }
 
@@ -159,13 +177,16 @@ class TreeWriter {
     line("    <!-- What SDF has no words for: host/guide/robot-file.md lists these elements. -->");
     line("    <verp:body link=\"trunk\"/>");
     for (const std::string limb : {"head", "left_arm", "right_arm"}) {
+      if (!t_.has("tip." + limb)) continue;
       line("    <verp:limb name=\"{}\" base=\"trunk\" tip=\"{}\"/>", limb,
            link_of(t_.text("tip." + limb)));
     }
     for (const std::string side : {"left", "right"}) {
       line("    <verp:limb name=\"{0}_leg\" base=\"trunk\" tip=\"{0}_sole\"/>", side);
     }
-    line("    <verp:bus name=\"dxl\" protocol=\"dynamixel2\" baud=\"{:.0f}\" period_us=\"{:.0f}\">",
+    const bool other = t_.has("protocol");
+    line("    <verp:bus name=\"{}\" protocol=\"{}\" baud=\"{:.0f}\" period_us=\"{:.0f}\">",
+         other ? t_.text("protocol") : "dxl", other ? t_.text("protocol") : "dynamixel2",
          t_.number("baud"), t_.number("period_us"));
     out_ += servos_;
     line("    </verp:bus>");
@@ -181,6 +202,7 @@ class TreeWriter {
   }
 
   void poses(const std::string& name) {
+    if (t_.keys(name + ".").empty()) return;
     line("    <verp:pose name=\"{}\">", name);
     for (const std::string& key : t_.keys(name + ".")) {
       line("      <verp:joint name=\"{}\" rad=\"{:.6g}\"/>", key.substr(name.size() + 1),

@@ -195,8 +195,14 @@ Command velocity_of(const Orders& orders, const GaitTuning& gait) {
   return command;
 }
 
+double step_of(const Ahead& ahead, const GaitTuning& gait) {
+  return ahead == Ahead{} ? std::min(ahead.step_m, decimal(gait.max_step_m)) : ahead.step_m;
+}
+
 void give_orders(const Orders& orders, WalkPlan& plan) {
-  plan.asked = velocity_of(orders, plan.params.tuning.gait);
+  const GaitTuning& gait = plan.params.tuning.gait;
+  const auto* ahead = std::get_if<Ahead>(&orders);
+  plan.asked = velocity_of(ahead != nullptr ? Ahead{step_of(*ahead, gait)} : orders, gait);
   const session::FeasibleVelocity followed = session::within_servo_speed(plan.params, *plan.asked);
   plan.velocity = followed.velocity;
   plan.remark = followed.remark;

@@ -45,6 +45,8 @@ session::WalkPlan plan_of(const Robot& robot, double length_s, model::Entity ent
 
 /// Velocity in the controller's units, for this gait.
 Command velocity_of(const Orders& orders, const GaitTuning& gait);
+/// Of a step that nobody chose (Ahead{}): at most gait.max_step_m.
+double step_of(const Ahead& ahead, const GaitTuning& gait);
 /// Writes the orders into the plan, reduced to what the servos can follow; needs plan.params.
 void give_orders(const Orders& orders, session::WalkPlan& plan);
 /// Throws std::out_of_range for an unknown name.

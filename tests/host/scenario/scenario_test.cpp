@@ -159,6 +159,19 @@ TEST(Scenario, MakesOnePlanARobotWithThoseDrivenFromOutsideLast) {
   EXPECT_GT(run.plans[1].walk_s, scenario.length_s) << "it rises before and sits down after";
 }
 
+TEST(Scenario, AStepThatNobodyChoseIsAtMostTheRobotsLongest) {
+  Robot robot;
+  robot.tuning["gait.max_step_m"] = 0.01;
+  const auto asked = [&](const Ahead& orders) {
+    robot.orders = orders;
+    return plan_of(robot, 5).asked.value().vx_tenth_mm_s;
+  };
+  EXPECT_EQ(asked(Ahead{}), asked(Ahead{0.01}));
+  EXPECT_EQ(asked(Ahead{0.08}), 3556) << "somebody chose it: 2 * 0.08 m in 0.45 s";
+  robot.tuning["gait.max_step_m"] = 0.095;
+  EXPECT_EQ(asked(Ahead{}), asked(Ahead{0.04}));
+}
+
 TEST(Scenario, RefusesADisturbanceThatTheRunHasNoPlaceFor) {
   const auto where = [](const Intervention& what) {
     Scenario scenario;
