@@ -183,7 +183,10 @@ class Finder {
     std::vector<FoundLimb> left, right, middle;
     for (const FoundLimb& limb : chains) {
       if (limb.bones.empty()) continue;
-      const double y = sideways(bone(limb.bones.front()).pose);
+      // A neck's first joint may be a servo beside the middle: its tip is not.
+      const double y =
+          std::min(sideways(bone(limb.bones.front()).pose), sideways(link(limb.tip).pose),
+                   [](double a, double b) { return std::abs(a) < std::abs(b); });
       (y > kLeastApart_m ? left : y < -kLeastApart_m ? right : middle).push_back(limb);
     }
     const auto shorter = [](const FoundLimb& a, const FoundLimb& b) {

@@ -185,7 +185,7 @@ Vec3 place_of(const model::Entity& robot, std::size_t joint) {
 }
 
 TEST_F(SdfFile, AShippedRobotWithoutOurElementsBecomesTheSameRobot) {
-  for (const char* const name : {"op3"}) {
+  for (const char* const name : {"op3", "microduck"}) {
     const std::string path = model::find_model(name);
     tinyxml2::XMLDocument document;
     ASSERT_EQ(document.LoadFile(path.c_str()), tinyxml2::XML_SUCCESS);
@@ -194,6 +194,8 @@ TEST_F(SdfFile, AShippedRobotWithoutOurElementsBecomesTheSameRobot) {
     document.Print(&text);
     const model::Entity ours = model::load_robot(path), made = loaded(text.CStr());
     ASSERT_EQ(made.joints.size(), ours.joints.size()) << name;
+    for (const model::Limb& limb : ours.limbs)
+      EXPECT_NE(model::find_limb(made, limb.name), nullptr) << name << " " << limb.name;
     for (std::size_t i = 0; i < ours.joints.size(); ++i) {
       const model::Joint& a = ours.joints[i];
       std::size_t k = 0;
