@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "host/author/edit/names.hpp"
+#include "host/robot/model/encoding.hpp"
 #include "host/robot/model/load.hpp"
 
 namespace verp::edit {
@@ -50,7 +51,7 @@ Document Document::open(const fs::path& file, bool may_be_new) {
     text.assign(std::istreambuf_iterator<char>(in), {});
   }
   const bool nothing = text.find_first_not_of(" \t\r\n") == text.npos;
-  Document document(file, nothing ? empty_robot(file) : text);
+  Document document(file, nothing ? empty_robot(file) : model::utf8_of(file.string(), text));
   if (!is_new) document.on_disk_ = std::move(text);
   document.model();
   return document;

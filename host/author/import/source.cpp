@@ -6,14 +6,15 @@
 #include "host/author/plain_sdf/plain_sdf.hpp"
 #include "host/author/xacro/xacro.hpp"
 #include "host/os/files/whole.hpp"
+#include "host/robot/model/encoding.hpp"
 
 namespace verp::import {
 namespace {
 
-/// The outer element's name. Empty where the file is no XML: the reader of URDF then says why.
-std::string outer_element(const std::string& file) {
+/// The outer element's name. Empty where the text is no XML: the reader of URDF then says why.
+std::string outer_element(const std::string& text) {
   tinyxml2::XMLDocument document;
-  if (document.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS) return "";
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) return "";
   return document.RootElement() == nullptr ? "" : document.RootElement()->Name();
 }
 
@@ -25,11 +26,6 @@ Drive drive_of(const mjcf::Motor& motor) {
           .friction_n_m = motor.friction_n_m,
           .damping_n_m_s = motor.damping_n_m_s,
           .kp_n_m_rad = motor.kp_n_m_rad};
-}
-
-/// A URDF that xacro made may still name its namespace.
-bool is_xacro(const std::string& file) {
-  return files::read(file).value_or("").find("<xacro:") != std::string::npos;
 }
 
 Source source_of_xacro(const std::string& file, const std::string& folder) {
@@ -58,10 +54,13 @@ Source source_of(mjcf::Robot robot, const char* format, const std::string& folde
 }  // namespace
 
 Source read_source(const std::string& file, const std::string& folder) {
-  const std::string outer = outer_element(file);
+  const std::string text = model::utf8_of(file, files::read(file).value_or(""));
+  const std::string outer = outer_element(text);
   if (outer == "mujoco") return source_of(mjcf::read_robot(file), "mjcf", folder);
   if (outer == "sdf") return source_of(plain_sdf::read_robot(file), "sdf", folder);
-  return is_xacro(file) ? source_of_xacro(file, folder) : Source{};
+  // A URDF that xacro made may still name its namespace.
+  const bool is_xacro = text.find("<xacro:") != text.npos;
+  return is_xacro ? source_of_xacro(file, folder) : Source{};
 }
 
 }  // namespace verp::import

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/os/files/whole.hpp"
+#include "host/robot/model/encoding.hpp"
 #include "host/robot/model/load_error.hpp"
 
 namespace verp::model {
@@ -139,8 +140,18 @@ Malformed find_malformed(const std::string& text) {
   return found;
 }
 
-void refuse_malformed(const std::string& path, const std::string& text,
-                      const tinyxml2::XMLDocument& document) {
+std::string parse_xml(const std::string& path, const std::string& bytes,
+                      tinyxml2::XMLDocument& document) {
+  std::string text = utf8_of(path, bytes);
+  if (document.Parse(text.data(), text.size()) == tinyxml2::XML_SUCCESS &&
+      document.RootElement() != nullptr) {
+    require_utf8(path, text);
+    const auto* const second = document.RootElement()->NextSiblingElement();
+    if (second == nullptr) return text;
+    throw LoadError(path, second->GetLineNum(),
+                    "a second outer element, <" + std::string(second->Name()) + ">, begins here",
+                    "XML has one: put what follows into a file of its own, or remove it");
+  }
   const Malformed found = find_malformed(text);
   throw LoadError(
       path, found.line > 0 ? found.line : std::max(1, document.ErrorLineNum()),
@@ -151,10 +162,7 @@ void refuse_malformed(const std::string& path, const std::string& text,
 void load_xml(const std::string& path, tinyxml2::XMLDocument& document) {
   const auto text = files::read(path);
   if (!text) throw LoadError(path, 0, "cannot be read", "check its name, rights and length");
-  if (document.Parse(text->data(), text->size()) != tinyxml2::XML_SUCCESS ||
-      document.RootElement() == nullptr) {
-    refuse_malformed(path, *text, document);
-  }
+  parse_xml(path, *text, document);
 }
 
 }  // namespace verp::model

@@ -13,12 +13,13 @@ struct Malformed {
 };
 Malformed find_malformed(const std::string& text);
 
-/// Throws LoadError for a text that tinyxml2 could not read.
-[[noreturn]] void refuse_malformed(const std::string& path, const std::string& text,
-                                   const tinyxml2::XMLDocument& document);
+/// Fills `document`, and returns the text as UTF-8 (encoding.hpp). Throws LoadError for a text that
+/// is malformed, empty or in another encoding.
+std::string parse_xml(const std::string& path, const std::string& bytes,
+                      tinyxml2::XMLDocument& document);
 
 /// Fills `document`. Throws LoadError for a file that cannot be read, is longer than
-/// files::kMostBytes or is malformed.
+/// files::kMostBytes or is refused by parse_xml().
 void load_xml(const std::string& path, tinyxml2::XMLDocument& document);
 
 }  // namespace verp::model

@@ -89,14 +89,10 @@ void check_world_leaf(const XmlElement& at, const std::string& text) {
 }  // namespace
 
 WorldXml::WorldXml(const std::string& path) : path_(path) {
-  auto text = files::read(path);
+  const auto text = files::read(path);
   if (!text)
     throw LoadError(path, 1, "cannot read this file", "check the path and its permissions");
-  text_ = std::move(*text);
-  if (document_.Parse(text_.data(), text_.size()) != tinyxml2::XML_SUCCESS ||
-      document_.RootElement() == nullptr) {
-    refuse_malformed(path, text_, document_);
-  }
+  text_ = parse_xml(path, *text, document_);
   const XmlElement root(path_, *document_.RootElement());
   const auto worlds = root.children("world");
   if (root.name() != "sdf") root.fail("<" + root.name() + "> is no SDF", "start with <sdf>");

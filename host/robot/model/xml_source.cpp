@@ -202,28 +202,27 @@ Vec3 XmlElement::vector(const char* attribute) const {
 }
 
 XmlSource::XmlSource(const std::string& path, const std::optional<std::string>& text) {
-  read(path, text);
-  text_ = text ? *text : files::read(path).value_or("");
+  text_ = read(path, text);
 }
 
-void XmlSource::read(const std::string& path, const std::optional<std::string>& text) {
+std::string XmlSource::read(const std::string& path, const std::optional<std::string>& text) {
   if (!text && !std::ifstream(path)) {
     throw LoadError(path, 1, "cannot read this file", "check the path and its permissions");
   }
   files_.push_back(std::make_unique<File>());
   File& file = *files_.back();
   file.path = path;
-  const auto read =
-      text ? file.document.Parse(text->data(), text->size()) : file.document.LoadFile(path.c_str());
-  if (read != tinyxml2::XML_SUCCESS || !file.document.RootElement()) {
-    refuse_malformed(path, text ? *text : files::read(path).value_or(""), file.document);
-  }
+  const std::string bytes = text ? *text : files::read(path).value_or("");
+  std::string utf8 = parse_xml(path, bytes, file.document);
   const std::string root = file.document.RootElement()->Name();
   if (root != "sdf" && root != "robot") {
     throw LoadError(path, file.document.RootElement()->GetLineNum(),
                     "<" + root + "> is neither SDF nor URDF",
                     "a robot's file starts with <sdf version=\"1.9\">");
   }
+  // libsdformat reads an included SDF itself.
+  if (files_.size() > 1 && root == "sdf" && utf8 != bytes)
+    throw LoadError(path, 1, "an included SDF file is no UTF-8", "save it as UTF-8");
   refuse_many(path, *file.document.RootElement());
   // Included files are often third-party files, used unchanged.
   if (files_.size() == 1) {
@@ -233,6 +232,7 @@ void XmlSource::read(const std::string& path, const std::optional<std::string>& 
   open_.push_back(std::filesystem::weakly_canonical(path));
   inspect(file, *file.document.RootElement());
   open_.pop_back();
+  return utf8;
 }
 
 void XmlSource::include(const File& file, const tinyxml2::XMLElement& element) {

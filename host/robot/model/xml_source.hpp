@@ -67,6 +67,7 @@ class XmlSource {
   /// The <robot> elements of included URDF files.
   std::vector<XmlElement> urdfs() const;
 
+
   struct Place {
     std::string file;
     int line = 1;
@@ -82,7 +83,7 @@ class XmlSource {
     std::string path;
     tinyxml2::XMLDocument document;
   };
-  void read(const std::string& path, const std::optional<std::string>& text = {});
+  std::string read(const std::string& path, const std::optional<std::string>& text = {});
   void include(const File& file, const tinyxml2::XMLElement& element);
   void inspect(const File& file, const tinyxml2::XMLElement& element);
 
