@@ -19,6 +19,7 @@
 #include "host/robot/model/load.hpp"
 #include "host/robot/model/params.hpp"
 #include "host/robot/model/supply.hpp"
+#include "host/robot/model/unread.hpp"
 
 namespace verp::import {
 namespace {
@@ -81,6 +82,7 @@ class Importer {
     } catch (const model::LoadError& error) {
       out_.refusal = error.what();
     }
+    tell_unread();
     return std::move(out_);
   }
 
@@ -246,6 +248,16 @@ class Importer {
           fmt::format("{:.4g} V, {:.2g} ohm", model::supply_volts(robot),
                       model::supply_resistance_ohm(robot)),
           "write the battery's into <verp:supply volts resistance_ohm>");
+  }
+
+  void tell_unread() {
+    model::Lost lost;
+    model::find_unread(robot_, lost);
+    const bool told = std::any_of(out_.left_out.begin(), out_.left_out.end(), [](const auto& each) {
+      return each.starts_with(model::kMissingMeshes);
+    });
+    if (out_.entity && !told) model::find_missing_meshes(*out_.entity, lost);
+    for (std::string& each : model::lines_of(lost)) out_.left_out.push_back(std::move(each));
   }
 
   void load() {

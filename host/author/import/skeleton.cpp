@@ -92,6 +92,8 @@ void read_limits(const XmlElement& joint, Bone& bone) {
   if (!limit || bone.has_no_stops) return;
   bone.lower_rad = limit->number("lower", 0);
   bone.upper_rad = limit->number("upper", 0);
+  if (limit->has("lower") && limit->has("upper") && bone.lower_rad > bone.upper_rad)
+    std::swap(bone.lower_rad, bone.upper_rad);
 }
 
 class UrdfReader {

@@ -42,9 +42,7 @@ std::vector<double> numbers_of(const XmlElement& leaf, const std::string& text) 
 
 model::Mat3 turn_of(const XmlElement& pose, const std::vector<double>& n) {
   if (n.size() == 7) {
-    const Eigen::Quaterniond q(n[6], n[3], n[4], n[5]);
-    if (q.norm() < 1e-9) pose.fail("its quaternion is zero", "write x y z w, like 0 0 0 1");
-    return q.normalized().toRotationMatrix();
+    return Eigen::Quaterniond(n[6], n[3], n[4], n[5]).normalized().toRotationMatrix();
   }
   const bool degrees = pose.text("degrees", "false") == "true" || pose.text("degrees", "") == "1";
   const double unit = degrees ? std::numbers::pi / 180 : 1;

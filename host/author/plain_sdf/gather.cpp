@@ -4,6 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include "host/robot/model/unread.hpp"
+
 namespace verp::plain_sdf {
 namespace {
 
@@ -50,9 +52,8 @@ class Gatherer {
     const std::string name = scope.prefix + name_of(link);
     add(name, placed(link, scope, scope.model));
     out_.links.push_back({name, link, scope});
-    for (const XmlElement& each : link.children()) {
-      if (each.name() == "sensor" || each.name() == "plugin") tell(each);
-    }
+    for (const XmlElement& each : link.children("sensor")) tell(each);
+    model::find_unread(link, out_.lost);
   }
 
   /// Before SDF 1.7 a joint may be named like a link; nothing refers to it then.
@@ -71,6 +72,7 @@ class Gatherer {
     out_.frames.add(name, std::move(frame));
     out_.joints.push_back({name, joint, scope});
     for (const XmlElement& each : joint.children("sensor")) tell(each);
+    model::find_unread(joint, out_.lost);
   }
 
   static std::string end_of(const XmlElement& joint, const char* end) {
@@ -121,20 +123,13 @@ class Gatherer {
   }
 
   void tell(const XmlElement& each) {
-    const std::string kind = each.name();
-    const std::string name = each.text("name", "");
-    if (kind == "plugin") {
-      out_.lose("plugins", name.empty() ? each.text("filename", "") : name);
-    } else if (kind == "sensor" && each.text("type", "") != "imu") {
-      out_.lose("sensors", name + " (" + each.text("type", "") + ")");
-    } else if (kind == "static" && flag_in(each_parent(each), "static")) {
-      out_.lose("<static>: the robot moves", "");
-    } else if (kind == "gripper" || kind == "light" || kind == "particle_emitter") {
-      out_.lose("<" + kind + ">", name);
-    }
+    if (each.name() == "pose") return;
+    if (each.name() != "sensor") return model::tell_unread(parent_of(each), each, out_.lost);
+    if (each.text("type", "") != "imu")
+      out_.lose("sensors", each.text("name", "") + " (" + each.text("type", "") + ")");
   }
 
-  static XmlElement each_parent(const XmlElement& each) {
+  static XmlElement parent_of(const XmlElement& each) {
     return {each.file(), *each.raw().Parent()->ToElement()};
   }
 

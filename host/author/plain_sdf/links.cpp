@@ -51,11 +51,6 @@ mjcf::Body LinkReader::body_of(const FoundPart& link) {
     if (each.name() == "collision" || each.name() == "visual") add_geom(link, each, body);
   }
   body.inertial = inertial_of(link, body);
-  for (const char* const word : {"kinematic", "velocity_decay", "battery"}) {
-    if (first(link.at, word)) flat_.lose(fmt::format("<{}> of links", word), link.name);
-  }
-  if (first(link.at, "gravity") && !flag_in(link.at, "gravity"))
-    flat_.lose("<gravity>0: gravity pulls at all links", link.name);
   return body;
 }
 
@@ -177,8 +172,6 @@ mjcf::Joint LinkReader::joint_of(const FoundPart& joint, const char* name) {
   out.motor.no_load_rad_s = positive(free_number_in(limit, "velocity", 0));
   out.motor.damping_n_m_s = positive(free_number_in(dynamics, "damping", 0));
   out.motor.friction_n_m = positive(free_number_in(dynamics, "friction", 0));
-  if (free_number_in(dynamics, "spring_stiffness", 0) != 0)
-    flat_.lose("springs of joints (spring_stiffness)", joint.name);
   return out;
 }
 

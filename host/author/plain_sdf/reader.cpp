@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +6,7 @@
 
 #include "host/author/plain_sdf/links.hpp"
 #include "host/author/plain_sdf/plain_sdf.hpp"
+#include "host/robot/model/unread.hpp"
 
 namespace verp::plain_sdf {
 namespace {
@@ -245,15 +245,7 @@ class Reader {
   }
 
   void tell() {
-    for (const auto& [what, which] : flat_.lost) {
-      std::vector<std::string> names;
-      for (const std::string& each : which) {
-        const bool is_new = std::find(names.begin(), names.end(), each) == names.end();
-        if (!each.empty() && is_new) names.push_back(each);
-      }
-      out_.left_out.push_back(names.empty() ? what
-                                            : fmt::format("{} ({})", what, fmt::join(names, ", ")));
-    }
+    for (std::string& each : model::lines_of(flat_.lost)) out_.left_out.push_back(std::move(each));
   }
 
   Flat& flat_;

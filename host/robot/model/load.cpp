@@ -22,6 +22,7 @@
 #include "host/robot/model/find.hpp"
 #include "host/robot/model/library_console.hpp"
 #include "host/robot/model/params.hpp"
+#include "host/robot/model/unread.hpp"
 #include "host/robot/model/urdf_check.hpp"
 #include "host/robot/model/urdf_prepare.hpp"
 #include "host/robot/model/xml_source.hpp"
@@ -192,6 +193,11 @@ Entity load(const std::string& path, const std::string& bus, bool whole, const T
   cross_check(source, facts, urdfs, *root.Model());
   Entity entity = assemble(source, facts, *root.Model(), urdfs.names());
   entity.notes.insert(entity.notes.end(), urdfs.notes().begin(), urdfs.notes().end());
+  Lost lost;
+  for (const XmlElement& top : source.tops()) find_unread(top, lost);
+  find_missing_meshes(entity, lost);
+  for (const std::string& line : lines_of(lost))
+    entity.notes.push_back("changed or left out: " + line);
   if (whole) require_legs_and_imu(model, facts);
   return entity;
 }

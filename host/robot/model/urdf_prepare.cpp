@@ -10,6 +10,7 @@
 
 #include "host/robot/model/bounds.hpp"
 #include "host/robot/model/load_error.hpp"
+#include "host/robot/model/number.hpp"
 
 namespace verp::model {
 namespace {
@@ -43,8 +44,13 @@ void add_stand_in_mass(XMLElement& link) {
   for (const char* product : {"ixy", "ixz", "iyz"}) inertia->SetAttribute(product, "0");
 }
 
-/// XML's white space separates numbers; urdfdom knows blanks only.
-void part_by_blanks(XMLElement& element) {
+/// XML's white space separates numbers; urdfdom knows blanks only, and three numbers of a scale.
+void mend_numbers(XMLElement& element) {
+  const char* const scale = element.Attribute("scale");
+  if (std::string_view(element.Name()) == "mesh" && scale && parse_number(scale)) {
+    const std::string one = scale;
+    element.SetAttribute("scale", (one + " " + one + " " + one).c_str());
+  }
   for (const auto* each = element.FirstAttribute(); each != nullptr; each = each->Next()) {
     std::string value = each->Value();
     const auto is_space = [](char c) { return c == '\t' || c == '\n' || c == '\r'; };
@@ -54,7 +60,7 @@ void part_by_blanks(XMLElement& element) {
   }
   for (auto* child = element.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {
-    part_by_blanks(*child);
+    mend_numbers(*child);
   }
 }
 
@@ -171,7 +177,7 @@ void PreparedUrdfs::prepare(const XmlElement& original, const Facts& facts) {
   original.raw().GetDocument()->DeepCopy(&document);
   XMLElement& robot = *document.RootElement();
   if (robot.Attribute("name") == nullptr) robot.SetAttribute("name", "robot");
-  part_by_blanks(robot);
+  mend_numbers(robot);
   keep_first_materials(robot);
   untie(robot);
   for (auto* joint = robot.FirstChildElement("joint"); joint != nullptr;

@@ -1,6 +1,7 @@
 #include "host/robot/model/xml_numbers.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <string_view>
@@ -21,6 +22,7 @@ struct Numbers {
   bool is_pose = false;         // position, then angles
   bool may_be_endless = false;  // inf, -inf: no limit
   bool is_whole = false;        // libsdformat reads 1e9 as 1
+  bool is_scale = false;        // zero leaves nothing
 };
 constexpr double kLargest = std::numeric_limits<float>::max();
 constexpr Numbers kFree = {1, -kLargest, kLargest};  // of sensors: the controller never sees it
@@ -33,6 +35,7 @@ constexpr Numbers kPosition = {3, -kMostLength_m, kMostLength_m, " m"};
 constexpr Numbers kDirection = {3, -kMostAngle, kMostAngle};
 constexpr Numbers kLimit = {1, -kLargest, kLargest};  // from 1e16: no limit
 constexpr Numbers kPose = {0, -kMostAngle, kMostAngle, "", true};
+constexpr Numbers kScale = {0, -1e6, 1e6, "", false, false, false, true};
 // the servo's limit also applies
 constexpr Numbers kPower = {1, -kLargest, kLargest, "", false, true};
 constexpr Numbers kResistance = {1, -100, 100};  // joint's, N m and N m s/rad
@@ -61,6 +64,7 @@ const std::map<std::string_view, Numbers> kSdfNumbers = {
     {"kp", {1, 1, kMostStiffness_n_m, " N/m"}},
     {"kd", {1, 0, kMostDamping_n_s_m, " N s/m"}},
     {"pose", kPose},
+    {"scale", kScale},
     {"update_rate", kFree},
     {"min", kFree},
     {"max", kFree},
@@ -107,7 +111,7 @@ const std::map<std::string, Numbers, std::less<>> kUrdfNumbers = {
     {"ixz", kInertia},          {"iyz", kInertia},        {"lower", kLimit},
     {"upper", kLimit},          {"effort", kPower},       {"velocity", kPower},
     {"mass.value", kMass},      {"sphere.radius", kSize}, {"cylinder.radius", kSize},
-    {"cylinder.length", kSize}, {"box.size", kSizes}};
+    {"cylinder.length", kSize}, {"box.size", kSizes},     {"mesh.scale", kScale}};
 
 const Numbers* urdf_numbers(const std::string& element, const std::string& attribute) {
   auto found = kUrdfNumbers.find(element + "." + attribute);
@@ -131,6 +135,13 @@ void check(const std::string& file, int line, const std::string& what, const std
   if (wanted.is_whole && text.find_first_not_of("0123456789 \t\r\n") != text.npos)
     throw LoadError(file, line, what + " is not a whole number: '" + text + "'",
                     "write digits only, like 320");
+  const auto is_zero = [](double value) { return std::abs(value) < 1e-9; };
+  if (wanted.is_scale && std::any_of(values->begin(), values->end(), is_zero))
+    throw LoadError(file, line, what + " is zero: '" + text + "'",
+                    "write 1 for the file's own size");
+  if (wanted.is_pose && values->size() == 7 &&
+      std::all_of(values->begin() + 3, values->end(), is_zero))
+    throw LoadError(file, line, "its quaternion is zero", "write x y z w, like 0 0 0 1");
   for (std::size_t i = 0; i < values->size(); ++i) {
     const Numbers& bounds = wanted.is_pose && i < 3 ? kPosition : wanted;
     require_within(file, line, what, (*values)[i], bounds.low, bounds.high, bounds.unit);

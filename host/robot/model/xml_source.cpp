@@ -308,6 +308,11 @@ void XmlSource::inspect(const File& file, const tinyxml2::XMLElement& element) {
   }
   refuse_repeats(file.path, element);
   if (!is_urdf && name == "joint") check_joint_type(file.path, element);
+  const std::string_view flag = text ? text : "";
+  if (!is_urdf && name == "gravity" && (flag == "0" || flag == "false")) {
+    throw LoadError(file.path, line, "gravity pulls at every link here, also at this one",
+                    "leave <gravity> out");
+  }
   if (!is_urdf && name == "include") include(file, element);
   for (const auto* child = element.FirstChildElement(); child;
        child = child->NextSiblingElement()) {
@@ -343,6 +348,15 @@ std::vector<XmlElement> XmlSource::urdfs() const {
   for (const auto& file : files_) {
     const XmlElement root(file->path, *file->document.RootElement());
     if (root.name() == "robot") found.push_back(root);
+  }
+  return found;
+}
+
+std::vector<XmlElement> XmlSource::tops() const {
+  std::vector<XmlElement> found = urdfs();
+  for (const auto& file : files_) {
+    const XmlElement root(file->path, *file->document.RootElement());
+    for (const XmlElement& model : root.children("model")) found.push_back(model);
   }
   return found;
 }

@@ -67,6 +67,8 @@ class XmlSource {
   /// The <robot> elements of included URDF files.
   std::vector<XmlElement> urdfs() const;
 
+  /// Those and the <model> elements of all files.
+  std::vector<XmlElement> tops() const;
 
   struct Place {
     std::string file;

@@ -92,6 +92,26 @@ TEST_F(ImportedFile, ForeignFileStaysAsItIs) {
   EXPECT_EQ(files::read(urdf_), Maker({}).urdf());
 }
 
+TEST_F(ImportedFile, WhatNobodyReadsAndWhatIsMissingIsOnThePage) {
+  const Imported robot = import({.feet_are_meshes = true,
+                                 .more = "<transmission name=\"t\"/><gazebo reference=\"p1\">"
+                                         "<gravity>0</gravity></gazebo>"});
+  EXPECT_TRUE(was_changed(robot, "<transmission> (t)"));
+  EXPECT_TRUE(was_changed(robot, "<gravity>0: gravity pulls at all links (p1)"));
+  EXPECT_TRUE(was_changed(robot, "meshes that are not there (model://nowhere/"));
+}
+
+TEST_F(ImportedFile, SwappedLimitsAreTakenInOrder) {
+  const Imported robot = import({.knee_lower_rad = 2.4, .knee_upper_rad = 0});
+  EXPECT_TRUE(was_changed(robot, "swapped lower and upper limits"));
+  EXPECT_FALSE(was_changed(robot, "no limits"));
+  for (const model::Joint& joint : loaded(robot).joints) {
+    if (joint.name == "jp4_3") {
+      EXPECT_NEAR(joint.upper_rad, 2.4, 0.01);
+    }
+  }
+}
+
 TEST_F(ImportedFile, RobotMayLookAnyWayInItsFile) {
   for (const double yaw_rad : {1.5707963, 3.1415927, 0.5}) {
     const Imported robot = import({.yaw_rad = yaw_rad});

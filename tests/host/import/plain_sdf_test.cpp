@@ -350,9 +350,10 @@ TEST_F(SdfFile, WhatARobotOfOursHasNotIsListedByName) {
       "model://nowhere/a.dae</uri></mesh></geometry></visual><visual name=\"p\"><geometry><plane/>"
       "</geometry></visual>"));
   for (const char* const line :
-       {"<static>: the robot moves", "plugins (drive)", "links that no joint holds (loose)",
-        "joints to the world: the robot stands free (stand)", "sensors (eye (camera))",
-        "meshes that are not there (model://nowhere/a.dae)", "shapes of type plane (p)"}) {
+       {"<static>: the robot moves (stranger)", "plugins (drive)",
+        "links that no joint holds (loose)", "joints to the world: the robot stands free (stand)",
+        "sensors (eye (camera))", "meshes that are not there (model://nowhere/a.dae)",
+        "shapes of type plane (p)"}) {
     EXPECT_EQ(lost(made, line), line);
   }
 }
