@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "host/author/mjcf/attributes.hpp"
 #include "host/author/mjcf/mjcf.hpp"
 #include "host/author/mjcf/solids.hpp"
 
@@ -26,6 +27,7 @@ class Reader {
     read_pairs();
     for (const XmlElement& section : document_.children(document_.root())) {
       if (section.name() == "worldbody") keep_joint_names(section);
+      if (section.name() == "worldbody" || section.name() == "default") tell_attributes(section);
     }
     for (const XmlElement& section : document_.children(document_.root())) {
       if (section.name() == "worldbody") read_contents(section, "", Transform::Identity(), -1);
@@ -49,6 +51,12 @@ class Reader {
   }
   double angle_unit() const { return document_.compiler().degrees ? std::numbers::pi / 180 : 1; }
   void lose(const std::string& what) { ++lost_[what]; }
+
+  void tell_attributes(const XmlElement& element) {
+    for (const std::string& each : unknown_attributes(element))
+      lose(fmt::format("the attribute {} of <{}>, which MJCF has not", each, element.name()));
+    for (const XmlElement& inner : document_.children(element)) tell_attributes(inner);
+  }
 
   void read_meshes() {
     for (const XmlElement& each : document_.all("asset")) {
@@ -106,6 +114,8 @@ class Reader {
 
   void read_body(const Item& element, const std::string& child_class, const Transform& frame,
                  int parent) {
+    if (!element.name().empty() && !body_names_.insert(element.name()).second)
+      element.element().fail("a second body is named '" + element.name() + "'", "rename one");
     Body body;
     body.name = free_name(element.name().empty() ? fmt::format("body_{}", out_.bodies.size())
                                                  : element.name());
@@ -340,9 +350,14 @@ class Reader {
     const auto chosen = std::find_if(keys.begin(), keys.end(), is_stand);
     const XmlElement key = chosen == keys.end() ? keys.front() : *chosen;
     const auto values = item(key).numbers("qpos", 1, 1000);
-    std::size_t at = values.size();
-    for (const Body& body : out_.bodies) at -= std::min(at, body.joints.size());
-    if (at != 0 && at != 7) return lose("keyframes, which fit no robot alone");
+    std::size_t joints = 0;
+    for (const Body& body : out_.bodies) joints += body.joints.size();
+    if (values.size() != joints && values.size() != joints + 7) {
+      return lose(
+          fmt::format("keyframe '{}': its qpos has {} numbers, and the robot's would have {}",
+                      key.text("name", ""), values.size(), joints + 7));
+    }
+    std::size_t at = values.size() - joints;
     for (const Body& body : out_.bodies) {
       for (const Joint& joint : body.joints) out_.stand[joint.name] = values[at++];
     }
@@ -422,7 +437,7 @@ class Reader {
 
   Document document_;
   Robot out_;
-  std::set<std::string> names_, joint_names_, paired_;
+  std::set<std::string> names_, body_names_, joint_names_, paired_;
   std::map<std::string, int> sites_;  ///< body, by the site's name
   std::map<std::string, int> lost_;
 };

@@ -127,6 +127,26 @@ TEST_F(MjcfFile, IsARobotThatLoads) {
   EXPECT_NEAR(leg.sole_max_m.x() - leg.sole_min_m.x(), 0.1, 1e-4);
 }
 
+TEST_F(MjcfFile, MisspelledAttributesAreNamed) {
+  const auto list = read(robot("<geom masss=\"1\" size=\"0.01\"/>")).left_out;
+  EXPECT_TRUE(lost(list, "the attribute masss of <geom>, which MJCF has not"));
+  EXPECT_FALSE(lost(read(robot()).left_out, "which MJCF has not"));
+}
+
+TEST_F(MjcfFile, SecondBodyOfANameIsRefused) {
+  EXPECT_TRUE(refusal(robot("<body name=\"left_foot\"/>"))
+                  .ends_with(": a second body is named 'left_foot'"));
+}
+
+TEST_F(MjcfFile, KeyframeOfAnotherLengthIsNamedAndNotTaken) {
+  for (const char* const qpos : {"0 0 .3 1 0 0 0", "0 0 .3 1 0 0 0 1 2 3 4 5 6 7 8 9 10 11"}) {
+    const mjcf::Robot made =
+        read(robot("", fmt::format("<keyframe><key name=\"home\" qpos=\"{}\"/></keyframe>", qpos)));
+    EXPECT_TRUE(lost(made.left_out, "keyframe 'home': its qpos has")) << qpos;
+    EXPECT_TRUE(made.stand.empty()) << qpos;
+  }
+}
+
 TEST_F(MjcfFile, ServosTooSlowToWalkAreSaidWithBothSpeeds) {
   std::string text = robot();
   text.replace(text.find("damping=\"0.3\""), 13, "damping=\"1.8\"");
