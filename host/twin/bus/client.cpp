@@ -68,19 +68,30 @@ std::uint32_t Client::patience_us(std::size_t bytes) const {
 std::vector<Identity> Client::scan() {
   if (protocol() == BusProtocol::kFeetech) return scan_each();
   std::vector<Identity> found;
+  // Noise may have been a device: another master's request was still being answered, or two
+  // devices share an id.
+  bool clean = false;
+  for (int attempt = 0; attempt < kAttempts && !clean; ++attempt) {
+    const std::uint32_t noise = words_->noise_bytes();
+    scan_once(found);
+    clean = words_->noise_bytes() == noise;
+  }
+  std::sort(found.begin(), found.end(),
+            [](const Identity& a, const Identity& b) { return a.id < b.id; });
+  // A late reply, or an answer to each attempt.
+  const auto again = std::unique(found.begin(), found.end(),
+                                 [](const Identity& a, const Identity& b) { return a.id == b.id; });
+  found.erase(again, found.end());
+  return found;
+}
+
+void Client::scan_once(std::vector<Identity>& found) {
   const std::size_t frame = words_->encode_ping(dxl::kBroadcast);
   words_->request(frame, std::max(kScan_us, patience_us(0)), [&](const ClientWords::Reply& reply) {
     if (reply.data.size() != 3) return app::Take::kStray;
     found.push_back({reply.id, dxl::get_u16(reply.data.data()), reply.data[2]});
     return app::Take::kMore;
   });
-  std::sort(found.begin(), found.end(),
-            [](const Identity& a, const Identity& b) { return a.id < b.id; });
-  // The scan may include a late reply.
-  const auto again = std::unique(found.begin(), found.end(),
-                                 [](const Identity& a, const Identity& b) { return a.id == b.id; });
-  found.erase(again, found.end());
-  return found;
 }
 
 std::vector<Identity> Client::scan_each() {

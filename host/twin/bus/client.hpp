@@ -50,8 +50,8 @@ class Client {
          BusProtocol protocol = BusProtocol::kDynamixel2);
 
   BusProtocol protocol() const { return words_->protocol(); }
-  /// Every device that answers a broadcast Ping, sorted by id. Feetech servos collide there: each
-  /// id is asked, once.
+  /// Every device that answers a broadcast Ping, sorted by id; noise among the answers repeats
+  /// it. Feetech servos collide there: each id is asked, once.
   std::vector<Identity> scan();
   std::optional<Identity> ping(std::uint8_t id, int attempts = kAttempts);
   std::vector<std::uint8_t> read(std::uint8_t id, std::uint16_t address, std::uint16_t length);
@@ -77,6 +77,7 @@ class Client {
   /// `frame`: bytes of the request. `size`: data bytes of the answer.
   std::optional<Answer> ask(std::uint8_t id, std::size_t frame, std::size_t size, int attempts);
   void drop_late();
+  void scan_once(std::vector<Identity>& found);
   std::vector<Identity> scan_each();
   std::optional<Identity> identify_feetech(std::uint8_t id, int attempts);
   [[noreturn]] void silent(std::uint8_t id) const;

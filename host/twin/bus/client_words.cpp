@@ -15,6 +15,7 @@ class ClientWordsOf : public ClientWords {
 
   const app::BusCounters& counters() const override { return master_.counters(); }
   std::uint32_t damaged() const override { return master_.crc_errors(); }
+  std::uint32_t noise_bytes() const override { return master_.noise_bytes(); }
   int late_answers(std::uint8_t id, std::span<const std::uint8_t> bytes, bool anew) override {
     if (anew) late_.reset();
     int count = 0;

@@ -34,6 +34,8 @@ class ClientWords {
   virtual std::size_t status_bytes() const = 0;
   virtual const app::BusCounters& counters() const = 0;
   virtual std::uint32_t damaged() const = 0;
+  /// Bytes that belonged to no whole packet.
+  virtual std::uint32_t noise_bytes() const = 0;
   /// Answers of `id` in these bytes and those before since `anew`.
   virtual int late_answers(std::uint8_t id, std::span<const std::uint8_t> bytes, bool anew) = 0;
 
