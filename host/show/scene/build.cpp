@@ -33,9 +33,9 @@ Eigen::AlignedBox3d box_of(const Item& item) {
   if (item.shape != Shape::kMesh) return {-half_m, half_m};
   half_m /= 4;
   try {
+    const auto mesh = model::read_mesh_to_touch(item.mesh_file, item.size_m);
     Eigen::AlignedBox3d box;
-    for (const Vec3& vertex : model::read_mesh_to_touch(item.mesh_file, item.size_m)->vertex_m)
-      box.extend(vertex);
+    for (const Vec3& vertex : mesh->vertex_m) box.extend(vertex);
     return box;
   } catch (const std::runtime_error&) {
     return {-half_m, half_m};

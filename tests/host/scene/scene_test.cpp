@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <malloc.h>
+
+#include <filesystem>
+#include <fstream>
 #include <set>
 
 #include "host/os/files/places.hpp"
@@ -115,6 +119,32 @@ TEST(Camera, WhatIsDrawnIsInThePictureEvenIfNothingCollides) {
       }
     }
   }
+}
+
+std::string large_stl(const char* name, double half_width_m) {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / name;
+  std::ofstream out(file);
+  out << "solid s\n";
+  for (int i = 0; i < 60000; ++i) {
+    out << "facet normal 0 0 1\nouter loop\nvertex 0 " << -half_width_m << " 0\nvertex 0 "
+        << half_width_m << " 0\nvertex " << 1e-7 * i << " 0 0.01\nendloop\nendfacet\n";
+  }
+  out << "endsolid s\n";
+  return file.string();
+}
+
+TEST(Camera, ALargeMeshIsInThePicture) {
+  ::mallopt(M_MMAP_THRESHOLD, 1 << 16);  // what is freed is gone, and reading it ends the program
+  Entity entity = generic21();
+  model::Visual wide;
+  wide.shape = model::Visual::Shape::kMesh;
+  wide.mesh = wide.mesh_uri = large_stl("verp-wide.stl", 0.7);
+  wide.size_m = Vec3::Ones();
+  entity.nodes[0].visuals.push_back(wide);
+  Scene scene = studio();
+  add_robot(scene, entity, Meshes::kFromFiles);
+  std::filesystem::remove(wide.mesh);
+  EXPECT_NEAR(scene.robots[0].drawn_m.sizes().y(), 1.4, 0.01);
 }
 
 }  // namespace
