@@ -8,6 +8,7 @@
 #include "common/model/coupling.hpp"
 #include "common/model/leg.hpp"
 #include "common/model/tree.hpp"
+#include "host/robot/model/params.hpp"
 
 namespace verp::action {
 namespace {
@@ -199,7 +200,7 @@ Condition other_side(Condition condition) {
 
 int joint_named(const Params& params, const std::string& name, const std::filesystem::path& file,
                 int line) {
-  const int joint = model::find_joint(params, name.c_str());
+  const int joint = model::find_joint(params, model::short_name(name).c_str());
   if (joint >= 0) return joint;
   std::string names;
   for (int j = 0; j < params.joint_count; ++j) {
