@@ -325,7 +325,7 @@ XmlElement XmlSource::model() const {
   const auto models = root.children("model");
   if (root.name() == "robot") {
     root.fail("this is a bare URDF: it says nothing about servos, limbs and sensors",
-              "include it from an SDF file, as common/robots/op3_urdf/robot.sdf does");
+              "`verp import FILE` makes the robot.sdf that it needs");
   }
   const std::string version = root.text("version");
   if (!version.starts_with("1.") || parse_number(version).value_or(2) > 1.9) {

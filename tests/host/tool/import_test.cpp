@@ -17,8 +17,7 @@ TEST_F(Import, ForeignRobotWalksFromItsUntouchedFile) {
   const std::string before = slurp(folder_ / "odd.urdf");
   const Outcome made = verp("import odd.urdf");
   ASSERT_EQ(made.status, 0) << made.err;
-  EXPECT_NE(made.out.find("`verp walk odd_verp/robot.sdf` walks it"), std::string::npos)
-      << made.out;
+  EXPECT_NE(made.out.find("try `verp walk odd_verp/robot.sdf`"), std::string::npos) << made.out;
   EXPECT_NE(
       slurp(folder_ / "odd_verp" / "import.md").find("| left sole | 104 by 66 mm under l_foot"),
       std::string::npos);
@@ -97,6 +96,20 @@ TEST_F(Import, WrongFilesAndPlacesAreRefused) {
   expect_refused("import odd.urdf -o other --servos nonesuch", "no servo type 'nonesuch'");
   expect_refused("import nothing.urdf -o other/below", "cannot read this file");
   EXPECT_FALSE(fs::exists(folder_ / "other"));
+  std::ofstream(folder_ / "import.md") << "mine";
+  expect_refused("import odd.urdf -o .", "import.md: is there already");
+  EXPECT_EQ(slurp(folder_ / "import.md"), "mine");
+}
+
+TEST_F(Import, AnInterruptedOneLeavesNothing) {
+  for (const char* const at_s : {"0.1", "0.3", "0.6", "1"}) {
+    shell(std::string("timeout -s INT ") + at_s + " " VERP_PROGRAM " import odd.urdf --yes -o it");
+    for (const auto& each : fs::directory_iterator(folder_))
+      EXPECT_FALSE(each.path().filename().string().starts_with("it.part")) << at_s;
+    EXPECT_EQ(fs::exists(folder_ / "it"), fs::exists(folder_ / "it" / "import.md")) << at_s;
+    fs::remove_all(folder_ / "it");
+  }
+  EXPECT_EQ(verp("import odd.urdf --yes -o it").status, 0);
 }
 
 }  // namespace

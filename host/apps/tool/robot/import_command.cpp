@@ -10,6 +10,7 @@
 
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/exit_status.hpp"
+#include "host/apps/cli/interrupt.hpp"
 #include "host/apps/cli/other_program.hpp"
 #include "host/apps/tool/robot/commands.hpp"
 #include "host/author/import/import.hpp"
@@ -19,6 +20,7 @@ namespace verp::tool {
 namespace {
 
 namespace fs = std::filesystem;
+using import::Imported;  // clang-format takes a line that begins with import for a module's
 
 constexpr const char* kPicture = "import.png";
 
@@ -33,30 +35,89 @@ void write_beside(const fs::path& file, const std::string& text) {
 }
 
 /// Work of the owner is kept.
-void refuse_existing(const fs::path& folder) {
+void refuse_existing(const fs::path& folder, const char* name) {
   std::error_code error;
-  if (!fs::exists(folder / "robot.sdf", error)) return;
+  if (!fs::exists(folder / name, error)) return;
   throw cli::ToolError(cli::kBadInput, fmt::format("{}: is there already; remove it, or choose "
                                                    "another folder with -o",
-                                                   (folder / "robot.sdf").string()));
+                                                   (folder / name).string()));
 }
 
-/// Those that were missing, the innermost first.
-std::vector<fs::path> make_folders(const fs::path& folder) {
-  std::vector<fs::path> missing;
-  std::error_code error;
-  for (fs::path at = fs::absolute(folder, error); !fs::exists(at, error) && at.has_relative_path();
-       at = at.parent_path()) {
-    missing.push_back(at);
+/// Everything is made in a folder beside the wanted one, and moved when it is whole: an import that
+/// was interrupted leaves nothing in the way of the next one.
+class Workshop {
+ public:
+  explicit Workshop(const fs::path& folder)
+      : wanted_(folder),
+        folder_((fs::weakly_canonical(folder) / "").parent_path()),
+        inside_(fmt::format("{}.part-{}", folder_.string(), ::getpid())) {
+    std::error_code error;
+    for (fs::path at = folder_.parent_path(); !fs::exists(at, error) && at.has_relative_path();
+         at = at.parent_path()) {
+      missing_.push_back(at);
+    }
+    fs::create_directories(inside_, error);
+    const bool is_there = fs::is_directory(folder_);
+    if (is_there && ::access(folder_.c_str(), W_OK) != 0)
+      error = std::make_error_code(std::errc::permission_denied);
+    else if (error && is_there)
+      inside_ = folder_, error.clear();  // nothing may be made beside it
+    if (error) refuse(error);
   }
-  fs::create_directories(folder, error);
-  if (!error) return missing;
-  throw cli::ToolError(cli::kBadInput,
-                       fmt::format("{}: cannot be made ({}); choose another place with -o",
-                                   folder.string(), error.message()));
-}
+  ~Workshop() { clear(); }
+  Workshop(const Workshop&) = delete;
+  Workshop& operator=(const Workshop&) = delete;
 
-cli::Json json_of(const import::Imported& robot, const std::string& sdf) {
+  const fs::path& folder() const { return inside_; }
+  /// With the place where the files will be.
+  std::string as_delivered(std::string text) const {
+    const std::string inside = inside_.string(), outside = wanted_.string();
+    for (auto at = text.find(inside); at != std::string::npos;) {
+      text.replace(at, inside.size(), outside);
+      at = text.find(inside, at + outside.size());
+    }
+    return text;
+  }
+
+  void refuse_conflicts() const {
+    for (const fs::path& each : files()) refuse_existing(wanted_, each.filename().c_str());
+  }
+
+  void deliver() {
+    refuse_conflicts();
+    std::error_code error;
+    fs::create_directories(folder_, error);
+    for (const fs::path& each : files()) {
+      if (!error) fs::rename(each, folder_ / each.filename(), error);
+    }
+    if (error) refuse(error);
+    missing_.clear();
+  }
+
+ private:
+  std::vector<fs::path> files() const {
+    std::vector<fs::path> out;
+    if (inside_ == folder_) return out;
+    for (const auto& each : fs::directory_iterator(inside_)) out.push_back(each.path());
+    return out;
+  }
+  void clear() const {
+    std::error_code error;
+    if (inside_ != folder_) fs::remove_all(inside_, error);
+    for (const fs::path& each : missing_) fs::remove(each, error);
+  }
+  [[noreturn]] void refuse(const std::error_code& error) const {
+    clear();
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("{}: cannot be made ({}); choose another place with -o",
+                                     wanted_.string(), error.message()));
+  }
+
+  fs::path wanted_, folder_, inside_;
+  std::vector<fs::path> missing_;  ///< of its parents; the innermost first
+};
+
+cli::Json json_of(const Imported& robot, const std::string& sdf) {
   cli::Json findings = cli::Json::array();
   for (const import::Finding& each : robot.findings) {
     const bool guess = each.sureness == import::Finding::Sureness::kGuessed;
@@ -69,7 +130,7 @@ cli::Json json_of(const import::Imported& robot, const std::string& sdf) {
           {"refusal", robot.refusal}};
 }
 
-void tell(const import::Imported& robot, const std::string& sdf) {
+void tell(const Imported& robot, const std::string& sdf) {
   std::string text;
   for (const import::Finding& each : robot.findings) {
     const bool guess = each.sureness == import::Finding::Sureness::kGuessed;
@@ -78,12 +139,11 @@ void tell(const import::Imported& robot, const std::string& sdf) {
   }
   for (const std::string& each : robot.left_out) text += "changed  " + each + "\n";
   cli::answer(text);
-  if (robot.refusal.empty())
-    cli::answer(fmt::format("{}: made; `verp walk {}` walks it\n", sdf, sdf));
+  if (robot.refusal.empty()) cli::answer(fmt::format("{}: made; try `verp walk {}`\n", sdf, sdf));
 }
 
 /// Empty: the guess is right, or nothing was guessed.
-std::string ask_servos(const import::Imported& robot) {
+std::string ask_servos(const Imported& robot) {
   for (const import::Finding& each : robot.findings) {
     if (each.what != "servos" || each.sureness != import::Finding::Sureness::kGuessed) continue;
     fmt::print(stderr, "Servos: {}.\nEnter takes this guess; else write the type: ", each.value);
@@ -94,27 +154,44 @@ std::string ask_servos(const import::Imported& robot) {
   return "";
 }
 
-import::Imported import_asking(import::Wish& wish,
-                               bool asks){import::Imported robot = import::import_robot(wish);
-if (!asks || !wish.servo_type.empty()) return robot;
-for (std::string type = ask_servos(robot); !type.empty(); type = ask_servos(robot)) {
-  wish.servo_type = type;
-  try {
-    return import::import_robot(wish);
-  } catch (const model::LoadError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+Imported import_asking(import::Wish& wish, bool asks) {
+  Imported robot = import::import_robot(wish);
+  if (!asks || !wish.servo_type.empty()) return robot;
+  for (std::string type = ask_servos(robot); !type.empty(); type = ask_servos(robot)) {
+    wish.servo_type = type;
+    try {
+      return import::import_robot(wish);
+    } catch (const model::LoadError& error) {
+      fmt::print(stderr, "{}\n", error.what());
+    }
   }
+  return robot;
 }
-return robot;
-}  // namespace
 
 /// A walk needs no picture, so no trouble with it ends the import.
-void draw(import::Imported& robot, const fs::path& folder) {
+void draw(Imported& robot, const fs::path& folder) {
   if (!robot.refusal.empty()) return;
   const std::string place = (folder / kPicture).string();
   robot.no_picture = cli::trouble_of_other(
       "shot", {(folder / "robot.sdf").string(), "-o", place, "--size", "640x480"});
   if (robot.no_picture.empty()) robot.picture = kPicture;
+}
+
+Imported make(import::Wish& wish, const Workshop& workshop, bool asks) {
+  Imported robot;
+  try {
+    import::make_urdf(wish);
+    workshop.refuse_conflicts();
+    robot = import_asking(wish, asks);
+  } catch (const model::LoadError& error) {
+    throw model::LoadError(workshop.as_delivered(error.file), error.line,
+                           workshop.as_delivered(error.message), workshop.as_delivered(error.fix));
+  }
+  robot.refusal = workshop.as_delivered(robot.refusal);
+  write_beside(workshop.folder() / "robot.sdf", robot.sdf);
+  draw(robot, workshop.folder());
+  write_beside(workshop.folder() / "import.md", import::page_of(robot, wish));
+  return robot;
 }
 
 int import_file(const ImportWords& words) {
@@ -124,32 +201,27 @@ int import_file(const ImportWords& words) {
     throw cli::ToolError(cli::kBadInput, wish.file + ": is a folder; give the robot's file in it");
   }
   if (wish.folder.empty()) wish.folder = fs::path(wish.file).stem().string() + "_verp";
-  const fs::path folder = wish.folder, sdf = folder / "robot.sdf";
-  refuse_existing(folder);
-  const std::vector<fs::path> made = make_folders(folder);
-  import::Imported robot;
-  try {
-    import::make_urdf(wish);
-    const bool asks = !words.yes && !words.json && isatty(STDIN_FILENO) != 0;
-    robot = import_asking(wish, asks);
-  } catch (...) {
-    if (!wish.maker_file.empty()) fs::remove(wish.file, error);
-    for (const fs::path& each : made) fs::remove(each, error);
-    throw;
-  }
-  write_beside(sdf, robot.sdf);
-  draw(robot, folder);
-  write_beside(folder / "import.md", import::page_of(robot, wish));
+  const fs::path folder = wish.folder;
+  for (const char* const name : {"robot.sdf", "import.md", kPicture}) refuse_existing(folder, name);
+  const bool asks = !words.yes && !words.json && isatty(STDIN_FILENO) != 0;
+  if (!asks) cli::catch_interrupts();
+  Workshop workshop(folder);
+  wish.folder = workshop.folder().string();
+  const Imported robot = make(wish, workshop, asks);
+  if (cli::interrupted())
+    throw cli::ToolError(cli::kRunFailed, "verp import: interrupted; nothing is made");
+  workshop.deliver();
+  const std::string sdf = (folder / "robot.sdf").string();
   if (words.json) {
-    cli::print_json(json_of(robot, sdf.string()));
+    cli::print_json(json_of(robot, sdf));
   } else {
-    tell(robot, sdf.string());
+    tell(robot, sdf);
   }
   if (robot.refusal.empty()) return cli::kGood;
   throw cli::ToolError(cli::kBadInput, robot.refusal);
 }
 
-}  // namespace verp::tool
+}  // namespace
 
 cli::Subcommand add_import(CLI::App& root) {
   CLI::App* app = cli::declare_other(root, "import");
