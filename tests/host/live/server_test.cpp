@@ -211,10 +211,21 @@ TEST(Live, RubbishIsAnsweredOrEndsOneConnectionAndTakesNothingFromOthers) {
   EXPECT_EQ(server.counts().dropped, 0u);
 }
 
+/// Asks again while the kernel still takes bytes for those who read nothing. Null: kept out.
+std::unique_ptr<Viewer> admitted(const Server& server, std::chrono::seconds patience) {
+  const auto end = std::chrono::steady_clock::now() + patience;
+  while (std::chrono::steady_clock::now() < end) {
+    auto viewer = std::make_unique<Viewer>(server.port());
+    if (viewer->greet().starts_with("HTTP/1.1 101")) return viewer;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return nullptr;
+}
+
 // Connected without a word, greeted without a wish, or subscribed and read nothing.
 TEST(Live, SilentViewersKeepNobodyOut) {
   ServerOptions options;
-  options.patience = std::chrono::milliseconds(1000);  // a loaded PC greets slowly
+  options.patience = std::chrono::milliseconds(50);
   Server server(0, options);
   const std::uint32_t a = server.add_channel(channel("/a"));
   std::vector<std::unique_ptr<Viewer>> silent;
@@ -227,11 +238,10 @@ TEST(Live, SilentViewersKeepNobodyOut) {
   }
   const std::string picture(1 << 20, 'x');
   for (std::uint64_t i = 0; i < 12; ++i) server.send(a, i, picture);
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
   std::vector<std::unique_ptr<Viewer>> watching;
   for (int i = 0; i < 16; ++i) {
-    watching.push_back(std::make_unique<Viewer>(server.port()));
-    ASSERT_TRUE(watching.back()->greet().starts_with("HTTP/1.1 101")) << i;
+    watching.push_back(admitted(server, std::chrono::seconds(20)));
+    ASSERT_TRUE(watching.back()) << i;
     watching.back()->next_text("advertise");
     watching.back()->subscribe(1, a);
     EXPECT_TRUE(next_data(*watching.back())) << i;
