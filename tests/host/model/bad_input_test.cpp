@@ -277,7 +277,7 @@ TEST(BadInput, BareUrdfIsRefusedWithAdvice) {
     load_robot(file.path());
     FAIL();
   } catch (const LoadError& error) {
-    EXPECT_NE(error.fix.find("common/robots/op3"), std::string::npos) << error.what();
+    EXPECT_NE(error.fix.find("`verp import FILE`"), std::string::npos) << error.what();
   }
 }
 

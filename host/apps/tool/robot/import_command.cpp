@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "host/apps/cli/console.hpp"
@@ -80,22 +82,31 @@ class Workshop {
   }
 
   void refuse_conflicts() const {
-    for (const fs::path& each : files()) refuse_existing(wanted_, each.filename().c_str());
+    for (const fs::path& each : made()) refuse_existing(wanted_, each.filename().c_str());
   }
 
   void deliver() {
     refuse_conflicts();
     std::error_code error;
     fs::create_directories(folder_, error);
-    for (const fs::path& each : files()) {
-      if (!error) fs::rename(each, folder_ / each.filename(), error);
-    }
     if (error) refuse(error);
     missing_.clear();
+    std::vector<fs::path> delivered;
+    for (const fs::path& each : made()) {
+      const fs::path place = folder_ / each.filename();
+      const std::optional<std::string> bytes = files::read(each);
+      const files::Trouble trouble = bytes ? files::create(place, *bytes) : files::Trouble(errno);
+      if (!trouble.any()) {
+        delivered.push_back(place);
+        continue;
+      }
+      for (const fs::path& one : delivered) fs::remove(one, error);
+      throw cli::ToolError(cli::kBadInput, place.string() + ": " + trouble.text());
+    }
   }
 
  private:
-  std::vector<fs::path> files() const {
+  std::vector<fs::path> made() const {
     std::vector<fs::path> out;
     if (inside_ == folder_) return out;
     for (const auto& each : fs::directory_iterator(inside_)) out.push_back(each.path());
