@@ -10,6 +10,7 @@
 #include "host/author/mjcf/attributes.hpp"
 #include "host/author/mjcf/mjcf.hpp"
 #include "host/author/mjcf/solids.hpp"
+#include "host/author/mjcf/transmission.hpp"
 
 namespace verp::mjcf {
 namespace {
@@ -37,6 +38,7 @@ class Reader {
     read_actuators();
     read_own_numbers();
     read_equalities();
+    for (const std::string& each : move_motors(out_, closures_)) lose(each);
     read_sensors();
     read_keyframe();
     keep_the_robot();
@@ -114,7 +116,7 @@ class Reader {
 
   void read_body(const Item& element, const std::string& child_class, const Transform& frame,
                  int parent) {
-    if (!element.name().empty() && !body_names_.insert(element.name()).second)
+    if (!element.name().empty() && !body_names_.emplace(element.name(), out_.bodies.size()).second)
       element.element().fail("a second body is named '" + element.name() + "'", "rename one");
     Body body;
     body.name = free_name(element.name().empty() ? fmt::format("body_{}", out_.bodies.size())
@@ -316,6 +318,7 @@ class Reader {
       const Joint* const second = joint_named(equality.text("joint2"));
       if (each.name() != "joint" || first == nullptr || second == nullptr) {
         lose("equality constraints other than between two joints: loops are open");
+        close(body_names_.find(each.text("body1", "")), body_names_.find(each.text("body2", "")));
         continue;
       }
       auto terms = equality.numbers("polycoef", 1, 5);
@@ -326,6 +329,12 @@ class Reader {
       out_.followers.push_back({first->name, second->name,
                                 terms[0] + first->start - terms[1] * second->start, terms[1]});
     }
+  }
+
+  using Found = std::map<std::string, std::size_t>::const_iterator;
+  void close(Found first, Found second) {
+    if (first == body_names_.end() || second == body_names_.end()) return;
+    closures_.push_back({static_cast<int>(first->second), static_cast<int>(second->second)});
   }
 
   void read_sensors() {
@@ -437,9 +446,11 @@ class Reader {
 
   Document document_;
   Robot out_;
-  std::set<std::string> names_, body_names_, joint_names_, paired_;
-  std::map<std::string, int> sites_;  ///< body, by the site's name
+  std::set<std::string> names_, joint_names_, paired_;
+  std::map<std::string, std::size_t> body_names_;  ///< in the file
+  std::map<std::string, int> sites_;               ///< body, by the site's name
   std::map<std::string, int> lost_;
+  std::vector<Closure> closures_;
 };
 
 }  // namespace
