@@ -13,6 +13,7 @@ constexpr std::size_t kLeastJoints = 4;  // of a leg
 constexpr double kOneHeight_m = 0.01;
 constexpr double kLeastApart_m = 0.005;  // of two feet
 constexpr std::ptrdiff_t kLeastArm = 2;  // joints
+constexpr double kFourFeet = 0.1;        // of the hip's height: hands hang higher
 
 class Finder {
  public:
@@ -189,6 +190,10 @@ class Finder {
                    [](double a, double b) { return std::abs(a) < std::abs(b); });
       (y > kLeastApart_m ? left : y < -kLeastApart_m ? right : middle).push_back(limb);
     }
+    if (const int third = at_the_floor(left); third >= 0 && at_the_floor(right) >= 0) {
+      at_.fail("it stands on four feet: '" + link(third).name + "' reaches the floor, too",
+               "VERP walks on two legs");
+    }
     const auto shorter = [](const FoundLimb& a, const FoundLimb& b) {
       return a.bones.size() < b.bones.size();
     };
@@ -198,6 +203,17 @@ class Finder {
     add("left_arm", std::max_element(left.begin(), left.end(), shorter), left);
     add("right_arm", std::max_element(right.begin(), right.end(), shorter), right);
     add("head", std::max_element(middle.begin(), middle.end(), lower), middle);
+  }
+
+  /// Tip of a limb that is as low as the feet; -1: there is none.
+  int at_the_floor(const std::vector<FoundLimb>& limbs) const {
+    const FoundLimb& leg = body_.legs.front();
+    const double hip_m = bone(leg.bones.front()).pose.translation().z() - height(leg.tip);
+    for (const FoundLimb& limb : limbs) {
+      const bool is_low = height(limb.tip) - height(leg.tip) < kFourFeet * hip_m;
+      if (is_low && limb.bones.size() >= 2 && has_mass(limb.tip)) return limb.tip;
+    }
+    return -1;
   }
 
   /// Joints that carry both arms are the waist, a limb of its own, and the chains begin above it.

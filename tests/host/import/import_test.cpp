@@ -410,6 +410,7 @@ TEST_F(ImportedFile, WhatHasNoTwoLegsToWalkOnIsRefused) {
        {std::pair{Habits{.leg_joints = 4, .has_hip_yaw = false}, "no leg is found"},
         {Habits{.leg_joints = 4}, "its legs have 4 joints"},
         {Habits{.leg_joints = 3}, "no leg is found"},
+        {Habits{.has_rear_legs = true}, "it stands on four feet: 'p11_2'"},
         {Habits{.has_right_leg = false}, "only one leg is found"}}) {
     try {
       import(habits);

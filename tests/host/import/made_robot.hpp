@@ -26,6 +26,7 @@ struct Habits {
   bool has_low_shanks = false;   ///< a block on each, lower than the sole
   bool has_no_stops = false;     ///< continuous joints
   bool has_right_leg = true;
+  bool has_rear_legs = false;
   bool has_waist = false;  ///< which carries both arms; their elbows cannot be at zero
   bool has_ears = false;   ///< on a head that turns and nods
   std::string in_names = "";
@@ -48,6 +49,7 @@ class Maker {
     link("p1", 1.2, "<box size=\"0.08 0.12 0.15\"/>", {0, 0, 0});
     for (const int side : {1, -1}) {
       if (side > 0 || h_.has_right_leg) leg(side);
+      if (h_.has_rear_legs) rear_leg(side);
       if (h_.has_waist) continue;
       joint("p1", arm(side), "revolute", {0, 0.085 * side, 0.06}, {0, 1, 0});
       link(arm(side), 0.2, "<box size=\"0.03 0.03 0.14\"/>", {0, 0, -0.07});
@@ -82,6 +84,17 @@ class Maker {
       above = below;
     }
     if (h_.has_rods) rods(side);
+  }
+
+  void rear_leg(int side) {
+    std::string above = "p1";
+    for (int k = 0; k < 3; ++k) {
+      const std::string below = fmt::format("{}_{}", side > 0 ? "p11" : "p12", k);
+      joint(above, below, "revolute", {k == 0 ? -0.2 : 0, k == 0 ? 0.04 * side : 0, -0.095},
+            {0, 1, 0});
+      link(below, 0.1, "", {0, 0, 0});
+      above = below;
+    }
   }
 
   /// Two bars with a joint at each end, as beside NimbRo's thighs and shanks.
