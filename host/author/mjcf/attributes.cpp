@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::string_view kParts = " body frame geom joint freejoint inertial site ";
 
-/// Of all of them, MuJoCo 3.
+/// All attributes that MuJoCo 3 has for one of these elements or more.
 constexpr std::string_view kAttributes =
     " name class childclass user group align pos quat axisangle xyaxes zaxis euler mocap gravcomp "
     "sleep type contype conaffinity condim priority size material friction mass density "

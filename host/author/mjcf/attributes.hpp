@@ -6,7 +6,7 @@
 
 namespace verp::mjcf {
 
-/// Attributes of a part of a body that MuJoCo has in none of them: misspelled ones.
+/// Attributes that MuJoCo has in no part of a body: `part` has them misspelled.
 std::vector<std::string> unknown_attributes(const model::XmlElement& part);
 
 }  // namespace verp::mjcf

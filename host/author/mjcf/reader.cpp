@@ -318,7 +318,7 @@ class Reader {
       const Joint* const second = joint_named(equality.text("joint2"));
       if (each.name() != "joint" || first == nullptr || second == nullptr) {
         lose("equality constraints other than between two joints: loops are open");
-        close(body_names_.find(each.text("body1", "")), body_names_.find(each.text("body2", "")));
+        closures_.push_back({end_of(each, "1"), end_of(each, "2")});
         continue;
       }
       auto terms = equality.numbers("polycoef", 1, 5);
@@ -331,10 +331,12 @@ class Reader {
     }
   }
 
-  using Found = std::map<std::string, std::size_t>::const_iterator;
-  void close(Found first, Found second) {
-    if (first == body_names_.end() || second == body_names_.end()) return;
-    closures_.push_back({static_cast<int>(first->second), static_cast<int>(second->second)});
+  /// Body of a constraint's body1 or site1; -1: the world, or none.
+  int end_of(const XmlElement& constraint, const std::string& number) const {
+    const auto body = body_names_.find(constraint.text(("body" + number).c_str(), ""));
+    if (body != body_names_.end()) return static_cast<int>(body->second);
+    const auto site = sites_.find(constraint.text(("site" + number).c_str(), ""));
+    return site == sites_.end() ? -1 : site->second;
   }
 
   void read_sensors() {

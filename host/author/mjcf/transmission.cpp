@@ -92,8 +92,10 @@ class Mover {
     std::vector<Place> loop;
     for (const auto* way : {&first, &second}) {
       for (const int body : *way) {
-        for (Joint& joint : robot_.bodies[static_cast<std::size_t>(body)].joints)
+        for (Joint& joint : robot_.bodies[static_cast<std::size_t>(body)].joints) {
+          if (joint.slides) return {};  // its motor has a force, no torque
           loop.push_back({body, &joint});
+        }
       }
     }
     return loop;
@@ -101,6 +103,7 @@ class Mover {
 
   /// One motor, and the joint without one that carries most.
   void take_rods(const Closure& closure) {
+    if (closure.first < 0 || closure.second < 0) return;
     std::vector<Place> loop = loop_of(closure);
     const auto passive = std::partition(loop.begin(), loop.end(),
                                         [](const Place& each) { return each.has_motor(); });

@@ -6,7 +6,8 @@
 
 namespace verp::mjcf {
 
-/// Two bodies that a weld or a connect joins: their ways to a common body are a loop.
+/// Two bodies that a weld or a connect joins: their ways to a common body are a loop. -1: the
+/// world.
 struct Closure {
   int first = -1, second = -1;
 };

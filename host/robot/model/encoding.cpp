@@ -51,48 +51,38 @@ const char* wide_encoding(std::string_view bytes) {
   throw LoadError(path, line, why, "save it as UTF-8");
 }
 
-std::string converted(const std::string& path, std::string bytes, const char* from) {
-  std::string out(3 * bytes.size() + 4, '\0');  // a byte is three at most
+struct Conversion {
+  std::string text;
+  std::size_t left = 0;  ///< bytes from the first that is no letter on
+};
+
+Conversion convert(std::string bytes, const char* from, const char* to) {
+  Conversion out{std::string(3 * bytes.size() + 4, '\0'), bytes.size()};  // a byte is three at most
   char* in = bytes.data();
-  char* to = out.data();
-  std::size_t left = bytes.size(), room = out.size();
-  const iconv_t way = ::iconv_open("UTF-8", from);
-  bool whole = way != reinterpret_cast<iconv_t>(-1);
-  if (whole) {
-    whole = ::iconv(way, &in, &left, &to, &room) != static_cast<std::size_t>(-1);
+  char* end = out.text.data();
+  std::size_t room = out.text.size();
+  const iconv_t way = ::iconv_open(to, from);
+  if (way != reinterpret_cast<iconv_t>(-1)) {
+    ::iconv(way, &in, &out.left, &end, &room);
     ::iconv_close(way);
   }
-  out.resize(out.size() - room);
-  if (!whole) {
-    refuse_encoding(path, line_at_byte(out, out.size()),
+  out.text.resize(out.text.size() - room);
+  return out;
+}
+
+std::string converted(const std::string& path, std::string bytes, const char* from) {
+  Conversion utf8 = convert(std::move(bytes), from, "UTF-8");
+  if (utf8.left > 0) {
+    refuse_encoding(path, line_at_byte(utf8.text, utf8.text.size()),
                     std::string("what follows here is no ") + from);
   }
-  return out;
+  return std::move(utf8.text);
 }
 
 const char* narrow_encoding(const std::string& name) {
   for (const char* const each : {"iso-8859-1", "iso8859-1", "iso_8859-1", "latin1", "latin-1"})
     if (name == each) return "ISO-8859-1";
   return name == "windows-1252" || name == "cp1252" ? "CP1252" : nullptr;
-}
-
-/// The length of the character that begins at `at`; 0: it is no UTF-8. By the table of RFC 3629.
-std::size_t utf8_length(std::string_view text, std::size_t at) {
-  const auto byte = [&](std::size_t i) {
-    return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0U;
-  };
-  const unsigned first = byte(0), second = byte(1);
-  if (first < 0x80) return 1;
-  const std::size_t length = first < 0xC2   ? 0
-                             : first < 0xE0 ? 2
-                             : first < 0xF0 ? 3
-                             : first < 0xF5 ? 4
-                                            : 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((byte(i) & 0xC0U) != 0x80) return 0;
-  const bool too_long = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
-  const bool no_letter = (first == 0xED && second > 0x9F) || (first == 0xF4 && second > 0x8F);
-  return too_long || no_letter ? 0 : length;
 }
 
 }  // namespace
@@ -122,14 +112,11 @@ std::string utf8_of(const std::string& path, std::string bytes) {
 }
 
 void require_utf8(const std::string& path, const std::string& text) {
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = utf8_length(text, at);
-    if (length == 0)
-      throw LoadError(path, line_at_byte(text, at), "a letter here is no UTF-8",
-                      "save it as UTF-8, or name its encoding: <?xml version=\"1.0\" "
-                      "encoding=\"ISO-8859-1\"?>");
-    at += length;
-  }
+  const std::size_t left = convert(text, "UTF-8", "UTF-16LE").left;  // all letters have a UTF-16
+  if (left == 0) return;
+  throw LoadError(path, line_at_byte(text, text.size() - left), "a letter here is no UTF-8",
+                  "save it as UTF-8, or name its encoding: <?xml version=\"1.0\" "
+                  "encoding=\"ISO-8859-1\"?>");
 }
 
 }  // namespace verp::model

@@ -64,7 +64,7 @@ std::string own_name(const XmlElement& element) {
   return "";
 }
 
-/// Of the nearest element that has one.
+/// The element's name, or that of the nearest element around it that has one.
 std::string nearest_name(const XmlElement& element) {
   for (const auto* at = &element.raw(); at != nullptr; at = at->Parent()->ToElement()) {
     if (const std::string name = own_name({element.file(), *at}); !name.empty()) return name;
@@ -127,7 +127,7 @@ class UnreadFinder {
   }
 
  private:
-  /// Of a URDF's attributes.
+  /// Attributes of URDF whose value is not taken as it stands.
   void look_at_values(const XmlElement& element) {
     if (element.name() == "mimic") look_at_mimic(element);
     const char* const scale = element.raw().Attribute("scale");

@@ -12,16 +12,16 @@ namespace verp::model {
 using Lost = std::map<std::string, std::vector<std::string>>;
 
 /// Below a <model> of SDF or a <robot> of URDF, by one table of the elements that are read. Values
-/// that change nothing, such as <kinematic>0, are not told.
+/// that change nothing, such as <kinematic>0, are left out.
 void find_unread(const XmlElement& top, Lost& lost);
 
-/// Tells one element, unless it changes nothing.
+/// Adds one element, unless it changes nothing.
 void tell_unread(const XmlElement& parent, const XmlElement& child, Lost& lost);
 
 inline constexpr const char* kMissingMeshes = "meshes that are not there";
 void find_missing_meshes(const Entity& robot, Lost& lost);
 
-/// One line each; a name is told once.
+/// One line for each thing that is lost, with the names once.
 std::vector<std::string> lines_of(const Lost& lost);
 
 }  // namespace verp::model

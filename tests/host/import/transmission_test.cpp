@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 
 #include "host/author/mjcf/mjcf.hpp"
@@ -26,19 +25,31 @@ constexpr const char* kThigh = R"(<mujoco><default><geom size="0.01"/></default>
 <equality><weld body1="rod" body2="pin"/>
  <joint joint1="hip" joint2="hip_motor" polycoef="0 -0.5 0 0 0"/></equality></mujoco>)";
 
-TEST(Transmission, MotorsBesideAJointAreTheJointsAndThisIsSaid) {
+std::string with(const std::string& from, const std::string& to) {
+  std::string text = kThigh;
+  return text.replace(text.find(from), from.size(), to);
+}
+
+Robot read(const std::string& text) {
   const files::TemporaryDirectory folder;
-  const auto file = std::filesystem::path(folder.path()) / "thigh.xml";
-  std::ofstream(file) << kThigh;
-  const Robot robot = read_robot(file.string());
-  const auto motor = [&](const std::string& name) {
-    for (const Body& body : robot.bodies) {
-      for (const Joint& joint : body.joints) {
-        if (joint.name == name) return joint.motor;
-      }
+  const auto file = folder.path() / "thigh.xml";
+  std::ofstream(file) << text;
+  return read_robot(file.string());
+}
+
+Motor motor_of(const Robot& robot, const std::string& name) {
+  for (const Body& body : robot.bodies) {
+    for (const Joint& joint : body.joints) {
+      if (joint.name == name) return joint.motor;
     }
-    return Motor{};
-  };
+  }
+  ADD_FAILURE() << "no joint " << name;
+  return {};
+}
+
+TEST(Transmission, MotorsBesideAJointAreTheJointsAndThisIsSaid) {
+  const Robot robot = read(kThigh);
+  const auto motor = [&](const std::string& name) { return motor_of(robot, name); };
   EXPECT_DOUBLE_EQ(motor("knee").torque_n_m, 3);
   EXPECT_NEAR(motor("knee").armature_kg_m2, 0.0012, 1e-9);
   EXPECT_DOUBLE_EQ(motor("hip").torque_n_m, 4);
@@ -53,6 +64,22 @@ TEST(Transmission, MotorsBesideAJointAreTheJointsAndThisIsSaid) {
         "the motor of joint hip_motor turns joint hip by a gear of 0.5"}) {
     EXPECT_EQ(std::count(robot.left_out.begin(), robot.left_out.end(), line), 1) << line;
   }
+}
+
+TEST(Transmission, RodsMayMeetAtSites) {
+  std::string text =
+      with("<weld body1=\"rod\" body2=\"pin\"/>", "<connect site1=\"a\" site2=\"b\"/>");
+  for (const auto& [joint, site] : {std::pair{"rod_end", "a"}, {"pin", "b"}}) {
+    const std::string at = std::string("<joint name=\"") + joint + "\"/>";
+    text.insert(text.find(at), std::string("<site name=\"") + site + "\"/>");
+  }
+  EXPECT_DOUBLE_EQ(motor_of(read(text), "knee").torque_n_m, 3);
+}
+
+TEST(Transmission, ForceOfASlidingMotorIsNoTorque) {
+  const Robot robot =
+      read(with("<joint name=\"knee_motor\"", "<joint name=\"knee_motor\" type=\"slide\""));
+  EXPECT_FALSE(motor_of(robot, "knee").has_actuator);
 }
 
 }  // namespace

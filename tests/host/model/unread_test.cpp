@@ -6,7 +6,7 @@
 #include "host/robot/model/unread.hpp"
 #include "tests/host/model/bad_input.hpp"
 
-/// What a file says and nobody reads is told by name.
+/// The list names what a robot's file says and VERP does not read.
 namespace verp::model {
 namespace {
 

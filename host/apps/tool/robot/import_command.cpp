@@ -16,6 +16,7 @@
 #include "host/apps/cli/other_program.hpp"
 #include "host/apps/tool/robot/commands.hpp"
 #include "host/author/import/import.hpp"
+#include "host/os/files/shell_line.hpp"
 #include "host/os/files/whole.hpp"
 
 namespace verp::tool {
@@ -150,7 +151,8 @@ void tell(const Imported& robot, const std::string& sdf) {
   }
   for (const std::string& each : robot.left_out) text += "changed  " + each + "\n";
   cli::answer(text);
-  if (robot.refusal.empty()) cli::answer(fmt::format("{}: made; try `verp walk {}`\n", sdf, sdf));
+  if (robot.refusal.empty())
+    cli::answer(fmt::format("{}: made; try `verp walk {}`\n", sdf, files::shell_word(sdf)));
 }
 
 /// Empty: the guess is right, or nothing was guessed.
